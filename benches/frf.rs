@@ -71,7 +71,7 @@ fn cyclic_system(boundary: &str) -> CyclicSystem {
         return CyclicSystem::sliding(&tangent, CONTACT.friction_coefficient);
     }
     let mass = MassKind::Consistent;
-    CyclicSystem::body(&sector, &MATERIAL, mass, DAMPING, boundary == "clamped")
+    CyclicSystem::body(&sector.strip, &MATERIAL, mass, DAMPING, boundary == "clamped")
 }
 
 fn whole_system(boundary: &str) -> FrfSystem {

@@ -160,9 +160,9 @@ fn nearest_in_sectors(
     point: [f64; 2],
 ) -> Option<(usize, [f64; 2])> {
     let sector = SectorMesh::generate(annulus).ok()?;
-    let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
+    let (per_sector, sectors) = (sector.strip.node_count(), sector.strip.count);
     let step = TAU / sectors as f64;
-    let candidates = sector.strip.nodes[..per_sector].iter().enumerate();
+    let candidates = sector.strip.mesh.nodes[..per_sector].iter().enumerate();
     let around = candidates.map(|(position, &[x, y, _])| {
         let (radius, start) = (x.hypot(y), y.atan2(x));
         let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;

@@ -155,7 +155,7 @@ impl Case {
             BodyKind::Annulus(annulus) => {
                 let mesh = SectorMesh::generate(annulus).map_err(in_words)?;
                 let base = SectorSliding::solve(&mesh, materials, &contact, law);
-                let whole = self.thickness * mesh.sector_count() as f64;
+                let whole = self.thickness * mesh.strip.count as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
             BodyKind::Revolution(specification) => {
@@ -163,9 +163,9 @@ impl Case {
                 let stiffness = &self.contact.stiffness;
                 let base = SolidSliding::solve(&mesh, materials, &contact, stiffness, mass);
                 let whole = mesh.sector_count() as f64;
-                let sum =
-                    |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();
-                base.map(|base| vec![whole * sum(base)])
+                base.map(|base| {
+                    vec![whole * base.sliding.state.normal_forces[0].iter().sum::<f64>()]
+                })
             }
             BodyKind::Imported(body) => {
                 let stiffness = self.contact.stiffness;

@@ -1,7 +1,7 @@
 //! Elements and sets of nodes of a text file on their way to a mesh file.
 
+use super::ElementKind;
 use super::file_mesh::{CurveEdge, FileElement, FileMesh, SurfaceFace};
-use super::{ElementKind, FaceKind};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
@@ -162,8 +162,8 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
 /// Edges of a plane body as a physical curve.
 fn curve((name, faces): (String, Vec<SurfaceFace>)) -> (String, Vec<CurveEdge>) {
     let edges = faces.into_iter().filter_map(|(kind, nodes)| match kind {
-        FaceKind::Line2 => Some((nodes[0], nodes[1], None)),
-        FaceKind::Line3 => Some((nodes[0], nodes[1], Some(nodes[2]))),
+        ElementKind::Line2 => Some((nodes[0], nodes[1], None)),
+        ElementKind::Line3 => Some((nodes[0], nodes[1], Some(nodes[2]))),
         _ => None,
     });
     (name, edges.collect())

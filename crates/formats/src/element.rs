@@ -10,11 +10,11 @@ mod table;
 
 use nalgebra::{Matrix3, Vector3};
 
-pub use face::{FaceKind, FacePoint};
+pub use face::FacePoint;
 pub use rule::QuadraturePoint;
 pub use shapes::Shape;
 pub use table::ElementKind;
-use table::FACES;
+use table::{FACES, Row};
 
 impl ElementKind {
     /// Shapes of the solid kinds, as messages name them.
@@ -33,7 +33,7 @@ impl ElementKind {
         Some((*listing.names.get(in_plane)?, listed))
     }
 
-    /// 2 for plane elements, 3 for solid ones.
+    /// 1 for lines, 2 for plane elements, 3 for solid ones.
     #[inline]
     pub fn dimension(self) -> usize {
         self.row().dimension
@@ -60,13 +60,12 @@ impl ElementKind {
     /// The kind of the same dimension with so many corners; where it has mid-side nodes or not as asked.
     #[inline]
     pub fn with_corners(self, corners: usize, is_quadratic: bool) -> Self {
-        let mut kinds = [self].into_iter().chain(Self::ALL);
-        let found = kinds.find(|kind| {
-            kind.dimension() == self.dimension()
-                && kind.corner_count() == corners
-                && kind.is_quadratic() == is_quadratic
-        });
-        found.expect("every shape has a linear and a quadratic kind")
+        let is_asked =
+            |row: &Row| row.dimension == self.dimension() && row.has(corners, is_quadratic);
+        match is_asked(self.row()) {
+            true => self,
+            false => Self::listed(is_asked).expect("every shape has a linear and a quadratic kind"),
+        }
     }
 
     /// Nodes of one element.
@@ -90,24 +89,17 @@ impl ElementKind {
         (start, end, row.is_quadratic.then_some(row.corners.len() + edge))
     }
 
-    /// Faces of a solid element, edges of a plane one, with their local nodes in the order of [`FaceKind`]; the outward normal
+    /// Faces of a solid element, edges of a plane one, with their local nodes in the order of their kind; the outward normal
     /// follows from it by the right-hand rule, in the plane a quarter turn behind the direction of the edge.
     #[inline]
-    pub fn faces(self) -> &'static [(FaceKind, &'static [usize])] {
+    pub fn faces(self) -> &'static [(Self, &'static [usize])] {
         &FACES[self as usize]
-    }
-
-    /// The face of a solid element that has the shape of this plane element; none for a solid element.
-    #[inline]
-    pub fn as_face(self) -> Option<FaceKind> {
-        let row = self.row();
-        (row.dimension == 2).then(|| FaceKind::of(row.corners.len(), row.is_quadratic))
     }
 
     /// Shape functions at a point of the parent element, in the order of the nodes; coordinates and slopes that the kind does
     /// not have are zero.
     ///
-    /// Quad4: `N_I = (1 + xi_I xi)(1 + eta_I eta) / 4`. Quad8: the serendipity functions. Tri3, Tet4: the area or volume
+    /// Lines: those of the ends, and the bubble between. Quad4: `N_I = (1 + xi_I xi)(1 + eta_I eta) / 4`. Quad8: the serendipity functions. Tri3, Tet4: the area or volume
     /// coordinates `L`. Tri6, Tet10: `L (2 L - 1)` at corners, `4 L_I L_J` at the middle of an edge. Hex8, Hex20, Wedge6,
     /// Wedge15: trilinear and serendipity functions. Pyramid5, Pyramid13: rational ones.
     #[inline]

@@ -1,7 +1,7 @@
 //! What a mesh file holds, of whatever format.
 
 use super::model_data::ModelData;
-use super::{CyclicSymmetry, ElementKind, Equation, FaceKind};
+use super::{CyclicSymmetry, ElementKind, Equation};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ pub struct MeshFileError {
 pub type CurveEdge = (u32, u32, Option<u32>);
 
 /// Face of a physical surface of a solid body: its kind and its nodes.
-pub type SurfaceFace = (FaceKind, Vec<u32>);
+pub type SurfaceFace = (ElementKind, Vec<u32>);
 
 /// What a mesh file holds of a body, plane or solid.
 #[derive(Clone, Debug, Default, PartialEq)]

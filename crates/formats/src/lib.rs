@@ -21,7 +21,7 @@ mod symmetry;
 mod universal;
 
 pub use deck::included_text;
-pub use element::{ElementKind, FaceKind, FacePoint, QuadraturePoint, Shape};
+pub use element::{ElementKind, FacePoint, QuadraturePoint, Shape};
 pub use file_mesh::{CurveEdge, FileElement, FileMesh, MeshFileError, SurfaceFace};
 pub use format::MeshFormat;
 pub use matrix_market::{MarketMatrix, MatrixMarketError};

@@ -14,13 +14,12 @@
 use super::eigenvalues::{WholeMesh, wave_tangent};
 use super::{StudyError, tangent_options};
 use frictionsim_case::{AssemblyBody, BodyKind, Case, CaseErrors, Frf, FrfMethod, refusal};
-use frictionsim_physics::fem::sector::Sectored;
 use frictionsim_physics::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, Terminal, cyclic_response,
     direct_response, reduced_response,
 };
 use frictionsim_physics::linalg::{GaussianNoise, c64};
-use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
+use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector, Strip};
 use frictionsim_physics::prestress::BaseChoice;
 use frictionsim_results::ResponseSummary;
 use std::f64::consts::TAU;
@@ -211,8 +210,8 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
             let waves = waves.expect("a body of equal sectors has waves");
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
-        (BodyKind::Annulus(own), _) => apart(case, frf, &SectorMesh::generate(own)?),
-        (BodyKind::Revolution(own), _) => apart(case, frf, &SolidSector::generate(own)?),
+        (BodyKind::Annulus(own), _) => apart(case, frf, &SectorMesh::generate(own)?.strip),
+        (BodyKind::Revolution(own), _) => apart(case, frf, &SolidSector::generate(own)?.strip),
     };
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
         system.check(terminal, key).map_err(|error| at_node(case, &error))?;
@@ -221,9 +220,9 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
 }
 
 /// The harmonics of a body of equal sectors that touches nothing.
-fn apart<S: Sectored>(case: &Case, frf: &Frf, sector: &S) -> CyclicSystem {
+fn apart(case: &Case, frf: &Frf, strip: &Strip) -> CyclicSystem {
     let is_held = frf.boundary == FrfBoundary::Clamped;
-    CyclicSystem::body(sector, case.materials(), frf.mass, case.damping.rayleigh, is_held)
+    CyclicSystem::body(strip, case.materials(), frf.mass, case.damping.rayleigh, is_held)
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.

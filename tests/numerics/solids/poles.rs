@@ -9,7 +9,7 @@ use frictionsim::frf::Direction::Tangential;
 /// Beside `poles` poles `h q(x) = p(x)`, `x = i (f - f_0)`, of that degree, `q` with leading one: as many equations as lines.
 fn pole_beside(model: &SolidModel, mu: f64, lambda: c64, (poles, range): (usize, f64)) -> c64 {
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let [_, nz] = sector.divisions();
+    let [_, nz] = sector.specification.divisions();
     let node = at(&sector, 2, [0, 2 * nz], 0, Tangential);
     let count = 2 * poles + 1;
     // None of the lines is at the eigenvalue itself: at an onset there is no response.

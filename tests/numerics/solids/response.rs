@@ -8,7 +8,7 @@ use Direction::{Axial, Radial, Tangential};
 pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let options = &model.options;
-    CyclicSystem::body(&sector, &model.material, options.mass, options.damping, is_clamped)
+    CyclicSystem::body(&sector.strip, &model.material, options.mass, options.damping, is_clamped)
 }
 
 pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {
@@ -43,7 +43,7 @@ pub const FREQUENCIES: [f64; 6] = [700.0, 1999.0, 4321.0, 7000.0, 9100.0, 15_000
 fn agrees(cyclic: &CyclicSystem, whole: &WholeRing, force: Terminal, is_free: bool, what: &str) {
     let sector = &whole.sector;
     let quadratic = usize::from(sector.is_quadratic());
-    let [_, nz] = sector.divisions();
+    let [_, nz] = sector.specification.divisions();
     let top = [
         at(sector, 3, [0, 2 * nz], 0, Axial),
         at(sector, 2, [2 - quadratic, 2 * nz], 0, Axial),

@@ -69,7 +69,7 @@ fn friction_across_the_sliding_is_that_of_each_node() {
     let diagonal = wave.damping.chunks_exact(2 * wave.half_bandwidth + 1);
     let found = diagonal.map(|row| row[wave.half_bandwidth].re);
     let found = sorted(found.filter(|own| *own != 0.0));
-    let exact = sorted(base.normal_forces.iter().map(|&(node, force)| {
+    let exact = sorted(base.normal_forces().map(|(node, force)| {
         0.3 * force / (model.contact.rotation_speed * sector.nodes[node].radius)
     }));
     assert!(exact.len() > 2);

@@ -168,6 +168,7 @@ fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     let mut result = [0, 1].map(|_| Mat::<f64>::zeros(3 * nodes, 3 * nodes));
     for s in 0..sector.sector_count() {
         for element in &sector.elements {
+            let element = &element.nodes;
             let numbers = element.iter();
             let numbers: Vec<usize> = numbers.map(|&(n, h)| global(sector, s, n, h)).collect();
             // Unit vectors of each node's frame.

@@ -1,6 +1,5 @@
 //! Table of element kinds: a new kind is a variant and a row.
 
-use super::face::FaceKind;
 use super::listing::{BRICK, DISPLACEMENTS, FULL, Listing, listed};
 use super::rule::{self, GAUSS, QuadraturePoint};
 use super::shapes::{self, Shape};
@@ -29,12 +28,16 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Kind of an element.
+    /// Kind of an element, or of a face of one.
     ///
     /// Nodes are the corners, then, for quadratic kinds, one mid-side node for each edge in the order of [`Self::edges`]. Corners
     /// of plane elements run counter-clockwise; those of solid elements are numbered as in VTK.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
     ElementKind {
+        /// Straight line, `-1 <= xi <= 1`: an edge of a plane element.
+        Line2 => LINE2,
+        /// Parabola.
+        Line3 => LINE3,
         /// Three-node linear triangle, `0 <= xi, eta` and `xi + eta <= 1`.
         Tri3 => TRI3,
         /// Six-node quadratic triangle.
@@ -96,13 +99,18 @@ pub(crate) struct Row {
 }
 
 /// A face and its nodes.
-type Face = (FaceKind, &'static [usize]);
+type Face = (ElementKind, &'static [usize]);
 
 /// Faces of every kind of [`ElementKind::ALL`].
 pub(super) static FACES: LazyLock<Vec<Vec<Face>>> =
     LazyLock::new(|| ElementKind::ALL.iter().map(|kind| kind.row().faces()).collect());
 
 impl Row {
+    /// Whether it has so many corners, and mid-side nodes or not.
+    pub fn has(&self, corners: usize, is_quadratic: bool) -> bool {
+        (self.corners.len(), self.is_quadratic) == (corners, is_quadratic)
+    }
+
     /// Its faces: corners, then the mid-side nodes of the edges between them.
     fn faces(&self) -> Vec<Face> {
         let middle = |ends: [usize; 2]| {
@@ -110,7 +118,10 @@ impl Row {
             self.corners.len() + edge.expect("the side of a face is an edge")
         };
         let face = |corners: &&[usize]| {
-            let kind = FaceKind::of(corners.len(), self.is_quadratic);
+            let is_face = |row: &Row| {
+                row.dimension + 1 == self.dimension && row.has(corners.len(), self.is_quadratic)
+            };
+            let kind = ElementKind::listed(is_face).expect("every face has a kind");
             let next = corners.iter().cycle().skip(1);
             let sides = corners.iter().zip(next).map(|(&start, &end)| middle([start, end]));
             let middles = sides.take(kind.node_count() - corners.len());
@@ -137,6 +148,32 @@ const WEDGE_EDGES: [[usize; 2]; 9] =
 const PYRAMID_EDGES: [[usize; 2]; 8] =
     [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]];
 
+const LINE2: Row = Row {
+    dimension: 1,
+    corners: &shapes::LINE,
+    is_quadratic: false,
+    edges: &[[0, 1]],
+    faces: &[],
+    shapes: |at| shapes::tensor(1, &shapes::LINE, &[], [at[0], 0.0, 0.0]),
+    quadrature: || rule::line(&rule::TWO),
+    stiffness_quadrature: None,
+    superconvergent: || vec![[0.0; 3]],
+    name: "line2",
+    vtk: 3,
+    gmsh: listed(&[]),
+    universal: listed(&[]),
+    nastran: listed(&[]),
+    abaqus: &[],
+};
+const LINE3: Row = Row {
+    is_quadratic: true,
+    shapes: |at| shapes::tensor(1, &shapes::LINE, &[[0, 1]], [at[0], 0.0, 0.0]),
+    quadrature: || rule::line(&rule::THREE),
+    superconvergent: || rule::places(rule::line(&rule::TWO)),
+    name: "line3",
+    vtk: 21,
+    ..LINE2
+};
 const TRI3: Row = Row {
     dimension: 2,
     corners: &shapes::TRIANGLE,

@@ -123,7 +123,7 @@ fn elements_written_to_universal_files_are_read_as_they_were() {
     for kind in ElementKind::ALL {
         let nodes: Vec<u32> = (10..).take(kind.node_count()).collect();
         let Some((descriptor, listed)) = kind.universal(&nodes) else {
-            assert!(kind.name().starts_with("pyramid"), "{kind:?}");
+            assert!(kind.dimension() == 1 || kind.name().starts_with("pyramid"), "{kind:?}");
             continue;
         };
         let found = ElementKind::listed(|row| row.universal.names.contains(&descriptor));

@@ -204,10 +204,10 @@ impl Reader<'_> {
         match (dimension, kind) {
             (_, Some(kind)) => {
                 // A face of a solid belongs to every physical surface that names it, an element to its first group.
-                if let Some(face) = kind.as_face() {
+                if kind.dimension() == 2 {
                     for &tag in groups {
                         let name = self.name(dimension, tag).to_string();
-                        self.surfaces.entry(name).or_default().push((face, nodes.clone()));
+                        self.surfaces.entry(name).or_default().push((kind, nodes.clone()));
                     }
                 }
                 let region = self.name(dimension, groups.first().copied().unwrap_or(NO_GROUP));

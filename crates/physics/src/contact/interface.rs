@@ -120,17 +120,15 @@ impl ContactInterface {
         speed * self.counterface.lever()
     }
 
-    /// Sense in which sliding drags the body along the nodes' second axes; a counterface at rest is taken as on the
-    /// point of moving in its positive sense.
-    pub fn sliding_direction(&self, speed: f64) -> f64 {
-        let speed = if speed < 0.0 { -1.0 } else { 1.0 };
-        speed * self.counterface.lever().signum()
+    /// [`SlidingContact::sliding_direction`] along the nodes' second axes.
+    pub fn sliding_direction(&self, contact: &SlidingContact) -> f64 {
+        contact.sliding_direction() * self.counterface.lever().signum()
     }
 
     /// Friction of the steady sliding of `contact` over this edge.
     pub fn steady_friction(&self, contact: &SlidingContact) -> SteadyFriction {
-        let speed = contact.rotation_speed;
-        contact.steady_friction(self.sliding_direction(speed), self.surface_speed(speed))
+        let speed = self.surface_speed(contact.rotation_speed);
+        contact.steady_friction(self.sliding_direction(contact), speed)
     }
 
     /// What friction asks of the counterface's drive for each metre of thickness, under the normal forces of the nodes: the
@@ -141,9 +139,8 @@ impl ContactInterface {
         friction_coefficient: f64,
         normal_forces: &[f64],
     ) -> f64 {
-        let normal: f64 = normal_forces.iter().sum();
-        let drag = self.steady_friction(contact).drag;
-        drag * friction_coefficient * self.counterface.lever() * normal
+        let drag = self.steady_friction(contact).drag * friction_coefficient;
+        drag * self.counterface.lever() * normal_forces.iter().sum::<f64>()
     }
 }
 

@@ -30,8 +30,7 @@ pub(super) struct Meeting {
 /// Dual mortar weights (Wohlmuth 2000): `P_ij = ∫ psi_i M_j ds / ∫ psi_i ds` with the basis `psi` that is biorthogonal to the
 /// contact edge's shape functions, edge by edge on the part that is covered, and `M` the opposite edge's shape functions;
 /// places of both are their projections onto the common surface. A constant pressure passes exactly between straight
-/// edges. On the annulus nodes lie in pairs, `P` is the identity, and slopes are those of the nodal field, the mean of both
-/// elements at a corner.
+/// edges. On the annulus nodes lie in pairs, `P` is the identity, and slopes are those of the nodal field.
 pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
     let opposite = mesh.opposite?;
     if mesh.is_cyclic {
@@ -45,20 +44,16 @@ pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
 }
 
 fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
-    let count = nodes.len();
-    let (lengths, curvature) =
-        (&mesh.contact_edge().tributary_lengths, mesh.counterface.curvature());
+    let lengths = &mesh.contact_edge().tributary_lengths;
+    let (count, curvature) = (nodes.len(), mesh.counterface.curvature());
     let is_quadratic = lengths[0] != lengths[1];
     let per_arc = count as f64 / std::f64::consts::TAU * curvature;
     let pair = |i: usize| {
         let dof = 2 * nodes[i] as usize;
         let mut slopes = [vec![(dof + 1, -curvature)], vec![(dof, curvature)]];
-        let stencil: &[(usize, f64)] = match (is_quadratic, i % 2) {
-            (true, 0) => &[(count - 2, 0.25), (count - 1, -1.0), (1, 1.0), (2, -0.25)],
-            _ => &[(count - 1, -0.5), (1, 0.5)],
-        };
-        for &(offset, weight) in stencil {
-            let dof = 2 * nodes[(i + offset) % count] as usize;
+        for &(offset, weight) in arc_stencil(is_quadratic, i) {
+            let other = (i + count).wrapping_add_signed(offset) % count;
+            let dof = 2 * nodes[other] as usize;
             slopes[0].push((dof, weight * per_arc));
             slopes[1].push((dof + 1, weight * per_arc));
         }
@@ -66,6 +61,14 @@ fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
         Meeting { motion: OppositeMotion { moves, slopes }, covered: 1.0, height: 0.0 }
     };
     (0..count).map(pair).collect()
+}
+
+/// Derivative along a closed curve at node `i`, of both elements' mean at a corner: how many nodes ahead, and the weight.
+pub fn arc_stencil(is_quadratic: bool, i: usize) -> &'static [(isize, f64)] {
+    match (is_quadratic, i % 2) {
+        (true, 0) => &[(-2, 0.25), (-1, -1.0), (1, 1.0), (2, -0.25)],
+        _ => &[(-1, -0.5), (1, 0.5)],
+    }
 }
 
 /// An element edge on the common surface.
@@ -91,7 +94,7 @@ impl<'a> Edge<'a> {
     /// Shape functions and their derivatives by the arc at a share `0..1` of the way from the first to the second end.
     fn shapes(&self, share: f64) -> Vec<(u32, f64, f64)> {
         let (s, slope) = (2.0 * share - 1.0, 2.0 / self.extent);
-        let nodes = self.face.nodes.iter().zip(self.face.kind.shape_functions([s, 0.0]));
+        let nodes = self.face.nodes.iter().zip(self.face.kind.shape_functions([s, 0.0, 0.0]));
         nodes.map(|(&node, (value, rates))| (node, value, rates[0] * slope)).collect()
     }
 

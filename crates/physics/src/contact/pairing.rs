@@ -177,7 +177,7 @@ impl ContactSurface {
     /// The nodes of the contact edge of a plane body as points, for each metre of thickness.
     pub fn of_edge(mesh: &Mesh, contact: &SlidingContact) -> Self {
         let edge = ContactInterface::of(mesh);
-        let sense = edge.sliding_direction(contact.rotation_speed);
+        let sense = edge.sliding_direction(contact);
         let site = |&node: &u32| {
             let frame = mesh.frame(node as usize);
             ContactSite {

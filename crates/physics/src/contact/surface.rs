@@ -150,7 +150,7 @@ impl<'a> Facet<'a> {
         let mut place = if is_triangle { [1.0 / 3.0; 2] } else { [0.0; 2] };
         let mut found = None;
         for _ in 0..NEWTON_STEPS {
-            let shapes = self.face.kind.shape_functions(place);
+            let shapes = self.face.kind.shape_functions([place[0], place[1], 0.0]);
             let mut position = Vector3::zeros();
             let mut tangents = [Vector3::zeros(); 2];
             for ((value, slopes), point) in shapes.iter().zip(&self.points) {

@@ -210,13 +210,11 @@ impl Contest<'_> {
         let contact = &self.model.contact;
         let surface_speed = self.model.interface().surface_speed(contact.rotation_speed).abs();
         let opening = contact.interference * TAU / self.period;
-        let largest = SEED * surface_speed.min(opening);
-        let scale = largest / seed_ratio.max(1.0);
+        let scale = SEED * surface_speed.min(opening) / seed_ratio.max(1.0);
         let seeds = [scale, scale * seed_ratio];
-        let waves = self.request.harmonics.iter().zip(seeds);
         let duration = self.request.periods as f64 * self.period;
-        let waves =
-            waves.map(|(&harmonic, velocity)| StandingWave { harmonic, velocity, phase: 0.0 });
+        let wave = |(harmonic, velocity)| StandingWave { harmonic, velocity, phase: 0.0 };
+        let waves = self.request.harmonics.into_iter().zip(seeds).map(wave);
         let settings = TransientSettings {
             perturbation: Perturbation { waves: waves.collect(), ..Perturbation::default() },
             ..TransientSettings::sliding(duration, TimeStep::Seconds(self.step), self.step)

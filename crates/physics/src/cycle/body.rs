@@ -2,8 +2,10 @@
 
 use super::CycleError;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
-use crate::fem::sector::{self, Sectored};
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_supports};
+use crate::fem::{
+    ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_mass, assemble_stiffness,
+    assemble_supports,
+};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh};
@@ -104,37 +106,35 @@ impl WaveBody {
         if specification.element != ElementKind::Quad4 {
             return Err(CycleError::Element);
         }
-        let mesh = SectorMesh::generate(specification)?;
-        let stiffness = sector::stiffness(&mesh, material, None);
-        let dofs = mesh.wave_dofs();
+        let SectorMesh { strip, .. } = SectorMesh::generate(specification)?;
+        let stiffness = strip.folded(&assemble_stiffness(&strip.mesh, material));
+        let dofs = strip.wave_dofs();
         let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
-        let mass = fold(0, &sector::mass(&mesh, material, MassKind::Lumped, None));
+        let mass = assemble_mass(&strip.mesh, material, MassKind::Lumped);
+        let mass = fold(0, &strip.folded(&mass));
         let block = |matrix: Triplets| {
             let mut block = Matrix2::zeros();
             matrix.entries.iter().for_each(|&(i, j, value)| block[(i % 2, j % 2)] = value);
             block
         };
         let support = match specification.outer {
-            BoundaryCondition::Support(_) => Some(assemble_supports(&mesh.strip).map(block)),
+            BoundaryCondition::Support(_) => Some(assemble_supports(&strip.mesh).map(block)),
             _ => None,
         };
-        let sectors = mesh.sector_count() as isize;
         // Neighbours turn the node's own stiffness by `cos(2 pi n / N)`: opposite at n = 0 and N / 2.
-        let own = [0, mesh.sector_count() / 2].map(|n| fold(n, &stiffness).get(0, 0));
+        let own = [0, strip.count / 2].map(|n| fold(n, &stiffness).get(0, 0));
         let node_frequency = (0.5 * (own[0] + own[1]) / mass.get(0, 0)).sqrt();
-        let harmonics = circumferential_harmonics
-            .into_iter()
-            .map(|n| HarmonicStiffness::new(&fold(n.rem_euclid(sectors) as usize, &stiffness)))
-            .collect();
+        let of = |n: isize| fold(n.rem_euclid(strip.count as isize) as usize, &stiffness);
+        let all = circumferential_harmonics.into_iter().map(|n| HarmonicStiffness::new(&of(n)));
         Ok(Self {
-            harmonics,
-            masses: (0..mesh.free_node_count()).map(|i| mass.get(2 * i, 2 * i)).collect(),
+            harmonics: all.collect(),
+            masses: (0..dofs.count / 2).map(|i| mass.get(2 * i, 2 * i)).collect(),
             support,
             harmonic,
-            sector_count: mesh.sector_count(),
+            sector_count: strip.count,
             rays: specification.radial_elements + 1,
             radius: specification.inner_radius,
-            tributary_length: mesh.tributary_lengths()[0],
+            tributary_length: strip.mesh.contact_edge().tributary_lengths[0],
             node_frequency,
         })
     }

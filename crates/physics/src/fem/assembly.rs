@@ -80,6 +80,12 @@ pub fn region_stiffness(mesh: &Mesh, material: &dyn MaterialField, region: usize
     assemble_congruent(mesh, &is_own, |e| element_stiffness(mesh, material, e))
 }
 
+/// Those of all regions.
+pub fn region_stiffnesses(mesh: &Mesh, material: &dyn MaterialField) -> Vec<Triplets> {
+    let regions = 0..mesh.regions.len().max(1);
+    regions.map(|region| region_stiffness(mesh, material, region)).collect()
+}
+
 /// Mass of the elements of one region alone, over all dofs: kg, in the plane for each metre of thickness.
 pub fn region_mass(
     mesh: &Mesh,
@@ -218,7 +224,7 @@ pub fn assemble_patch_damping(
 }
 
 /// Sums the element matrices of those that are kept, each kind of them computed once.
-pub(super) fn assemble_congruent(
+fn assemble_congruent(
     mesh: &Mesh,
     keep: &dyn Fn(usize) -> bool,
     compute: impl Fn(usize) -> DMatrix<f64>,

@@ -148,11 +148,6 @@ impl WaveDofs {
         Self { unknown_of, count, half_bandwidth, sectors }
     }
 
-    /// The same with nothing that holds the sector.
-    pub fn unheld(&self) -> Self {
-        Self::new(self.unknown_of.len(), |_| false, self.half_bandwidth, self.sectors)
-    }
-
     /// A matrix without entries.
     pub fn zeros(&self) -> BandedMatrix {
         BandedMatrix::zeros(self.count, self.half_bandwidth)

@@ -28,7 +28,7 @@ pub use assembly::{
     MassKind, assemble_displacement_stiffness, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_mass, assemble_patch_damping, assemble_point_masses,
     assemble_stiffness, element_mass, element_matrices, element_stiffness, lumped_masses,
-    region_mass, region_stiffness,
+    region_mass, region_stiffness, region_stiffnesses,
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;

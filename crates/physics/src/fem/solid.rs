@@ -1,7 +1,7 @@
-//! Places on the faces of a body of revolution in three dimensions, at which contact, supports and pressure act.
+//! Places on the faces of a body of revolution in three dimensions, at which contact acts.
 
 use super::fold::dof_ahead;
-use crate::mesh::{BoundaryCondition, FaceElement, SolidFace, SolidSector, face_quadrature};
+use crate::mesh::{FaceElement, SolidSector, face_quadrature};
 
 /// A place of a face.
 pub struct FacePoint {
@@ -82,21 +82,4 @@ pub fn face_points(
         FacePoint { area: area * share, radius, along: at[1], rows: [0, 1, 2].map(row) }
     };
     face_quadrature(is_quadratic).map(point).collect()
-}
-
-/// Forces of the pressures on the faces, the same in every sector, N.
-pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
-    let mut load = vec![0.0; 3 * sector.node_count()];
-    for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
-        let BoundaryCondition::Pressure(pressure) = condition else { continue };
-        let factor = pressure * face.inward_sign();
-        for element in sector.face_elements(face) {
-            for point in face_points(sector, &element, WHOLE_ELEMENT, FaceRule::Nodal) {
-                for &(dof, value) in &point.rows[face.normal_component()] {
-                    load[dof % (3 * sector.node_count())] += factor * point.area * value;
-                }
-            }
-        }
-    }
-    load
 }

@@ -2,8 +2,8 @@
 
 use super::{Direction, FrfError, NodeFault, Terminal};
 use crate::fem::fold::WaveDofs;
-use crate::fem::sector::Sectored;
 use crate::fem::{MassKind, MaterialField, RayleighDamping};
+use crate::mesh::Strip;
 use crate::prestress::{MovingHarmonic, WaveTangent};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
@@ -27,14 +27,14 @@ pub(super) struct Place {
 impl CyclicSystem {
     /// The body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots of
     /// its supports.
-    pub fn body<S: Sectored>(
-        sector: &S,
+    pub fn body(
+        strip: &Strip,
         material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,
         is_held: bool,
     ) -> Self {
-        let tangent = WaveTangent::of_free(sector, material, mass, damping, is_held);
+        let tangent = WaveTangent::of_free(strip, material, mass, damping, is_held);
         Self::sliding(&tangent, 0.0)
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Axis, Direction, FrfError, NodeFault, Port, Terminal};
 use crate::contact::Row;
-use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping, region_stiffness};
+use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
 use crate::prestress::{ContactDofs, Elimination, LossGain, SlidingTangent, TangentOptions, Terms};
@@ -47,9 +47,7 @@ impl FrfSystem {
         is_clamped: bool,
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
-        let regions = 0..mesh.regions.len().max(1);
-        let elastic = regions.map(|region| region_stiffness(mesh, material, region)).collect();
-        let terms = Terms::of_mesh((mesh, material), elastic, !is_clamped, &options);
+        let terms = Terms::of_mesh((mesh, material), !is_clamped, &options);
         let held = mesh.held_dofs().filter(|_| is_clamped);
         let basis = Elimination::holding(mesh.dof_count(), held);
         let none = ContactDofs::default();

@@ -1,7 +1,7 @@
 //! The structured annulus mesh.
 
 use super::Mesh;
-use super::sectors::build;
+use super::sectors::{AnnulusSheet, build};
 use super::specification::{AnnulusSpecification, MeshError, validate};
 
 /// A structured annulus mesh with its sectors.
@@ -27,7 +27,8 @@ impl AnnulusMesh {
     pub fn generate(specification: &AnnulusSpecification) -> Result<Self, MeshError> {
         let spec = *specification;
         validate(&spec)?;
-        Ok(Self { mesh: build(&spec, spec.circumferential_elements), specification: spec })
+        let mesh = build(&spec, &AnnulusSheet::of(&spec), spec.circumferential_elements);
+        Ok(Self { mesh, specification: spec })
     }
 
     /// Nodes of one sector (one element wide in the circumferential direction).

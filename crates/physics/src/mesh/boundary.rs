@@ -1,6 +1,6 @@
 //! Named boundaries of a body, and what holds them.
 
-use super::{Counterface, FaceKind, Mesh};
+use super::{Counterface, ElementKind, Mesh};
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
@@ -55,10 +55,10 @@ impl BoundaryCondition {
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryFace {
     /// Its kind.
-    pub kind: FaceKind,
+    pub kind: ElementKind,
     /// The element that it belongs to.
     pub element: u32,
-    /// 0-based nodes in the order of [`FaceKind`], the normal pointing out of the body.
+    /// 0-based nodes in the order of [`ElementKind`], the normal pointing out of the body.
     pub nodes: Vec<u32>,
 }
 

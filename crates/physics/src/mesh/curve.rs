@@ -1,7 +1,7 @@
 //! Curves of element edges: their order and the lengths that belong to their nodes.
 
 use super::error::BodyError;
-use super::{BoundaryFace, FaceKind, FacePoint, Mesh};
+use super::{BoundaryFace, ElementKind, FacePoint, Mesh};
 use std::collections::BTreeMap;
 
 /// Edges in order along a curve, the body on their left; where it has several pieces, one after the other.
@@ -138,7 +138,7 @@ impl EdgeWeights {
         };
         for face in &curve.faces {
             let points = mesh.face_points(face);
-            for (at, weight) in FaceKind::Line3.quadrature() {
+            for (at, weight) in ElementKind::Line3.quadrature() {
                 // The body lies on the left of an edge.
                 let FacePoint { values, area: [x, y, _], .. } = face.kind.at(&points, (at, 1.0));
                 for (node, value) in face.nodes.iter().zip(values) {

@@ -1,6 +1,6 @@
 //! Faces on the surface of a body, edges on the rim of a plane one.
 
-use super::{BoundaryFace, ElementKind, FacePoint, Mesh};
+use super::{BoundaryFace, FacePoint, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Corners of a face in ascending order: what names it whichever side it is seen from.
@@ -106,9 +106,7 @@ impl Mesh {
         let mut sums: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
         for face in faces {
             let points = self.face_points(face);
-            let alike = ElementKind::ALL.into_iter().find(|own| own.as_face() == Some(face.kind));
-            let places = alike.map_or(Vec::new(), ElementKind::node_places);
-            for (&node, place) in face.nodes.iter().zip(places) {
+            for (&node, place) in face.nodes.iter().zip(face.kind.node_places()) {
                 let area = face.kind.at(&points, (place, 1.0)).area;
                 let sum = sums.entry(node).or_default();
                 (0..3).for_each(|axis| sum[axis] += area[axis]);

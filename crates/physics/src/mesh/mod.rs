@@ -16,6 +16,7 @@ mod plane_body;
 mod quality;
 mod refinement;
 mod repetition;
+mod revolution;
 mod rim;
 mod sector;
 mod sectors;
@@ -34,19 +35,20 @@ pub use counterface::Counterface;
 pub use error::{BodyError, BodyPart};
 pub use frames::NodalFrames;
 pub use frictionsim_formats::{
-    CurveEdge, CyclicSymmetry, ElementKind, Equation, FaceKind, FacePoint, FileCondition,
-    FileConditionKind, FileContact, FileElasticity, FileElement, FileMaterial, FileMesh,
-    FileMotion, FileTie, LeftOut, MaterialAxes, MeshFileError, MeshFormat, ModelData,
-    QuadraturePoint, Shape, SurfaceFace, included_text,
+    CurveEdge, CyclicSymmetry, ElementKind, Equation, FacePoint, FileCondition, FileConditionKind,
+    FileContact, FileElasticity, FileElement, FileMaterial, FileMesh, FileMotion, FileTie, LeftOut,
+    MaterialAxes, MeshFileError, MeshFormat, ModelData, QuadraturePoint, Shape, SurfaceFace,
+    included_text,
 };
 pub use modification::{Attachment, DampedPatch};
 pub use quality::MeshQuality;
 pub use refinement::refined_file;
 pub use repetition::repeated_file;
+pub use revolution::{SheetElement, SheetNode, Strip};
 pub use sector::SectorMesh;
 pub use solid::{
-    ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidPart, SolidSector,
-    SolidSpecification, face_quadrature,
+    ContactRing, FaceElement, SolidContact, SolidFace, SolidPart, SolidSector, SolidSpecification,
+    face_quadrature,
 };
 pub use specification::{AnnulusSpecification, MeshError, ShaftSpecification};
 

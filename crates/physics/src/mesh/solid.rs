@@ -1,12 +1,14 @@
 //! One sector of a body of revolution in three dimensions.
 
-use super::sectors::graded_radii;
+use super::revolution::{SheetElement, SheetNode, Strip, elements_between, revolved};
+use super::sectors::{graded_radii, radius_at};
 use super::specification::validate;
 use super::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh, MeshError, NodalFrames,
+    AnnulusMesh, AnnulusSpecification, Boundary, BoundaryCondition, ElementKind, Mesh, MeshError,
+    NodalFrames,
 };
-use std::collections::{BTreeMap, HashMap};
-use std::f64::consts::{PI, TAU};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 mod faces;
 mod specification;
@@ -14,19 +16,6 @@ mod whole;
 
 pub use faces::{FaceElement, face_quadrature};
 pub use specification::{SolidContact, SolidFace, SolidPart, SolidSpecification};
-
-/// A node of one sector's sheets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SheetNode {
-    /// Radius, m.
-    pub radius: f64,
-    /// Height over the bottom face, m.
-    pub height: f64,
-    /// Angle from the sector's corner sheet in halves of a sector, 0 or 1.
-    pub half_step: usize,
-    /// Place among the radii and heights, in halves of an element.
-    pub place: [usize; 2],
-}
 
 /// Contact nodes of one radius (on a face) or one height (on a cylinder).
 #[derive(Clone, Debug, PartialEq)]
@@ -53,10 +42,10 @@ pub struct SolidSector {
     pub nodes: Vec<SheetNode>,
     /// Radii of the corner nodes, m.
     pub radii: Vec<f64>,
-    /// Sector nodes of each element with their angle in halves of a sector, 0 to 2; radial index fastest.
-    pub elements: Vec<Vec<(usize, usize)>>,
-    /// The elements; nodes of sectors 0 and 1 in turn, their frames along radius, tangent and axis.
-    pub strip: Mesh,
+    /// Its elements, radial index fastest.
+    pub elements: Vec<SheetElement>,
+    /// The same as a mesh.
+    pub strip: Strip,
     /// The contact, by rising radius or height.
     pub rings: Vec<ContactRing>,
 }
@@ -72,32 +61,23 @@ impl SolidSector {
     pub fn generate(specification: &SolidSpecification) -> Result<Self, MeshError> {
         let radii = specification.corner_radii()?;
         let nodes = sheet_nodes(specification, &radii);
+        let (kind, count) =
+            (specification.element_kind(), specification.annulus.circumferential_elements);
+        let region = |at| specification.region_at(&radii, at);
+        let elements = elements_between(&nodes, kind, specification.divisions(), region);
+        let numbering: Vec<usize> = (0..nodes.len()).collect();
+        let mesh = specification.strip(&nodes, &elements);
+        let is_held = |dof| specification.is_held(&nodes[dof / 3], dof % 3);
         let mut sector = Self {
+            strip: Strip::new(mesh, (&nodes, &numbering), count, is_held),
             specification: specification.clone(),
-            elements: elements(specification, &nodes),
+            elements,
             nodes,
             radii,
-            strip: Mesh::default(),
             rings: Vec::new(),
         };
-        sector.strip = sector.polar_strip();
         sector.rings = sector.contact_rings();
         Ok(sector)
-    }
-
-    fn polar_strip(&self) -> Mesh {
-        let mut strip = self.part(1);
-        let per_sector = self.node_count();
-        let angle = |node: usize| self.angle(node % per_sector, node / per_sector);
-        strip.frames = NodalFrames::Plane((0..strip.node_count()).map(angle).collect());
-        // Layers of one material are alike.
-        let radial = self.divisions()[0];
-        for element in 0..strip.element_count() {
-            let mut layers = (element % radial..element).step_by(radial);
-            let alike = layers.find(|own| strip.region(*own) == strip.region(element));
-            strip.congruent_to[element] = alike.unwrap_or(element) as u32;
-        }
-        strip
     }
 
     /// The plane section across the axis, clamped outside: corner nodes at the sector's radii.
@@ -118,31 +98,10 @@ impl SolidSector {
     /// The solid elements of the first `count` sectors, closed to a ring where those are all, in global frames; nodes sector by
     /// sector, of an open one the last sheet behind them.
     pub fn part(&self, count: usize) -> Mesh {
-        let per_sector = self.node_count();
-        let is_closed = count >= self.sector_count();
-        let sheets = if is_closed { self.sector_count() } else { count + 1 };
-        let place = |sheet: usize, k: usize| {
-            let (sin, cos) = self.angle(k, sheet).sin_cos();
-            let node = &self.nodes[k];
-            [node.radius * cos, node.radius * sin, node.height]
-        };
-        let nodes = (0..sheets).flat_map(|sheet| (0..per_sector).map(move |k| (sheet, k)));
-        let mut mesh = Mesh {
-            dimension: 3,
-            nodes: nodes.map(|(sheet, k)| place(sheet, k)).collect(),
-            frames: NodalFrames::global(3, sheets * per_sector),
-            element_starts: vec![0],
-            regions: self.specification.region_names(),
-            ..Mesh::default()
-        };
-        for sector in 0..count.min(self.sector_count()) {
-            for (e, element) in self.elements.iter().enumerate() {
-                let nodes = element.iter();
-                let nodes = nodes.map(|&(k, half)| (sector + half / 2) % sheets * per_sector + k);
-                let (nodes, own) = (nodes.map(|node| node as u32), mesh.element_count() as u32);
-                mesh.push_element(self.specification.element_kind(), nodes, (self.region(e), own));
-            }
-        }
+        let mut mesh = revolved(&self.nodes, &self.elements, [count, self.sector_count()]);
+        mesh.regions = self.specification.region_names();
+        mesh.frames = NodalFrames::global(3, mesh.node_count());
+        mesh.congruent_to = (0..mesh.element_count() as u32).collect();
         mesh
     }
 
@@ -154,24 +113,6 @@ impl SolidSector {
     /// Number of sectors, `N_theta`.
     pub fn sector_count(&self) -> usize {
         self.specification.annulus.circumferential_elements
-    }
-
-    /// Elements along a radius and over the thickness.
-    pub fn divisions(&self) -> [usize; 2] {
-        let specification = &self.specification;
-        [specification.annulus.radial_elements, specification.axial_elements]
-    }
-
-    /// Region of an element: 0, or the first part that its middle lies in, counted from 1.
-    pub fn region(&self, element: usize) -> usize {
-        let [radial, axial] = self.divisions();
-        let (i, j) = (element % radial, element / radial);
-        let radius = 0.5 * (self.radii[i] + self.radii[i + 1]);
-        let height = self.specification.thickness * (j as f64 + 0.5) / axial as f64;
-        let lies_in = |range: [f64; 2], at: f64| range[0] < at && at < range[1];
-        let mut parts = self.specification.parts.iter();
-        let own = parts.position(|p| lies_in(p.radii, radius) && lies_in(p.heights, height));
-        own.map_or(0, |part| part + 1)
     }
 
     /// Whether elements have 20 nodes, not 8.
@@ -186,41 +127,17 @@ impl SolidSector {
 
     /// Angle of a node of sector `sector`, rad.
     pub fn angle(&self, node: usize, sector: usize) -> f64 {
-        TAU * (sector as f64 + 0.5 * self.nodes[node].half_step as f64) / self.sector_count() as f64
+        self.nodes[node].angle(sector, self.sector_count())
     }
 
     /// Whether a node lies on a face.
     pub fn is_on(&self, node: usize, face: SolidFace) -> bool {
-        let ([i, j], [nr, nz]) = (self.nodes[node].place, self.divisions());
-        match face {
-            SolidFace::Inner => i == 0,
-            SolidFace::Outer => i == 2 * nr,
-            SolidFace::Top => j == 2 * nz,
-            SolidFace::Bottom => j == 0,
-        }
+        self.specification.is_on(&self.nodes[node], face)
     }
 
-    /// Dofs `3 node + component` that boundary conditions hold at zero.
+    /// Whether boundary conditions hold a dof `3 node + component` at zero.
     pub fn is_held(&self, dof: usize) -> bool {
-        let conditions = SolidFace::ALL.iter().zip(&self.specification.conditions);
-        conditions.filter(|(face, _)| self.is_on(dof / 3, **face)).any(|(face, condition)| {
-            match condition {
-                BoundaryCondition::Clamped => true,
-                BoundaryCondition::Guide => dof % 3 == face.normal_component(),
-                // In every sector alike: across the axis both directions or none.
-                BoundaryCondition::Fixed([x, y, z]) => [*x && *y, *x && *y, *z][dof % 3],
-                _ => false,
-            }
-        })
-    }
-
-    /// Largest distance of two nodes of one element in the numbering.
-    pub fn node_bandwidth(&self) -> usize {
-        let spans = self.elements.iter().map(|element| {
-            let nodes = || element.iter().map(|(node, _)| *node);
-            nodes().max().unwrap_or(0) - nodes().min().unwrap_or(0)
-        });
-        spans.max().unwrap_or(0)
+        self.strip.is_held[dof]
     }
 
     fn contact_rings(&self) -> Vec<ContactRing> {
@@ -267,6 +184,70 @@ impl SolidSpecification {
     /// Kind of all elements: bricks of 20 or of 8 nodes.
     pub fn element_kind(&self) -> ElementKind {
         if self.annulus.element.is_quadratic() { ElementKind::Hex20 } else { ElementKind::Hex8 }
+    }
+
+    /// Elements along a radius and over the thickness.
+    pub fn divisions(&self) -> [usize; 2] {
+        [self.annulus.radial_elements, self.axial_elements]
+    }
+
+    /// Whether a node lies on a face.
+    fn is_on(&self, node: &SheetNode, face: SolidFace) -> bool {
+        let ([i, j], [nr, nz]) = (node.place, self.divisions());
+        match face {
+            SolidFace::Inner => i == 0,
+            SolidFace::Outer => i == 2 * nr,
+            SolidFace::Top => j == 2 * nz,
+            SolidFace::Bottom => j == 0,
+        }
+    }
+
+    /// Whether boundary conditions hold a component of a node at zero.
+    fn is_held(&self, node: &SheetNode, component: usize) -> bool {
+        let conditions = SolidFace::ALL.iter().zip(&self.conditions);
+        conditions.filter(|(face, _)| self.is_on(node, **face)).any(|(face, condition)| {
+            match condition {
+                BoundaryCondition::Clamped => true,
+                BoundaryCondition::Guide => component == face.normal_component(),
+                // In every sector alike: across the axis both directions or none.
+                BoundaryCondition::Fixed([x, y, z]) => [*x && *y, *x && *y, *z][component],
+                _ => false,
+            }
+        })
+    }
+
+    /// Region of the element between two radii of the corner nodes and two heights: 0, or the first part that its middle lies in,
+    /// counted from 1.
+    fn region_at(&self, radii: &[f64], [i, j]: [usize; 2]) -> usize {
+        let radius = 0.5 * (radii[i] + radii[i + 1]);
+        let height = self.thickness * (j as f64 + 0.5) / self.axial_elements as f64;
+        let lies_in = |range: [f64; 2], at: f64| range[0] < at && at < range[1];
+        let mut parts = self.parts.iter();
+        let own = parts.position(|p| lies_in(p.radii, radius) && lies_in(p.heights, height));
+        own.map_or(0, |part| part + 1)
+    }
+
+    /// The elements of sector 0 as a mesh with its faces.
+    fn strip(&self, nodes: &[SheetNode], elements: &[SheetElement]) -> Mesh {
+        let mut mesh = revolved(nodes, elements, [1, self.annulus.circumferential_elements]);
+        mesh.regions = self.region_names();
+        let outer = mesh.outer_faces();
+        let boundaries =
+            SolidFace::ALL.into_iter().zip(&self.conditions).map(|(face, condition)| {
+                let lies_on = |&node: &u32| self.is_on(&nodes[node as usize % nodes.len()], face);
+                let own = outer.iter().filter(|own| own.nodes.iter().all(lies_on));
+                let surface = Boundary::of_faces(face.name(), own.cloned().collect());
+                Boundary { condition: *condition, ..surface }
+            });
+        mesh.boundaries = boundaries.collect();
+        // Layers of one material are alike.
+        let [radial, _] = self.divisions();
+        for element in 0..mesh.element_count() {
+            let mut layers = (element % radial..element).step_by(radial);
+            let alike = layers.find(|own| mesh.region(*own) == mesh.region(element));
+            mesh.congruent_to[element] = alike.unwrap_or(element) as u32;
+        }
+        mesh
     }
 
     /// Names of the regions.
@@ -364,10 +345,6 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
 fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> Vec<SheetNode> {
     let (nr, nz) = (specification.annulus.radial_elements, specification.axial_elements);
     let is_quadratic = specification.annulus.element.is_quadratic();
-    let radius = |i: usize| match i % 2 {
-        0 => radii[i / 2],
-        _ => 0.5 * (radii[i / 2] + radii[i / 2 + 1]),
-    };
     let height = |j: usize| specification.thickness * j as f64 / (2 * nz) as f64;
     let mut nodes = Vec::new();
     let (slow, fast) = if nr >= nz { (nr, nz) } else { (nz, nr) };
@@ -383,34 +360,11 @@ fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> Vec<SheetNo
                     _ => false,
                 };
                 if exists {
-                    let (radius, height, place) = (radius(i), height(j), [i, j]);
+                    let (radius, height, place) = (radius_at(radii, i), height(j), [i, j]);
                     nodes.push(SheetNode { radius, height, half_step, place });
                 }
             }
         }
     }
     nodes
-}
-
-fn elements(specification: &SolidSpecification, nodes: &[SheetNode]) -> Vec<Vec<(usize, usize)>> {
-    let places = nodes.iter().map(|node| (node.place, node.half_step));
-    let index: HashMap<_, usize> = places.zip(0..).collect();
-    let (nr, nz) = (specification.annulus.radial_elements, specification.axial_elements);
-    // Radially, around and axially, in halves of an element.
-    let places = specification.element_kind().node_places().into_iter();
-    let places: Vec<[isize; 3]> =
-        places.map(|place| place.map(|coordinate| coordinate as isize)).collect();
-    let mut elements = Vec::with_capacity(nr * nz);
-    for j in 0..nz {
-        for i in 0..nr {
-            let node = |[a, b, c]: &[isize; 3]| {
-                let place =
-                    [(2 * i + 1).wrapping_add_signed(*a), (2 * j + 1).wrapping_add_signed(*c)];
-                let half = 1usize.wrapping_add_signed(*b);
-                (index[&(place, half % 2)], half)
-            };
-            elements.push(places.iter().map(node).collect());
-        }
-    }
-    elements
 }

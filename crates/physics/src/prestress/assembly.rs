@@ -15,7 +15,7 @@ use crate::contact::{
     PressedState, SlidingContact, SurfacePair, Turning, mortar_nodes,
 };
 use crate::fem::{
-    MassKind, MaterialField, Triplets, assemble_pressures, assemble_supports, region_stiffness,
+    MassKind, MaterialField, Triplets, assemble_pressures, assemble_supports, region_stiffnesses,
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -130,8 +130,7 @@ impl<'a> Assembly<'a> {
                 Ok((contact.clone(), surface))
             })
             .collect();
-        let regions = 0..mesh.regions.len().max(1);
-        let elastic = regions.map(|region| region_stiffness(mesh, materials, region)).collect();
+        let elastic = region_stiffnesses(mesh, materials);
         let supports = assemble_supports(mesh);
         let contacts = found?;
         let mut joined = Joined { contacts, rotation: None, elastic, supports, basis, base };
@@ -252,8 +251,7 @@ impl<'a> Assembly<'a> {
                 let basis = self.joined.basis.clone();
                 let full = FullSliding::new(pressing.stiffness, basis, pressing.points)?;
                 let none = vec![0.0; self.mesh.dof_count()];
-                let interference = self.contacts()[0].0.counter.interference();
-                let state = full.state(&none, interference, None)?;
+                let state = full.state(&none, &pressing.pushed);
                 PressedRange::of_one(state, friction_coefficients)
             }
         };
@@ -303,7 +301,7 @@ impl<'a> Assembly<'a> {
     /// The matrices of the bodies without stress and contact over all dofs.
     pub fn terms(&self, options: &TangentOptions) -> Terms<Triplets> {
         let (bodies, elastic) = ((self.mesh, self.materials), self.joined.elastic.clone());
-        let mut terms = Terms::of_mesh(bodies, elastic, false, options);
+        let mut terms = Terms::of_elastic(bodies, elastic, false, options);
         if options.mass == MassKind::Lumped {
             let masses = terms.all.iter_mut().filter(|term| term.kind == Kind::Mass);
             masses.for_each(|term| term.matrix = self.joined.basis.gathered(&term.matrix));

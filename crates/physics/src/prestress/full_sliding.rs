@@ -3,12 +3,8 @@
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
 use super::elimination::Elimination;
-use crate::contact::{NormalLaw, Point, PressedState};
+use crate::contact::{Point, PressedState};
 use crate::fem::{DofMap, Triplets};
-use nalgebra::{DMatrix, DVector};
-
-/// Newton steps to the approach of contact that stiffens, at most; its force is a concave function of the approach's.
-const MOST_TANGENTS: usize = 100;
 
 /// A body with the separations of its contact points prescribed.
 pub(super) struct FullSliding<'a> {
@@ -41,24 +37,10 @@ impl<'a> FullSliding<'a> {
         Ok(Self { points, basis, separations, stiffness, unknowns, solver })
     }
 
-    /// The state under a load on all dofs in which every point is pushed in by `interference`, `u(mu) = u_0 + mu u_1`; without a
-    /// load with a contact that stiffens with pressure, if there is a `law`: `N_i = w_i p(delta - u_n)`.
-    ///
-    /// # Errors
-    /// [`PrestressError::Singular`].
-    pub fn state(
-        &self,
-        load: &[f64],
-        interference: f64,
-        law: Option<NormalLaw>,
-    ) -> Result<PressedState, PrestressError> {
-        let approaches = match law {
-            Some(law) => self.approaches(interference, law)?,
-            None => vec![0.0; self.points.len()],
-        };
-        let distances: Vec<f64> = approaches.iter().map(|g| interference - g).collect();
+    /// The state under a load on all dofs in which the points have these separations, `u(mu) = u_0 + mu u_1`.
+    pub fn state(&self, load: &[f64], separations: &[f64]) -> PressedState {
         let load = self.basis.transposed_forces(load);
-        let pressed = self.refined(&load, self.pressed_by(&distances, &load));
+        let pressed = self.refined(&load, self.pressed_by(separations, &load));
         let normal_forces = self.normal_forces(&pressed, &load);
 
         // Friction shears it.
@@ -70,17 +52,12 @@ impl<'a> FullSliding<'a> {
         }
         let traction = self.basis.transposed_forces(&traction);
         let sheared = self.refined(&traction, self.solve(&traction));
-        let springs = law.map(|law| {
-            let pairs = approaches.iter().zip(self.points);
-            pairs.map(|(&g, point)| point.weight * law.stiffness(g)).collect()
-        });
-        Ok(PressedState {
+        PressedState {
             displacements: [&pressed, &sheared].map(|y| self.basis.displacement(y)).into(),
-            stiffnesses: springs.into_iter().collect(),
             is_pressed: vec![true; normal_forces.len()],
-            frozen_below: 0.0,
             normal_forces: vec![normal_forces],
-        })
+            ..PressedState::default()
+        }
     }
 
     /// Response to a load with the separations held.
@@ -111,47 +88,6 @@ impl<'a> FullSliding<'a> {
     fn normal_forces(&self, pressed: &[f64], load: &[f64]) -> Vec<f64> {
         let force = self.stiffness.multiply(pressed.len(), pressed);
         self.separations.iter().map(|&dof| force[dof] - load[dof]).collect()
-    }
-
-    /// Normal forces of unit distances, column by column.
-    fn responses(&self) -> DMatrix<f64> {
-        let count = self.points.len();
-        let none = vec![0.0; self.unknowns.unknown_of.len()];
-        let columns = (0..count).map(|j| {
-            let mut unit = vec![0.0; count];
-            unit[j] = 1.0;
-            DVector::from_vec(self.normal_forces(&self.pressed_by(&unit, &none), &none))
-        });
-        DMatrix::from_columns(&columns.collect::<Vec<_>>())
-    }
-
-    /// What springs of a law give way by under the interference: Newton's method in the forces, of which the approach is a
-    /// concave function,
-    ///
-    /// ```text
-    /// (1 + S / k) N = S (delta - g + N_0 / k),   N_0 = w p(g) the forces found last, k = w dp/dg
-    /// ```
-    fn approaches(&self, interference: f64, law: NormalLaw) -> Result<Vec<f64>, PrestressError> {
-        let lengths: Vec<f64> = self.points.iter().map(|point| point.weight).collect();
-        let response = self.responses();
-        let count = lengths.len();
-        let mut forces = DVector::zeros(count);
-        for _ in 0..MOST_TANGENTS {
-            let approach = |i: usize| law.approach(f64::max(forces[i], 0.0) / lengths[i]);
-            let softness = |i: usize| 1.0 / (lengths[i] * law.stiffness(approach(i)));
-            let pushed = DVector::from_fn(count, |i, _| {
-                interference - approach(i) + f64::max(forces[i], 0.0) * softness(i)
-            });
-            let mut matrix = DMatrix::from_fn(count, count, |i, j| response[(i, j)] * softness(j));
-            (0..count).for_each(|i| matrix[(i, i)] += 1.0);
-            let found = matrix.lu().solve(&(&response * pushed)).ok_or(PrestressError::Singular)?;
-            let moved = (&found - &forces).amax();
-            forces = found;
-            if moved <= 4.0 * f64::EPSILON * forces.amax() {
-                break;
-            }
-        }
-        Ok(forces.iter().zip(&lengths).map(|(force, w)| law.approach(force.max(0.0) / w)).collect())
     }
 }
 

@@ -31,7 +31,6 @@ mod rotation;
 mod sector;
 mod sector_tangent;
 mod solid;
-mod solid_tangent;
 mod tangent;
 mod terms;
 mod wave_harmonic;

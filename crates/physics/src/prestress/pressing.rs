@@ -3,11 +3,11 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
-use super::solid::{OverRings, SolidSliding, friction, node_point};
+use super::solid::{OverRings, node_point};
+use super::{SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::{at_places, stiffness_alike};
-use crate::fem::solid::{FacePoint, FaceRule, face_points, pressure_load};
+use crate::fem::solid::{FacePoint, FaceRule, face_points};
 use crate::fem::{MassKind, MaterialField, Triplets};
 use crate::mesh::{ContactRing, SolidSector};
 
@@ -34,7 +34,7 @@ impl SolidSliding {
         stiffness: &ContactStiffness,
         mass: MassKind,
     ) -> Result<Self, PrestressError> {
-        let elastic = stiffness_alike(sector, material, mass);
+        let elastic = sector.strip.stiffness_alike(material);
         Self::of(sector, &elastic, contact, stiffness, mass)
     }
 
@@ -84,25 +84,24 @@ fn press_rigidly(
     stiffness: &Triplets,
     (contact, rule): (&SlidingContact, FaceRule),
 ) -> Result<SolidSliding, PrestressError> {
-    let (load, rings) = (pressure_load(sector), &sector.rings);
+    let (load, rings) = (sector.strip.pressure_load(), &sector.rings);
     let mut is_pressed = vec![true; rings.len()];
     for _ in 0..SETS {
         let pressed = rings.iter().zip(&is_pressed).filter(|(_, pressed)| **pressed);
-        let nodes: Vec<usize> = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied()).collect();
-        let points: Vec<Point> = nodes.iter().map(|&n| node_point(sector, n, contact)).collect();
+        let nodes = pressed.flat_map(|(ring, _)| &ring.nodes);
+        let points: Vec<Point> = nodes.map(|&n| node_point(sector, n, contact)).collect();
         let full = FullSliding::new(stiffness, without_contact(sector), &points)?;
-        let PressedState { displacements, normal_forces, .. } =
-            full.state(&load, contact.interference, None)?;
+        let state = full.state(&load, &vec![contact.interference; points.len()]);
 
         // The conditions of all rings.
-        let mut forces = normal_forces[0].iter();
+        let mut forces = state.normal_forces[0].iter();
         let force = |(ring, is_pressed): (&ContactRing, &bool)| match is_pressed {
             true => forces.by_ref().take(ring.nodes.len()).sum(),
             false => 0.0,
         };
         let ring_forces: Vec<f64> = rings.iter().zip(&is_pressed).map(force).collect();
         let scale = ring_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        let approaches = approaches(sector, contact.interference, &displacements[0]);
+        let approaches = approaches(sector, contact.interference, &state.displacements[0]);
         let next: Vec<bool> = (0..rings.len())
             .map(|k| match is_pressed[k] {
                 true => ring_forces[k] > 1e-12 * scale,
@@ -113,16 +112,12 @@ fn press_rigidly(
             is_pressed = next;
             continue;
         }
-        let [pressed_displacement, sheared_displacement] =
-            displacements.try_into().expect("two powers of friction");
         return Ok(SolidSliding {
             law: None,
             rule,
             contact: *contact,
-            normal_forces: nodes.into_iter().zip(normal_forces[0].iter().copied()).collect(),
             pressures: rings.iter().zip(&ring_forces).map(|(ring, f)| f / ring.area).collect(),
-            pressed_displacement,
-            sheared_displacement,
+            sliding: SectorSliding { state, points },
             is_pressed,
             approaches,
         });
@@ -132,8 +127,7 @@ fn press_rigidly(
 
 /// What holds the body without its contact.
 fn without_contact(sector: &SolidSector) -> Elimination {
-    let dofs = 3 * sector.node_count();
-    Elimination::holding(dofs, (0..dofs).filter(|&dof| sector.is_held(dof)))
+    Elimination::holding(sector.strip.dof_count(), sector.strip.held_dofs())
 }
 
 /// Springs that push and do not pull, `K u + int k (u_n - delta + g) n dA = f + int s g n dA` over the points of the face where
@@ -146,7 +140,7 @@ fn press_on_springs(
 ) -> Result<SolidSliding, PrestressError> {
     let face = sector.specification.contact.face();
     let (inward, component) = (face.inward_sign(), face.normal_component());
-    let load = pressure_load(sector);
+    let load = sector.strip.pressure_load();
     let rings = sector.rings.len();
     let of_rings = |values: &[f64]| field(&OverRings::approaches(sector, values, (contact, rule)));
     let pushed = of_rings(&vec![contact.interference; rings]);
@@ -183,36 +177,41 @@ fn press_on_springs(
         let forces = own.iter().zip(tangent.multiply(own.len(), &left));
         let forces: Vec<f64> = forces.map(|(own, more)| own + more).collect();
         // Those of nodes that something else holds along the normal, too.
-        let nodes = 0..sector.node_count();
-        let nodes = nodes.map(|node| (node, inward * forces[3 * node + component]));
-        let normal_forces: Vec<_> = nodes.filter(|(_, force)| *force != 0.0).collect();
+        let force = |node: usize| inward * forces[3 * node + component];
+        let nodes = (0..sector.node_count()).filter(|&node| force(node) != 0.0);
+        let points: Vec<Point> = nodes.clone().map(|n| node_point(sector, n, contact)).collect();
+        let forces: Vec<f64> = nodes.map(force).collect();
+        let sheared = sheared(sector, stiffness, points.iter().zip(&forces))?;
+        let state = PressedState {
+            displacements: vec![displacement, sheared],
+            is_pressed: vec![true; points.len()],
+            normal_forces: vec![forces],
+            ..PressedState::default()
+        };
         return Ok(SolidSliding {
             law: Some(law),
             rule,
             contact: *contact,
-            sheared_displacement: sheared(sector, stiffness, contact, &normal_forces)?,
-            normal_forces,
+            sliding: SectorSliding { state, points },
             is_pressed: found.iter().map(|approach| *approach > 0.0).collect(),
             pressures: found.iter().map(|g| law.pressure(g.max(0.0))).collect(),
             approaches: found,
-            pressed_displacement: displacement,
         });
     }
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
 }
 
 /// What friction does for each unit of its coefficient: it shears the body alone, whatever presses it.
-fn sheared(
+fn sheared<'a>(
     sector: &SolidSector,
     stiffness: &Triplets,
-    contact: &SlidingContact,
-    normal_forces: &[(usize, f64)],
+    pressed: impl Iterator<Item = (&'a Point, &'a f64)>,
 ) -> Result<Vec<f64>, PrestressError> {
-    let (mut basis, dofs) = (without_contact(sector), 3 * sector.node_count());
+    let (mut basis, dofs) = (without_contact(sector), sector.strip.dof_count());
     (0..dofs).filter(|dof| dof % 3 != 1).for_each(|dof| basis.drop_unknown(dof));
     let mut drag = vec![0.0; dofs];
-    for (node, force) in normal_forces {
-        drag[3 * node + 1] = friction(contact, sector.nodes[*node].radius).drag * force;
+    for (point, force) in pressed {
+        drag[point.slip[0].0] = point.friction.drag * force;
     }
     let body = FullSliding::new(stiffness, basis, &[])?;
     Ok(body.refined(&drag, body.solve(&drag)))
@@ -250,7 +249,7 @@ impl Springs<'_> {
                 sum.push_product(area * weight(approach), row, row);
             }
         }
-        SectorMatrix::alike_in_all(&[&at_places(sector, &sum)])
+        SectorMatrix::alike_in_all(&[&sector.strip.at_places(&sum)])
     }
 }
 

@@ -3,10 +3,11 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
+use super::penalty::PenaltyContact;
+use super::pressed_state::{PressedBodies, Pressing};
 use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
-use crate::fem::sector::stiffness_alike;
-use crate::fem::{MassKind, MaterialField, Triplets};
-use crate::mesh::{AnnulusMesh, SectorMesh};
+use crate::fem::{MaterialField, Triplets};
+use crate::mesh::SectorMesh;
 
 /// The state of steady sliding of an annulus, the same in every sector.
 ///
@@ -32,8 +33,7 @@ impl SectorSliding {
         contact: &SlidingContact,
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
-        let stiffness = stiffness_alike(sector, material, MassKind::Consistent);
-        Self::of(sector, &stiffness, contact, law)
+        Self::of(sector, &sector.strip.stiffness_alike(material), contact, law)
     }
 
     /// [`Self::solve`] with the stiffness of a sector that moves like all others.
@@ -46,31 +46,45 @@ impl SectorSliding {
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(contact.sliding_direction(), surface_speed);
         let points = points(sector, friction);
-        let (free, dofs) = (2 * sector.free_node_count(), 2 * sector.node_count());
-        let full = FullSliding::new(stiffness, Elimination::holding(dofs, free..dofs), &points)?;
-        let state = full.state(&vec![0.0; dofs], contact.interference, law)?;
-        let step = 180.0 / sector.sector_count() as f64;
-        let place = |i: usize| {
-            let node = sector.contact_start + i;
-            (sector.numbering[node] + 1, step * sector.half_step(node) as f64)
+        let (strip, first) = (&sector.strip, sector.contact_nodes().start);
+        let pressing = Pressing {
+            stiffness,
+            load: vec![0.0; strip.dof_count()],
+            elimination: Elimination::holding(strip.dof_count(), strip.held_dofs()),
+            points: &points,
+            contacts: Vec::new(),
+            pushed: vec![contact.interference; points.len()],
+            stiffnesses: points.iter().map(|own| Some(own.weight * law?.stiffness(0.0))).collect(),
+            laws: vec![law; points.len()],
+            known: None,
         };
-        check_pressed(&points, (&state.normal_forces[0], sector.sector_count()), place)?;
+        // Without friction, on which the normal forces do not depend.
+        let all = vec![true; points.len()];
+        let (separations, springs) = match PenaltyContact::new(&pressing)? {
+            Some(mut bodies) => {
+                let own = bodies.state_of(0.0, &all)?;
+                (own.separations, own.stiffnesses)
+            }
+            None => (pressing.pushed.clone(), None),
+        };
+        let full = FullSliding::new(stiffness, pressing.elimination.clone(), &points)?;
+        let state = PressedState {
+            stiffnesses: springs.into_iter().collect(),
+            ..full.state(&pressing.load, &separations)
+        };
+        let step = 180.0 / strip.count as f64;
+        let place = |i: usize| {
+            let node = sector.numbering[first + i];
+            (node + 1, step * strip.places[node].1 as f64)
+        };
+        check_pressed(&points, (&state.normal_forces[0], strip.count), place)?;
         Ok(Self { state, points })
     }
 
     /// The state of the whole annulus: the same in the polar frames of each sector.
-    pub fn repeated(&self, annulus: &AnnulusMesh, sector: &SectorMesh) -> PressedState {
-        let (per_sector, count) = (annulus.sector_node_count(), annulus.sector_count());
-        let repeat = |own: &Vec<f64>| {
-            let mut values = vec![0.0; annulus.mesh.dof_count()];
-            for (sector_node, pair) in own.chunks_exact(2).enumerate() {
-                let position = sector.numbering[sector_node];
-                for start in (0..count).map(|j| j * per_sector) {
-                    values[2 * (start + position)..][..2].copy_from_slice(pair);
-                }
-            }
-            values
-        };
+    pub fn repeated(&self, sector: &SectorMesh) -> PressedState {
+        let (strip, count) = (&sector.strip, sector.strip.count);
+        let repeat = |own: &Vec<f64>| strip.spread(own)[..strip.dof_count()].repeat(count);
         let over_nodes = |values: &Vec<f64>| values.repeat(count);
         PressedState {
             displacements: self.state.displacements.iter().map(repeat).collect(),

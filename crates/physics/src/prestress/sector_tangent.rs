@@ -1,13 +1,12 @@
-//! The terms of a plane annulus in steady sliding.
+//! The small motions of a body of equal sectors around its steady sliding.
 
 use super::wave_tangent::WaveContact;
 use super::wave_terms::WaveTerms;
-use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
-use crate::contact::{Point, Row, SlidingContact, Turning, scaled};
+use super::{PrestressError, SectorSliding, SolidSliding, TangentOptions, WaveTangent};
+use crate::contact::{Point, PressedState, Row, SlidingContact, Turning, arc_stencil, scaled};
 use crate::fem::MaterialField;
 use crate::fem::fold::dof_ahead;
-use crate::fem::sector::Sectored;
-use crate::mesh::SectorMesh;
+use crate::mesh::{SectorMesh, SolidSector, Strip};
 use std::f64::consts::PI;
 
 impl WaveTangent {
@@ -21,88 +20,150 @@ impl WaveTangent {
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
-        let mut terms =
-            WaveTerms::of_sector(sector, material, options, sector.supports(options.mass));
+        let terms = WaveTerms::of_strip(&sector.strip, material, options, false);
         let base = SectorSliding::of(sector, &terms.alike(), contact, options.contact.law)?;
-        let edge = Edge { sector, base: &base };
-        if options.geometric_stiffness {
-            terms.take_stress(sector, material, [0, 1].map(|p| &base.state.displacements[p][..]));
-            terms.add_turning(sector, (&base.points, &edge.turnings(), &base.state));
+        let touching = Touching::edge(sector, base);
+        Ok(touching.tangent((&sector.strip, material), terms, (options, contact)))
+    }
+
+    /// Finds the steady sliding state of a body of revolution and linearises around it.
+    ///
+    /// # Errors
+    /// [`PrestressError`] where that state does not exist, [`PrestressError::AtRest`] where the rotor does not turn.
+    pub fn of_revolution(
+        sector: &SolidSector,
+        material: &dyn MaterialField,
+        options: &TangentOptions,
+        contact: &SlidingContact,
+    ) -> Result<Self, PrestressError> {
+        if contact.rotation_speed == 0.0 {
+            return Err(PrestressError::AtRest);
         }
-        edge.add_terms(options, &mut terms);
-        let (own, parts) = ((sector, sector.wave_dofs()), (terms, edge.dofs(options)));
-        Ok(Self::new(own, parts, options, contact.sliding_direction()))
+        let terms = WaveTerms::of_strip(&sector.strip, material, options, false);
+        let stiffness = &options.contact;
+        let base = SolidSliding::of(sector, &terms.alike(), contact, stiffness, options.mass)?;
+        let touching = Touching::face(sector, base);
+        Ok(touching.tangent((&sector.strip, material), terms, (options, contact)))
     }
 }
 
-/// The contact edge of a sector in steady sliding.
-struct Edge<'a> {
-    sector: &'a SectorMesh,
-    base: &'a SectorSliding,
+/// The contact of one sector in steady sliding.
+struct Touching {
+    base: SectorSliding,
+    /// How its points turn.
+    turnings: Vec<Turning>,
+    /// The points at which the law of the contact acts, and their state.
+    points: Vec<Point>,
+    state: PressedState,
+    /// Nodes of each place of the contact, the other body's behind its own, and whether it is pressed.
+    places: Vec<Vec<usize>>,
+    is_pressed: Vec<bool>,
 }
 
-impl Edge<'_> {
-    fn dofs(&self, options: &TangentOptions) -> WaveContact {
-        let nodes = self.sector.contact_nodes();
-        let has_springs = !self.base.state.stiffnesses.is_empty();
-        let is_rigid = options.contact.normal_stiffness.is_none() && !has_springs;
-        let rigid = self
-            .base
-            .points
-            .iter()
-            .filter(|_| is_rigid)
-            .map(|point| (point.normal[0].0, scaled(&point.slip, point.friction.drag)));
-        let both = |node: usize| std::iter::once(node).chain(self.sector.opposite(node));
-        let place = |node| both(node).flat_map(|node| [2 * node, 2 * node + 1]).collect();
-        let pairs = nodes.clone().filter_map(|n| Some([2 * n, 2 * self.sector.opposite(n)?]));
-        WaveContact {
-            normal: 0,
-            places: nodes.clone().map(place).collect(),
-            is_pressed: vec![true; nodes.len()],
-            pairs: pairs.collect(),
-            rigid: rigid.collect(),
-            pressed_nodes: nodes.flat_map(both).collect(),
-        }
-    }
-
-    /// Adds the contact over the distances across it: of a pair that of the annulus's node stands for its separation.
-    fn add_terms(&self, options: &TangentOptions, terms: &mut WaveTerms) {
+impl Touching {
+    /// The contact edge of an annulus, which acts over the distances across it: of a pair that of the annulus's node stands for its
+    /// separation.
+    fn edge(sector: &SectorMesh, base: SectorSliding) -> Self {
         let over_distance =
             |point: &Point| Point { normal: point.normal[..1].to_vec(), ..point.clone() };
-        let points: Vec<Point> = self.base.points.iter().map(over_distance).collect();
-        terms.add_points(self.sector, (&points, &self.base.state), &options.contact);
+        let nodes = sector.contact_nodes();
+        let both = |node: usize| [node].into_iter().chain(sector.opposite(node)).collect();
+        Self {
+            turnings: turnings_of_edge(sector),
+            points: base.points.iter().map(over_distance).collect(),
+            state: base.state.clone(),
+            is_pressed: base.state.is_pressed.clone(),
+            places: nodes.map(both).collect(),
+            base,
+        }
     }
 
-    /// How the contact turns: on a rigid cylinder with the angle `u_t / a`. Of two bodies it stays normal to the common surface, at the
-    /// place of the annulus's node: with the derivatives along the arc of the shaft's displacement, `u_n' - u_t / a` and
-    /// `u_t' + u_n / a`.
-    fn turnings(&self) -> Vec<Turning> {
-        let (sector, slopes) = (self.sector, self.slopes());
-        let (curvature, dofs) = (1.0 / sector.specification.inner_radius, sector.dofs());
-        let shaft = |i: usize| sector.opposite(sector.contact_start + i).map(|node| 2 * node);
-        let turning = |i: usize| {
-            let own = shaft(i).into_iter();
-            let mut tilt: Row = own.clone().map(|dof| (dof + 1, -curvature)).collect();
-            let mut stretch: Row = own.map(|dof| (dof, curvature)).collect();
-            for &(_, j, ahead, slope) in slopes.iter().filter(|own| own.0 == i) {
-                if let Some(dof) = shaft(j) {
-                    tilt.push((dof_ahead(dof, ahead, dofs), curvature * slope));
-                    stretch.push((dof_ahead(dof + 1, ahead, dofs), curvature * slope));
-                }
+    /// The face of a body of revolution, ring by ring. It turns about the axis on a cylinder, while on a face it is the sliding
+    /// that does.
+    fn face(sector: &SolidSector, own: SolidSliding) -> Self {
+        let is_cylinder = sector.specification.contact.face().normal_component() == 0;
+        let turning = |point: &Point| {
+            let curvature = 1.0 / sector.nodes[point.normal[0].0 / 3].radius;
+            match is_cylinder {
+                true => Turning::along(curvature, Default::default()),
+                false => Turning { veer: scaled(&point.slip, -curvature), ..Turning::default() },
             }
-            Turning::along(curvature, [tilt, stretch])
         };
-        (0..sector.contact_count).map(turning).collect()
+        let (points, state) = own.points(sector);
+        Self {
+            turnings: own.sliding.points.iter().map(turning).collect(),
+            points,
+            state,
+            places: sector.rings.iter().map(|ring| ring.nodes.clone()).collect(),
+            is_pressed: own.is_pressed,
+            base: own.sliding,
+        }
     }
 
-    /// Derivative along the angle at the contact nodes, `u'_i = sum d_ij u_j`, the mean of both elements' at a corner:
-    /// `(i, j, halves of a sector from i to j, d_ij)`.
-    fn slopes(&self) -> Vec<(usize, usize, isize, f64)> {
-        let share = self.sector.sector_count() as f64 / (4.0 * PI);
-        let differences = match self.sector.contact_count {
-            1 => vec![(0, 0, 2, share)],
-            _ => vec![(0, 0, 2, -share), (0, 1, 1, 4.0 * share), (1, 0, 1, 2.0 * share)],
-        };
-        differences.into_iter().flat_map(|(i, j, k, d)| [(i, j, k, d), (i, j, -k, -d)]).collect()
+    fn tangent(
+        self,
+        (strip, material): (&Strip, &dyn MaterialField),
+        mut terms: WaveTerms,
+        (options, contact): (&TangentOptions, &SlidingContact),
+    ) -> WaveTangent {
+        let SectorSliding { points, state } = &self.base;
+        if options.geometric_stiffness {
+            terms.take_stress(strip, material, state);
+            terms.add_turning(strip, (points, &self.turnings, state));
+        }
+        terms.add_points(strip, (&self.points, &self.state), &options.contact);
+        let dofs = self.dofs(strip.mesh.dimension, options);
+        WaveTangent::new(strip, (terms, dofs), options, contact.sliding_direction())
     }
+
+    /// The dofs of the contact; those of a place are free to move along the normal.
+    fn dofs(self, components: usize, options: &TangentOptions) -> WaveContact {
+        let SectorSliding { points, .. } = &self.base;
+        let is_rigid = options.contact.normal_stiffness.is_none() && options.contact.law.is_none();
+        let rigid = points.iter().filter(|_| is_rigid).map(|point| {
+            let (normal, along) = point.normal[0];
+            (normal, scaled(&point.slip, along * point.friction.drag))
+        });
+        let pairs = points.iter().filter_map(|point| match point.normal[..] {
+            [(own, _), (other, _)] => Some([own, other]),
+            _ => None,
+        });
+        let nodes = points.iter().flat_map(|point| &point.normal).map(|own| own.0 / components);
+        let dofs = |nodes: &Vec<usize>| {
+            nodes.iter().flat_map(|node| components * node..components * (node + 1)).collect()
+        };
+        WaveContact {
+            normal: points[0].normal[0].0 % components,
+            places: self.places.iter().map(dofs).collect(),
+            pairs: pairs.collect(),
+            rigid: rigid.collect(),
+            pressed_nodes: nodes.collect(),
+            is_pressed: self.is_pressed,
+        }
+    }
+}
+
+/// How the contact edge of an annulus turns: on a rigid cylinder with the angle `u_t / a`. Of two bodies it stays normal to the
+/// common surface, at the place of the annulus's node: with the derivatives along the arc of the shaft's displacement,
+/// `u_n' - u_t / a` and `u_t' + u_n / a`.
+fn turnings_of_edge(sector: &SectorMesh) -> Vec<Turning> {
+    let (first, count) = (sector.contact_nodes().start, sector.contact_nodes().len());
+    let curvature = 1.0 / sector.specification.inner_radius;
+    let per_arc = (count * sector.strip.count) as f64 / (2.0 * PI) * curvature;
+    let shaft = |i: usize| sector.opposite(first + i).map(|node| 2 * node);
+    let turning = |i: usize| {
+        let own = shaft(i).into_iter();
+        let mut tilt: Row = own.clone().map(|dof| (dof + 1, -curvature)).collect();
+        let mut stretch: Row = own.map(|dof| (dof, curvature)).collect();
+        for &(offset, weight) in arc_stencil(count > 1, i) {
+            let other = (i as isize + offset).rem_euclid(count as isize) as usize;
+            let ahead = |dof| dof_ahead(dof, 2 * offset / count as isize, sector.strip.dof_count());
+            if let Some(dof) = shaft(other) {
+                tilt.push((ahead(dof), weight * per_arc));
+                stretch.push((ahead(dof + 1), weight * per_arc));
+            }
+        }
+        Turning::along(curvature, [tilt, stretch])
+    };
+    (0..count).map(turning).collect()
 }

@@ -1,7 +1,8 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
-use crate::contact::{NormalLaw, Point, SlidingContact, SteadyFriction};
-use crate::fem::solid::{FaceRule, WHOLE_ELEMENT};
+use super::SectorSliding;
+use crate::contact::{NormalLaw, Point, PressedState, SlidingContact, SteadyFriction, scaled};
+use crate::fem::solid::{FacePoint, FaceRule, WHOLE_ELEMENT, face_points};
 use crate::mesh::{FaceElement, SolidSector};
 
 /// The state of steady sliding of a body of revolution, the same in every sector.
@@ -17,13 +18,9 @@ use crate::mesh::{FaceElement, SolidSector};
 /// face where that is positive, at the nodes of linear elements with lumped mass. Vectors hold `(u_r, u_theta, u_z)` of each sector node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidSliding {
-    /// Displacement without friction `u_0`, m.
-    pub pressed_displacement: Vec<f64>,
-    /// Displacement for each unit of friction coefficient `u_1`, m.
-    pub sheared_displacement: Vec<f64>,
-    /// Normal force on each contact node of the sector `(node, N)`, N; negative at corners of faces with mid-side nodes, where it
-    /// is the force of a pressure that is not.
-    pub normal_forces: Vec<(usize, f64)>,
+    /// Displacements, and the nodes of the contact that have a normal force; it is negative at corners of faces with mid-side nodes,
+    /// where it is the force of a pressure that is not.
+    pub sliding: SectorSliding,
     /// Whether each ring of the contact is pressed.
     pub is_pressed: Vec<bool>,
     /// Pressure at each ring, Pa: its force over its tributary area, or that of the spring.
@@ -39,21 +36,21 @@ pub struct SolidSliding {
 }
 
 impl SolidSliding {
-    /// Displacement at a friction coefficient, m.
-    pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
-        let both = self.pressed_displacement.iter().zip(&self.sheared_displacement);
-        both.map(|(a, b)| a + friction_coefficient * b).collect()
-    }
-
     /// Slip speed `V = |Omega| r`, m/s, and friction of steady sliding at a radius.
     pub fn friction(&self, radius: f64) -> (f64, SteadyFriction) {
         (self.contact.rotation_speed.abs() * radius, friction(&self.contact, radius))
     }
 
+    /// Sector node and normal force of each pressed node, N.
+    pub fn normal_forces(&self) -> impl Iterator<Item = (usize, f64)> {
+        let SectorSliding { points, state } = &self.sliding;
+        points.iter().map(|point| point.normal[0].0 / 3).zip(state.normal_forces[0].iter().copied())
+    }
+
     /// Friction torque of the whole body at a friction coefficient, N m.
     pub fn torque(&self, sector: &SolidSector, friction_coefficient: f64) -> f64 {
-        let arms = self.normal_forces.iter().map(|(node, force)| {
-            let radius = sector.nodes[*node].radius;
+        let arms = self.normal_forces().map(|(node, force)| {
+            let radius = sector.nodes[node].radius;
             self.friction(radius).1.drag * force * radius
         });
         friction_coefficient * arms.sum::<f64>() * sector.sector_count() as f64
@@ -61,8 +58,7 @@ impl SolidSliding {
 
     /// Normal force of the whole contact over its area, Pa.
     pub fn mean_pressure(&self, sector: &SolidSector) -> f64 {
-        let force: f64 = self.normal_forces.iter().map(|(_, force)| force).sum();
-        force / sector.contact_area()
+        self.normal_forces().map(|own| own.1).sum::<f64>() / sector.contact_area()
     }
 
     /// Pressure along the contact by the places of the rings, for the elements of the face: through the two rings at the ends of an
@@ -89,6 +85,38 @@ impl SolidSliding {
             None => self.pressures_over(sector).pressed_span(element),
             Some(_) => self.approaches_over(sector).pressed_span(element),
         }
+    }
+
+    /// The places of the face as points, and their state.
+    pub(super) fn points(&self, sector: &SolidSector) -> (Vec<Point>, PressedState) {
+        let face = sector.specification.contact.face();
+        let mut state = PressedState::default();
+        let (mut points, mut forces, mut springs) = (Vec::new(), Vec::new(), Vec::new());
+        for element in sector.contact_elements() {
+            let span = self.pressed_span(sector, &element);
+            for FacePoint { area, radius, along, rows } in
+                face_points(sector, &element, span, self.rule)
+            {
+                let (speed, friction) = self.friction(radius);
+                let pressure = self.pressure_along(sector, &element, along);
+                points.push(Point {
+                    weight: area,
+                    normal: scaled(&rows[face.normal_component()], face.inward_sign()),
+                    slip: rows[1].clone(),
+                    across: rows[face.across_component()].clone(),
+                    speed,
+                    friction,
+                    ..Point::default()
+                });
+                state.is_pressed.push(pressure > 0.0);
+                forces.push(area * pressure);
+                let approach = || self.approach_along(sector, &element, along);
+                springs.extend(self.law.map(|law| area * law.stiffness(approach())));
+            }
+        }
+        state.normal_forces = vec![forces];
+        state.stiffnesses = self.law.map(|_| springs).into_iter().collect();
+        (points, state)
     }
 
     fn pressures_over<'a>(&'a self, sector: &'a SolidSector) -> OverRings<'a> {

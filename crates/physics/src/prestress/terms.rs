@@ -10,7 +10,7 @@
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
 use crate::fem::{
     MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_patch_damping,
-    assemble_point_masses, assemble_support, region_mass,
+    assemble_point_masses, assemble_support, region_mass, region_stiffnesses,
 };
 use crate::linalg::c64;
 use crate::mesh::Mesh;
@@ -294,9 +294,17 @@ impl<M: Default + PartialEq> Terms<M> {
 }
 
 impl Terms<Triplets> {
-    /// Those of a mesh over all its dofs without stress and rotation: regions, of which the stiffness is given, supports
-    /// unless all of it is free, and modifications.
+    /// Those of a mesh over all its dofs without stress and rotation.
     pub fn of_mesh(
+        (mesh, material): (&Mesh, &dyn MaterialField),
+        is_free: bool,
+        options: &TangentOptions,
+    ) -> Self {
+        Self::of_elastic((mesh, material), region_stiffnesses(mesh, material), is_free, options)
+    }
+
+    /// [`Self::of_mesh`] with the stiffness of each region: regions, supports unless all of it is free, and modifications.
+    pub(super) fn of_elastic(
         (mesh, material): (&Mesh, &dyn MaterialField),
         elastic: Vec<Triplets>,
         is_free: bool,

@@ -4,10 +4,10 @@ use super::terms::{Kind, Part, Term, Terms, of_kind};
 use super::wave_terms::WaveTerms;
 use super::{FrictionPolynomial, HarmonicTangent, TabledGain, TangentOptions};
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::sector::Sectored;
 use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
+use crate::mesh::Strip;
 
 /// [`super::SlidingTangent`] of a body of equal sectors that are their own mirror images, from the matrices of one of them.
 ///
@@ -72,28 +72,31 @@ pub(super) struct WaveContact {
 impl WaveTangent {
     /// A body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots
     /// of its supports.
-    pub fn of_free<S: Sectored>(
-        sector: &S,
+    pub fn of_free(
+        strip: &Strip,
         material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,
         is_held: bool,
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
-        let (supports, dofs) = match is_held {
-            true => (sector.supports(mass), sector.wave_dofs()),
-            false => (Vec::new(), sector.wave_dofs().unheld()),
-        };
-        let terms = WaveTerms::of_sector(sector, material, &options, supports);
-        Self::new((sector, dofs), (terms, WaveContact::default()), &options, 1.0)
+        let terms = WaveTerms::of_strip(strip, material, &options, !is_held);
+        let parts = (terms, WaveContact::default());
+        match is_held {
+            true => Self::new(strip, parts, &options, 1.0),
+            false => Self::new(&strip.unheld(), parts, &options, 1.0),
+        }
     }
 
-    pub(super) fn new<S: Sectored>(
-        (sector, dofs): (&S, WaveDofs),
+    pub(super) fn new(
+        strip: &Strip,
         (terms, mut contact): (WaveTerms, WaveContact),
         options: &TangentOptions,
         sliding_direction: f64,
     ) -> Self {
+        // A node of the other body takes part in the motion of its pair.
+        let mut dofs = strip.wave_dofs();
+        dofs.half_bandwidth += 2 * contact.pairs.len();
         let place = |dof: usize| dofs.unknown_of[dof];
         let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
         let total = dofs.unknown_of.len();
@@ -112,8 +115,8 @@ impl WaveTangent {
             moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
             options: *options,
             unknowns,
-            components: sector.strip().dimension,
-            nodes: (0..sector.strip().node_count() / 2).map(|node| sector.place(node)).collect(),
+            components: strip.mesh.dimension,
+            nodes: strip.places[..strip.node_count()].to_vec(),
             dofs,
             terms,
             contact,

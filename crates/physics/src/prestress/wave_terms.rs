@@ -1,11 +1,12 @@
 //! The terms of one sector that the tangent of its waves is made of.
 
 use super::TangentOptions;
-use super::terms::{Kind, Part, PartLaw, Term, Terms};
+use super::tangent::geometric_stiffness;
+use super::terms::{Kind, Part, Term, Terms};
 use crate::contact::{ContactStiffness, Point, PressedState, Turning, linearized, turned};
 use crate::fem::fold::{MirrorParity, SectorMatrix};
-use crate::fem::sector::{self, SectorSupport, Sectored, at_places};
 use crate::fem::{MaterialField, Triplets};
+use crate::mesh::Strip;
 
 /// Matrices of a sector; of odd parity is what comes with each unit of friction.
 pub(super) type WaveTerms = Terms<SectorMatrix>;
@@ -18,22 +19,15 @@ impl Term<SectorMatrix> {
 }
 
 impl WaveTerms {
-    /// Regions without stress, and supports of a sector.
-    pub(super) fn of_sector<S: Sectored>(
-        sector: &S,
+    /// Regions without stress, and supports of a sector unless all of it is free.
+    pub(super) fn of_strip(
+        strip: &Strip,
         material: &dyn MaterialField,
         options: &TangentOptions,
-        supports: Vec<SectorSupport>,
+        is_free: bool,
     ) -> Self {
-        let mut own = Self::new(options);
-        for region in 0..sector.strip().regions.len().max(1) {
-            let mass = sector::mass(sector, material, options.mass, Some(region));
-            let elastic = sector::stiffness(sector, material, Some(region));
-            own.add_region(PartLaw::of(material, region, options.damping), [mass, elastic]);
-        }
-        for SectorSupport { name, terms, loss_factor } in supports {
-            own.add_support(name, terms, loss_factor);
-        }
+        let terms = Terms::of_mesh((&strip.mesh, material), is_free, options);
+        let mut own = terms.map(|_, matrix| strip.folded(&matrix));
         own.add_contact(options.contact.loss_factor);
         own
     }
@@ -45,35 +39,38 @@ impl WaveTerms {
         SectorMatrix::alike_in_all(&bodies.collect::<Vec<_>>())
     }
 
-    /// Takes up the stress of the displacements without friction and for each unit of it.
-    pub(super) fn take_stress<S: Sectored>(
+    /// Takes up the stress of a base state of the sector.
+    pub(super) fn take_stress(
         &mut self,
-        sector: &S,
+        strip: &Strip,
         material: &dyn MaterialField,
-        states: [&[f64]; 2],
+        state: &PressedState,
     ) {
+        let displacements = state.displacements.iter().map(|own| strip.spread(own)).collect();
+        let state = PressedState { displacements, ..PressedState::default() };
         for region in 0..self.regions().len() {
-            let stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
+            let stress = geometric_stiffness((&strip.mesh, material), &state, region);
+            let stress = stress.iter().map(|own| strip.folded(own));
             self.add(Part::Body(region), Kind::Prestress, stress);
         }
     }
 
     /// Adds what the forces of points do that turn with small motions, [`turned`].
-    pub(super) fn add_turning<S: Sectored>(
+    pub(super) fn add_turning(
         &mut self,
-        sector: &S,
+        strip: &Strip,
         (points, turnings, state): (&[Point], &[Turning], &PressedState),
     ) {
         let own = turned(points, turnings, (state, 0));
-        let own = own.iter().map(|own| at_places(sector, own));
+        let own = own.iter().map(|own| strip.at_places(own));
         self.add(Part::Contact(0), Kind::Prestress, own);
     }
 
     /// Adds contact at points around a state that does not depend on friction. The dashpots of friction, which come with the first
     /// power of it, are of even parity and stand by themselves.
-    pub(super) fn add_points<S: Sectored>(
+    pub(super) fn add_points(
         &mut self,
-        sector: &S,
+        strip: &Strip,
         (points, state): (&[Point], &PressedState),
         stiffness: &ContactStiffness,
     ) {
@@ -82,7 +79,7 @@ impl WaveTerms {
         let forces = PressedState { stiffnesses: Vec::new(), ..state.clone() };
         let friction = linearized(points, (&forces, 0), &ContactStiffness::default()).dashpots;
         let mut add = |kind, own: &[Triplets]| {
-            self.add(Part::Contact(0), kind, own.iter().map(|own| at_places(sector, own)));
+            self.add(Part::Contact(0), kind, own.iter().map(|own| strip.at_places(own)));
         };
         add(Kind::Stiffness, &law.stiffness);
         add(Kind::Dashpots, &law.dashpots);

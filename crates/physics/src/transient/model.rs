@@ -9,15 +9,12 @@ use super::relaxation::Relaxation;
 use super::settings::{check_times, stable_step_limit, stiffening};
 use super::{Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
-use crate::fem::fold::SectorMatrix;
 use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
-use crate::fem::sector::{extra_damping, supports};
-use crate::fem::solid::pressure_load;
 use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
     assemble_supports,
 };
-use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector};
+use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector, Strip};
 use crate::prestress::Assembly;
 use nalgebra::Vector3;
 
@@ -96,9 +93,8 @@ impl<'a> TransientModel<'a> {
     /// The mesh of all dofs; a body of revolution has none.
     pub fn mesh(&self) -> Option<&'a Mesh> {
         match self.body {
-            SteppedBody::Plane { mesh, .. } => Some(mesh),
             SteppedBody::Revolution(_) => None,
-            SteppedBody::Assembly { assembly, .. } => Some(assembly.mesh),
+            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => Some(self.own_mesh()),
         }
     }
 
@@ -110,15 +106,26 @@ impl<'a> TransientModel<'a> {
         }
     }
 
+    /// The mesh that its matrices are made of: of a body of revolution that of a sector.
+    fn own_mesh(&self) -> &'a Mesh {
+        match self.body {
+            SteppedBody::Plane { mesh, .. } => mesh,
+            SteppedBody::Revolution(sector) => &sector.strip.mesh,
+            SteppedBody::Assembly { assembly, .. } => assembly.mesh,
+        }
+    }
+
+    /// A matrix of [`Self::own_mesh`] over all dofs, of a body of revolution in all its sectors.
+    fn everywhere(&self, matrix: Triplets) -> Triplets {
+        match self.body {
+            SteppedBody::Revolution(sector) => in_all_sectors(&sector.strip, &matrix),
+            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => matrix,
+        }
+    }
+
     /// Springs (N/m) and dashpots (N s/m) of the supports over all dofs.
     fn supports(&self) -> [Triplets; 2] {
-        match self.body {
-            SteppedBody::Plane { mesh, .. } => assemble_supports(mesh),
-            SteppedBody::Revolution(sector) => {
-                supports(sector, MassKind::Lumped).map(|matrix| everywhere(sector, &matrix))
-            }
-            SteppedBody::Assembly { assembly, .. } => assembly.joined.supports.clone(),
-        }
+        assemble_supports(self.own_mesh()).map(|matrix| self.everywhere(matrix))
     }
 
     /// Distance of a node from the axis, of a plane body from the origin (m), and its angle about it (rad).
@@ -196,11 +203,7 @@ impl<'a> TransientModel<'a> {
             bound.stiffness_coefficient =
                 bound.stiffness_coefficient.max(own.stiffness_coefficient);
         };
-        let mesh = match self.body {
-            SteppedBody::Plane { mesh, .. } => mesh,
-            SteppedBody::Revolution(sector) => &sector.strip,
-            SteppedBody::Assembly { assembly, .. } => assembly.mesh,
-        };
+        let mesh = self.own_mesh();
         let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
         for e in (0..mesh.element_count()).filter(|&e| is_part(first_dof(e))) {
             cover(self.material.own_damping(mesh.region(e)).unwrap_or(self.damping));
@@ -222,21 +225,13 @@ impl<'a> TransientModel<'a> {
         if beta != 0.0 {
             damping.entries.extend(springs.scaled(-beta).entries);
         }
-        let (material, kind, common) = (self.material, MassKind::Lumped, self.damping);
-        let own = match self.body {
-            SteppedBody::Revolution(sector) => {
-                everywhere(sector, &extra_damping(sector, material, kind, common))
-            }
-            SteppedBody::Plane { mesh, .. }
-            | SteppedBody::Assembly { assembly: &Assembly { mesh, .. }, .. } => {
-                assemble_extra_damping(mesh, material, kind, common)
-            }
-        };
+        let (mesh, kind) = (self.own_mesh(), MassKind::Lumped);
+        let own = self.everywhere(assemble_extra_damping(mesh, self.material, kind, self.damping));
         damping.entries.extend(own.entries);
         let pressure = match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
-            SteppedBody::Revolution(sector) => {
-                Some(pressure_load(sector).repeat(sector.sector_count()))
+            SteppedBody::Revolution(SolidSector { strip, .. }) => {
+                Some(strip.pressure_load().repeat(strip.count))
             }
             SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh)
                 .map(|load| assembly.joined.basis.transposed_forces(&load)),
@@ -288,9 +283,9 @@ impl<'a> TransientModel<'a> {
         match self.body {
             SteppedBody::Plane { mesh, .. } => mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0),
             SteppedBody::Revolution(sector) => {
-                let count = 3 * sector.node_count();
-                let held = (0..velocity.len()).filter(|dof| sector.is_held(dof % count));
-                held.for_each(|dof| velocity[dof] = 0.0);
+                for own in velocity.chunks_exact_mut(sector.strip.dof_count()) {
+                    sector.strip.held_dofs().for_each(|dof| own[dof] = 0.0);
+                }
             }
             SteppedBody::Assembly { assembly, .. } => {
                 let unknowns = assembly.joined.basis.unknowns();
@@ -334,10 +329,11 @@ impl<'a> TransientModel<'a> {
 }
 
 /// A matrix of bricks with 8 nodes, in all sectors.
-fn everywhere(sector: &SolidSector, matrix: &SectorMatrix) -> Triplets {
-    let (dofs, count) = (3 * sector.node_count(), sector.sector_count());
+fn in_all_sectors(strip: &Strip, matrix: &Triplets) -> Triplets {
+    let (dofs, count, matrix) = (strip.dof_count(), strip.count, strip.folded(matrix));
     let all = (0..count).flat_map(|s| {
-        matrix.entries().map(move |(i, j, halves_ahead, value)| {
+        let entries = matrix.entries();
+        entries.map(move |(i, j, halves_ahead, value)| {
             let other = (s + count).wrapping_add_signed(halves_ahead / 2) % count;
             (dofs * s + i, dofs * other + j, value)
         })

@@ -24,7 +24,7 @@ pub(super) struct Picture<'a> {
 impl<'a> Picture<'a> {
     pub fn new(sector: &'a SolidSector) -> Self {
         let sectors = sector.sector_count();
-        let [nr, nz] = sector.divisions();
+        let [nr, nz] = sector.specification.divisions();
         let find = |place: [usize; 2]| {
             let is_here = |node: &SheetNode| node.place == place && node.half_step == 0;
             sector.nodes.iter().position(is_here).unwrap_or(0)

@@ -60,7 +60,7 @@ impl RecordedRun<'_> {
     /// Elements times steps for each second of stepping.
     pub(super) fn element_steps_per_second(&self) -> f64 {
         let (body, solved) = (&self.body, self.solved);
-        let layers = body.sector.map_or(1, |sector| sector.divisions()[1]);
+        let layers = body.sector.map_or(1, |sector| sector.specification.divisions()[1]);
         let elements = (layers * body.mesh.element_count()) as f64;
         let stepping_s = solved.stepping_s.max(f64::MIN_POSITIVE);
         elements * solved.steps_timed as f64 / stepping_s

@@ -37,11 +37,11 @@ fn sliding_sector(
     let sliding = &case.contact.sliding;
     Ok(match &case.body.kind {
         BodyKind::Annulus(specification) => {
-            let annulus = AnnulusMesh::generate(specification)?;
+            let mesh = AnnulusMesh::generate(specification)?.mesh;
             let sector = SectorMesh::generate(specification)?;
             let materials = &case.body.materials;
             let base = SectorSliding::solve(&sector, materials, sliding, options.contact.law)?;
-            let (state, mesh) = (base.repeated(&annulus, &sector), annulus.mesh);
+            let state = base.repeated(&sector);
             let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
             let contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);
             (Arc::new(mesh), SteadyState::Mesh { contacts, state })
@@ -170,7 +170,7 @@ impl SlidingModel {
         let friction = case.contact.sliding.friction_coefficient;
         let (displacement, contacts) = match &self.state {
             SteadyState::Mesh { contacts, state } => (state.displacement(friction), &contacts[..]),
-            SteadyState::Solid(solid) => (solid.base.displacement(friction), &[][..]),
+            SteadyState::Solid(solid) => (solid.base.sliding.state.displacement(friction), &[][..]),
         };
         let surfaces = contacts.iter().filter(|(own, _)| !own.is_edge());
         let surfaces = surfaces.map(|(own, _)| (own.name.clone(), own.surface)).collect();

@@ -3,8 +3,7 @@
 use super::kernel::{LineLayout, solid::SheetCoupling};
 use super::stencil::{Blocks, StencilRows, sector_blocks};
 use super::{OperatorError, SectorStencil, SimdLevel};
-use crate::fem::fold::SectorMatrix;
-use crate::fem::{MassKind, MaterialField, sector};
+use crate::fem::{MassKind, MaterialField, assemble_mass, assemble_stiffness, assemble_supports};
 use crate::mesh::SolidSector;
 use std::collections::BTreeMap;
 
@@ -19,7 +18,6 @@ impl SectorStencil {
     pub fn of_revolution(
         sector: &SolidSector,
         material: &dyn MaterialField,
-        springs: &SectorMatrix,
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
         if sector.is_quadratic() {
@@ -27,8 +25,10 @@ impl SectorStencil {
         }
         let layout = LineLayout::new(3, sector.sector_count(), sector.node_count());
         let node_masses = nodal_masses(sector, material)?;
-        let elastic = sector::stiffness(sector, material, None);
-        let entries = elastic.entries().chain(springs.entries());
+        let [springs, _] = assemble_supports(&sector.strip.mesh);
+        let both = [assemble_stiffness(&sector.strip.mesh, material), springs];
+        let both = both.map(|own| sector.strip.folded(&own));
+        let entries = both.iter().flat_map(|own| own.entries());
         let blocks = sector_blocks(sector.node_count(), entries)?;
         let row = |(node, neighbours): (usize, &BTreeMap<usize, Blocks<3>>)| {
             let scale = [0, 1, 2].map(|c| match sector.is_held(3 * node + c) {
@@ -44,7 +44,7 @@ impl SectorStencil {
         let rows = blocks.iter().enumerate().map(row).collect();
         let mut own = Self {
             masses: vec![0.0; layout.field_length()],
-            rows: StencilRows::Sheet(rows, sector.node_bandwidth()),
+            rows: StencilRows::Sheet(rows, sector.strip.node_bandwidth()),
             first: 0,
             per_sector: sector.node_count(),
             layout,
@@ -63,7 +63,8 @@ fn nodal_masses(
     material: &dyn MaterialField,
 ) -> Result<Vec<f64>, OperatorError> {
     let mut masses = vec![0.0; sector.node_count()];
-    let lumped = sector::mass(sector, material, MassKind::Lumped, None);
+    let lumped =
+        sector.strip.folded(&assemble_mass(&sector.strip.mesh, material, MassKind::Lumped));
     let own = lumped.entries().filter(|&(row, column, ..)| row == column && row % 3 == 0);
     for (row, _, _, mass) in own {
         masses[row / 3] += mass;

@@ -1,6 +1,6 @@
 //! Elements of the faces of a body of revolution.
 
-use super::super::FaceKind;
+use super::super::ElementKind;
 use super::{SolidFace, SolidSector};
 
 /// One element's part of a face, in sector 0.
@@ -16,8 +16,8 @@ pub fn face_quadrature(is_quadratic: bool) -> impl Iterator<Item = ([f64; 2], f6
 }
 
 /// Kind of the elements of a face; parent axes lead across the sector, then along the face.
-fn kind(is_quadratic: bool) -> FaceKind {
-    if is_quadratic { FaceKind::Quad8 } else { FaceKind::Quad4 }
+fn kind(is_quadratic: bool) -> ElementKind {
+    if is_quadratic { ElementKind::Quad8 } else { ElementKind::Quad4 }
 }
 
 impl FaceElement {
@@ -31,7 +31,7 @@ impl FaceElement {
         let [from, to] = [0, 2].map(|corner| &sector.nodes[self.nodes[corner].0]);
         let half = 0.5 * (to.radius - from.radius).hypot(to.height - from.height);
         let measure = weight * half * self.radius_at(sector, at) * sector.half_angle();
-        let shapes = kind(sector.is_quadratic()).shape_functions(at).into_iter();
+        let shapes = kind(sector.is_quadratic()).shape_functions([at[0], at[1], 0.0]).into_iter();
         (shapes.map(|shape| shape.0).collect(), measure)
     }
 
@@ -56,12 +56,12 @@ impl FaceElement {
 impl SolidSector {
     /// The elements of a face.
     pub fn face_elements(&self, face: SolidFace) -> Vec<FaceElement> {
-        let [nr, nz] = self.divisions();
+        let [nr, nz] = self.specification.divisions();
         let count = if face.normal_component() == 0 { nz } else { nr };
         let places = self.specification.annulus.element.node_places();
         let find = |place: [usize; 2], half: usize| {
             let is_here =
-                |node: &super::SheetNode| node.place == place && node.half_step == half % 2;
+                |node: &crate::mesh::SheetNode| node.place == place && node.half_step == half % 2;
             self.nodes.iter().position(is_here).unwrap_or(0)
         };
         (0..count)

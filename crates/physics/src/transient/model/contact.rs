@@ -4,7 +4,7 @@ use super::{SteppedBody, TransientModel};
 use crate::contact::{ContactInterface, ContactSurface, CoulombFriction, Point, Row};
 use crate::fem::MassKind;
 use crate::fem::operator::StiffnessOperator;
-use crate::mesh::{Counterface, Mesh, SolidSector};
+use crate::mesh::{Counterface, SolidSector};
 use crate::prestress::{Assembly, PressedState, PrestressError, SolidSliding};
 use crate::transient::compliance::PressedPoint;
 use crate::transient::contact::ContactPart;
@@ -60,22 +60,26 @@ impl TransientModel<'_> {
     /// # Errors
     /// Where there is none.
     pub fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
-        let friction = self.contact.friction_coefficient;
-        Ok(match self.body {
-            SteppedBody::Plane { mesh, .. } => self.sliding_edge(mesh)?.displacement(friction),
+        let (state, copies) = match self.body {
             SteppedBody::Revolution(sector) => {
-                let own = self.sliding_face(sector)?.displacement(friction);
-                own.repeat(sector.sector_count())
+                (self.sliding_face(sector)?.sliding.state, sector.sector_count())
             }
-            SteppedBody::Assembly { assembly, .. } => {
-                assembly.state(friction)?.displacement(friction)
-            }
-        })
+            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => (self.sliding_state()?, 1),
+        };
+        Ok(state.displacement(self.contact.friction_coefficient).repeat(copies))
     }
 
-    fn sliding_edge(&self, mesh: &Mesh) -> Result<PressedState, PrestressError> {
-        let body = Assembly::of_edge(mesh, self.material, &self.contact, self.stiffness)?;
-        body.state(self.contact.friction_coefficient)
+    /// Steady sliding of a body that has a mesh.
+    fn sliding_state(&self) -> Result<PressedState, PrestressError> {
+        let friction = self.contact.friction_coefficient;
+        match self.body {
+            SteppedBody::Assembly { assembly, .. } => assembly.state(friction),
+            _ => {
+                let mesh = self.own_mesh();
+                let body = Assembly::of_edge(mesh, self.material, &self.contact, self.stiffness)?;
+                body.state(friction)
+            }
+        }
     }
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
@@ -177,13 +181,6 @@ impl TransientModel<'_> {
         let spring = |spring: f64| PressedPoint { spring, ..PressedPoint::default() };
         let force = |force: f64| PressedPoint { force, ..PressedPoint::default() };
         match self.body {
-            SteppedBody::Plane { mesh, .. } => {
-                let base = self.sliding_edge(mesh)?;
-                Ok(match self.stiffness.law {
-                    Some(_) => base.springs(friction).into_iter().map(spring).collect(),
-                    None => base.normal_forces(friction).into_iter().map(force).collect(),
-                })
-            }
             SteppedBody::Revolution(sector) => {
                 let base = self.sliding_face(sector)?;
                 let nodes = interface.nodes.iter().zip(&interface.tributary_lengths);
@@ -192,9 +189,13 @@ impl TransientModel<'_> {
                 });
                 Ok(point.collect())
             }
-            SteppedBody::Assembly { assembly, .. } => {
-                let springs = assembly.state(friction)?.springs(friction);
-                Ok(springs.into_iter().map(spring).collect())
+            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => {
+                let base = self.sliding_state()?;
+                let springs = base.springs(friction).into_iter().map(spring);
+                Ok(match base.stiffnesses.is_empty() {
+                    true => base.normal_forces(friction).into_iter().map(force).collect(),
+                    false => springs.collect(),
+                })
             }
         }
     }
@@ -208,14 +209,14 @@ impl TransientModel<'_> {
         area: f64,
     ) -> PressedPoint {
         let face = sector.specification.contact.face();
-        let normal = base.pressed_displacement[3 * node + face.normal_component()];
+        let normal = base.sliding.state.displacements[0][3 * node + face.normal_component()];
         // What the springs of a compliant base state have given way already is in its displacement.
         let given_way = match base.law {
             Some(_) => self.contact.interference - face.inward_sign() * normal,
             None => 0.0,
         };
         let spring = self.stiffness.law.map_or(0.0, |law| law.stiffness(given_way.max(0.0)));
-        let force = base.normal_forces.iter().find(|(own, _)| *own == node);
+        let force = base.normal_forces().find(|(own, _)| *own == node);
         PressedPoint { force: force.map_or(0.0, |own| own.1), spring: area * spring, given_way }
     }
 }

@@ -4,7 +4,6 @@ use super::{SteppedBody, TransientModel};
 use crate::fem::operator::{
     OperatorError, SectorStencil, SimdLevel, SparseOperator, StiffnessOperator,
 };
-use crate::fem::sector::supports;
 use crate::fem::{MassKind, assemble_mass};
 use crate::prestress::Assembly;
 use crate::transient::{OperatorChoice, TransientError};
@@ -36,9 +35,7 @@ impl TransientModel<'_> {
                 Err(OperatorError::NotPlane.into())
             }
             (SteppedBody::Revolution(sector), _) => {
-                let [springs, _] = supports(sector, MassKind::Lumped);
-                let material = self.material;
-                Ok(Box::new(SectorStencil::of_revolution(sector, material, &springs, simd)?))
+                Ok(Box::new(SectorStencil::of_revolution(sector, self.material, simd)?))
             }
             (SteppedBody::Assembly { .. }, OperatorChoice::Cyclic) => {
                 Err(OperatorError::NoSymmetry.into())
