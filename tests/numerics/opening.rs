@@ -69,6 +69,32 @@ fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
     }
 }
 
+/// Between 0.1 and 0.8 states are found round after round; where each of them ends tells it from the others.
+#[test]
+fn a_contact_state_between_two_friction_values_is_swept_once() {
+    let folder = block();
+    let name = folder.path().join("case.toml").display().to_string();
+    let case = case_of(name, CASE, &["contact.friction_coefficient=0.8".to_owned()]);
+    let cea = case.require_cea().unwrap();
+    let model = SlidingModel::new(&case, cea).unwrap();
+    let kept = Kept::default();
+    solve(&case, cea, &model, Some(&kept)).unwrap();
+    // Names as `round-2-state-1-value-0003-of-12-0.37`.
+    let mut ends: BTreeMap<String, f64> = BTreeMap::new();
+    for (name, _) in kept.steps.lock().unwrap().iter() {
+        let Some((sweep, value)) = name.split_once("-value-") else { continue };
+        let friction: f64 = value.split('-').nth(3).unwrap().parse().unwrap();
+        let end = ends.entry(sweep.to_owned()).or_default();
+        *end = end.max(friction);
+    }
+    assert!(ends.keys().any(|sweep| sweep.starts_with("round-2")), "{ends:?}");
+    let (asked, mut between): (Vec<f64>, Vec<f64>) = ends.values().partition(|end| **end == 0.8);
+    // That of 0.8 once more, as another one is found to end where it begins.
+    assert!(asked.len() <= 2, "{ends:?}");
+    between.sort_by(f64::total_cmp);
+    assert!(between.windows(2).all(|pair| pair[1] - pair[0] > 1e-6), "{ends:?}");
+}
+
 /// A strip on soft springs. Where its first node opens, near friction 0.514, the tenth and eleventh mode couple at 4.94 kHz; the list
 /// ends between them, before with the one that decays, beyond with the one that grows.
 const STRIP: &str = include_str!("../cases/strip-on-soft-springs.toml");

@@ -20,8 +20,6 @@ pub(super) fn is_vibration(value: c64) -> bool {
 pub(super) const WIDEST_GROWTH: f64 = 0.2;
 /// The same relative to the modes listed.
 const BEYOND_LISTED: f64 = 1.5;
-/// Distance of the two determinants that a slope is taken from, relative to the size of the range.
-pub(super) const STEP: f64 = 1e-4;
 
 /// A rectangle of the upper half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,6 +4,7 @@
 //! unstable. Two producers of problems: [`sparse`] for any body, [`cyclic`] harmonic by harmonic for a rotationally
 //! symmetric one. [`quadratic_modes`] solves small dense matrices whole, wherever they come from.
 
+mod accuracy;
 mod branch;
 mod counted;
 pub mod cyclic;

@@ -1,12 +1,9 @@
 //! Critical friction coefficients: roots of `Re lambda(mu) = 0` on a branch.
 
 use super::UnstableInterval;
+use super::accuracy::{NEAR, RESIDUAL_BOUND, SAME_EIGENVALUE};
 use super::branch::{BranchPoint, Cubic};
 use std::f64::consts::TAU;
-
-/// Growth relative to `|lambda|` at a change of sign above which the branch jumps there, unless it is as steep: another one was taken
-/// for it, and nothing crosses zero.
-const JUMP: f64 = 1e-6;
 
 /// Solves for one branch between friction coefficients at which it is known.
 pub(super) trait BranchSolver {
@@ -145,7 +142,7 @@ impl<B: BranchSolver> Search<'_, B> {
     fn grows_from_zero(&self, state: &B::State) -> bool {
         let (point, growth) = (self.solver.point(state), self.growth(state));
         let is_neutral = growth <= 0.0 && growth > -1e2 * self.round_off(state);
-        is_neutral && point.rate.re > 1e-9 * point.eigenvalue.norm()
+        is_neutral && point.rate.re > RESIDUAL_BOUND * point.eigenvalue.norm()
     }
 
     fn solve(
@@ -175,7 +172,7 @@ impl<B: BranchSolver> Search<'_, B> {
         let cubic = Cubic::between(&first, &last);
         // What the cubic may be wrong by, generously.
         let (a, b) = (first.eigenvalue.re, last.eigenvalue.re);
-        let doubt = 1e-4 * last.eigenvalue.norm() + 0.1 * (b - a).abs();
+        let doubt = NEAR * last.eigenvalue.norm() + 0.1 * (b - a).abs();
         let mut states = Vec::new();
         for t in cubic.turning_points() {
             let value = cubic.real_part(t);
@@ -248,7 +245,9 @@ impl<B: BranchSolver> Search<'_, B> {
         }
         let point = self.solver.point(&best);
         let steep = 10.0 * B::TOLERANCE * (1.0 + point.friction_coefficient) * point.rate.re.abs();
-        let has_root = height(self, &best).abs() <= steep.max(JUMP * point.eigenvalue.norm());
+        // Growth beyond that is a jump, unless it is as steep: another branch was taken for this one.
+        let has_root =
+            height(self, &best).abs() <= steep.max(SAME_EIGENVALUE * point.eigenvalue.norm());
         Ok(has_root.then_some(best))
     }
 }

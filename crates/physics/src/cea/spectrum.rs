@@ -1,16 +1,9 @@
 //! Results of a complex eigenvalue analysis, the same for every solver.
 
 use super::ModeCount;
+use super::accuracy::{RESIDUAL_BOUND, ROUNDING_ERRORS};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
-
-/// Relative distance of eigenvalues up to which they are one where their vectors are, or where friction moves neither.
-pub(super) const SAME_EIGENVALUE: f64 = 1e-6;
-/// Residual, relative to what it is one of, or length of a correction of a mode of unit length, at which it has converged: below that
-/// corrections are round-off.
-pub(super) const CONVERGED: f64 = 1e-11;
-/// Rounding errors of the terms of a sum up to which the sum is none but rounded.
-pub(super) const ROUNDING_ERRORS: f64 = 8.0;
 
 /// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0`, equation (1) with the contact in it, with `Im(lambda) >= 0`.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,10 +126,22 @@ impl FrictionPoint {
     pub fn known(&self) -> impl Iterator<Item = &ComplexMode> {
         self.modes.iter().chain(&self.above)
     }
-}
 
-/// Relative distance of two frequencies below which they are one: modes of a degenerate pair.
-const TIE: f64 = 1e-9;
+    /// About what it is at a friction coefficient between those of the point `before` and its own.
+    fn led_back(&self, before: &Self, friction_coefficient: f64) -> Self {
+        let [start, end] = [before, self].map(|point| point.friction_coefficient);
+        let share = (friction_coefficient - start) / (end - start);
+        let mut found = Self { friction_coefficient, ..self.clone() };
+        for mode in found.modes.iter_mut().chain(&mut found.above).filter(|own| own.branch > 0) {
+            let is_same =
+                |own: &&ComplexMode| (own.harmonic, own.branch) == (mode.harmonic, mode.branch);
+            if let Some(own) = before.known().find(is_same) {
+                mode.eigenvalue = own.eigenvalue + (mode.eigenvalue - own.eigenvalue) * share;
+            }
+        }
+        found
+    }
+}
 
 /// Number of leading modes to keep of those with the rising `frequencies` where `count` are wanted: more where
 /// the cut would split a pair of equal frequency, whose members have no order of their own.
@@ -145,7 +150,7 @@ pub fn keeping_ties(frequencies: impl Iterator<Item = f64>, count: usize) -> usi
     frequencies
         .enumerate()
         .take_while(|&(index, frequency)| {
-            let is_kept = index < count || frequency - last <= TIE * frequency;
+            let is_kept = index < count || frequency - last <= RESIDUAL_BOUND * frequency;
             last = frequency;
             is_kept
         })
@@ -226,6 +231,30 @@ impl FrictionSweep {
         crate::order::sort_by_number(&mut intervals, |a| a.critical_friction);
         crate::order::sort_by_number(&mut ended, |a| a.friction_coefficient);
         Self { points, intervals, ended, ..Self::default() }
+    }
+
+    /// What it is from a friction coefficient on, its points being by rising friction. Where that lies between two of them it has a point of
+    /// its own, with the eigenvalues of each branch on the straight line from one to the other.
+    pub fn since(&self, lower: f64) -> Self {
+        let mut found = self.clone();
+        let below = self.points.partition_point(|point| point.friction_coefficient < lower);
+        found.points.drain(..below);
+        if let (Some(before), Some(next)) = (self.points[..below].last(), found.points.first())
+            && next.friction_coefficient > lower
+        {
+            found.points.insert(0, next.led_back(before, lower));
+        }
+        let is_beyond = |mu: Option<f64>| mu.is_none_or(|mu| mu > lower);
+        found.ended.retain(|own| own.friction_coefficient >= lower || is_beyond(own.lost_before));
+        found.intervals.retain(|own| is_beyond(own.restabilized.map(|(mu, _)| mu)));
+        for own in found.intervals.iter_mut().filter(|own| own.critical_friction < lower) {
+            let mut first = found.points.iter().flat_map(FrictionPoint::known);
+            let mode = first.find(|mode| mode.branch > 0 && own.is_of(mode));
+            own.frequency_hz = mode.map_or(own.frequency_hz, ComplexMode::frequency_hz);
+            (own.critical_friction, own.unstable_from_start) = (lower, true);
+            (own.lost_after, own.crossing) = (None, None);
+        }
+        found
     }
 
     /// The modes at a friction coefficient; none where it was not solved.

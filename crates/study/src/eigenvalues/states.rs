@@ -19,7 +19,7 @@ struct Common<'a> {
     dofs: usize,
     /// What keeps a mesh of equal sectors from being solved by waves around it.
     asymmetry: Option<String>,
-    /// Sweeps of earlier rounds, by the pressed points of their state and their friction coefficients.
+    /// Sweeps so far, by the pressed points of their state and their friction coefficients.
     solved: Vec<(Vec<bool>, Vec<f64>, FrictionSweep)>,
 }
 
@@ -104,37 +104,40 @@ impl WholeMesh {
         for (k, state) in range.states.iter().enumerate() {
             let own = frictions.iter().zip(&range.state_of);
             let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
-            if values.is_empty() {
-                continue;
-            }
-            // Branches are followed up to the change on either side.
-            let before = k.checked_sub(1);
-            values.extend(before.map(|before| range.changes[before]));
-            values.extend(range.changes.get(k));
             values.sort_by(f64::total_cmp);
-            values.dedup();
-            let begin = before.map_or(values[0], |before| range.unknown_between(before).end);
-            let mut known = common.solved.iter();
-            let known =
-                known.find(|(set, at, _)| *set == state.is_pressed && are_same(at, &values));
+            let Some(&first) = values.first() else {
+                continue;
+            };
+            // Branches are followed from where the state before ends. A state between friction values asked for is
+            // solved where it begins to hold, too: another one may be found that ends there.
+            let unknown = k.checked_sub(1).map_or(first..first, |k| range.unknown_between(k));
+            let is_new = !common.request.friction_coefficients.iter().any(|mu| values.contains(mu));
+            if is_new || unknown.is_empty() {
+                values.insert(0, unknown.end);
+            }
+            values.extend(range.changes.get(k));
+            let known = common.solved.iter().find(|(set, at, _)| {
+                *set == state.is_pressed && values.iter().all(|mu| place_of(at, *mu).is_some())
+            });
             let sweep = match known {
-                Some((_, _, sweep)) => sweep.clone(),
+                Some((_, at, sweep)) => {
+                    sweep.since(place_of(at, unknown.start).unwrap_or(unknown.start))
+                }
                 None => {
-                    let name = match round {
-                        0 => format!("state-{k}-"),
-                        round => format!("round-{round}-state-{k}-"),
-                    };
+                    values.insert(0, unknown.start);
+                    values.dedup();
                     let own = SweepRequest {
                         friction_coefficients: &values,
                         is_continued: k > 0,
                         ..*common.request
                     };
+                    let name = format!("round-{round}-state-{k}-");
                     let sweep = self.part(state, &own, name, common)?;
                     common.solved.push((state.is_pressed.clone(), values, sweep.clone()));
                     sweep
                 }
             };
-            parts.push(Part { begin, sweep });
+            parts.push(Part { begin: unknown.end, sweep });
         }
         Ok(parts)
     }
@@ -167,10 +170,9 @@ impl WholeMesh {
 /// Difference of friction coefficients at which contact points open or close that is round-off.
 const SAME_CHANGE: f64 = 1e-8;
 
-/// Whether two lists are of the same friction coefficients.
-fn are_same(one: &[f64], other: &[f64]) -> bool {
-    let mut pairs = one.iter().zip(other);
-    one.len() == other.len() && pairs.all(|(a, b)| (a - b).abs() <= SAME_CHANGE)
+/// A friction coefficient among those of a sweep, as that has it.
+fn place_of(solved: &[f64], friction: f64) -> Option<f64> {
+    solved.iter().copied().find(|own| (own - friction).abs() <= SAME_CHANGE)
 }
 
 /// Where in a gap the next state is solved: where a branch may change its stability, every other time in the middle.

@@ -4,6 +4,7 @@ use super::follow::Follower;
 use super::path::{Eigenpair, Path, Waves};
 use super::paths::HarmonicPaths;
 use super::problem::HarmonicProblem;
+use crate::cea::accuracy::ROUND_OFF;
 use crate::cea::onset::{BranchSolver, instabilities};
 use crate::cea::{BranchPoint, ModeBranch};
 use std::convert::Infallible;
@@ -71,7 +72,7 @@ impl BranchSolver for WaveSolver<'_> {
     type State = BranchPoint;
     type Error = Infallible;
 
-    const TOLERANCE: f64 = 1e-13;
+    const TOLERANCE: f64 = ROUND_OFF;
 
     fn point(&self, state: &BranchPoint) -> BranchPoint {
         *state

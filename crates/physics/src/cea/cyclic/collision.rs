@@ -5,13 +5,11 @@
 //! exists at that point; both are followed on the far side.
 
 use super::follow::Follower;
-use super::path::{Eigenpair, NEAR, Path};
+use super::path::{Eigenpair, GUESSED, Path};
 use super::problem::Matrices;
+use crate::cea::accuracy::SAME_EIGENVALUE;
 use crate::linalg::c64;
 use crate::linalg::vectors::{dot, normalize};
-
-/// Lengths of the jumps tried.
-const JUMPS: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];
 
 /// Carries path `index`, which cannot be followed any further towards `target`, and the path that it meets
 /// past their meeting; `None` where they do not meet.
@@ -32,10 +30,10 @@ pub(super) fn pass(
     approach(follower, &mut paths[partner].points, stuck.parameter);
     let met = paths[partner].points.last()?.clone();
     let gap = (met.theta - stuck.theta).norm();
-    if gap > NEAR * stuck.theta.norm() || met.parameter > stuck.parameter {
+    if gap > GUESSED * stuck.theta.norm() || met.parameter > stuck.parameter {
         return None;
     }
-    let [first, second] = JUMPS.into_iter().find_map(|jump| {
+    let [first, second] = [1e-5, 1e-4, 1e-3, 1e-2].into_iter().find_map(|jump| {
         let beyond = (stuck.parameter + jump).min(target);
         pair_near(follower, &follower.problem.at(beyond), beyond, &stuck, &met)
     })?;
@@ -59,7 +57,7 @@ fn pair_near(
     let [first, second] = found;
     let (first, second) = (first?, second?);
     let difference = first.theta - second.theta;
-    if difference.norm() < 1e-6 * middle.norm() {
+    if difference.norm() < SAME_EIGENVALUE * middle.norm() {
         return None;
     }
     // Sideways when they are a conjugate pair, along the axis when they are real.

@@ -3,14 +3,15 @@
 use super::definite::{self, Region};
 use super::paths::HarmonicPaths;
 use super::problem::{HarmonicProblem, I, Matrices};
-use crate::cea::counted::{STANDSTILL, STEP, WIDEST_GROWTH};
+use crate::cea::accuracy::{BESIDE, CHANGE_PLACES, NEAR};
+use crate::cea::counted::{STANDSTILL, WIDEST_GROWTH};
 use crate::linalg::{c64, count_zeros};
 use crate::prestress::WaveTangent;
 use std::convert::Infallible;
 
 /// Share of the limit below which no modes are searched for where damping is not proportional: there motions within
 /// [`WIDEST_GROWTH`] need not oscillate; a little more, so that none lies on the edge.
-const SLOWEST: f64 = 1.01 * STANDSTILL * WIDEST_GROWTH;
+const SLOWEST: f64 = CHANGE_PLACES * STANDSTILL * WIDEST_GROWTH;
 
 /// Points on each side of the range from which the extent of `kappa` is taken.
 const SIDE_POINTS: usize = 16;
@@ -120,14 +121,14 @@ fn missed(
         ln_determinant(&now) - ln_determinant(&rest) - factors(&known) + factors(&known_at_rest)
     };
     let mut missing = |corners: [c64; 4], size: f64| -> Option<i64> {
-        let found = count_zeros(&corners, &|_| STEP * size, &mut |points| {
+        let found = count_zeros(&corners, &|_| NEAR * size, &mut |points| {
             Ok::<_, Infallible>(points.into_iter().map(&mut ln_at).collect())
         });
         Some(found.ok()?.count)
     };
     if problem.is_proportional() {
         // Turned by a right angle: the rectangle's "height" is Re(kappa).
-        let upright = corners([-1e-3 * region.real, region.real], region.imaginary);
+        let upright = corners([-BESIDE * region.real, region.real], region.imaginary);
         return missing(upright.map(|p| c64::new(p.im, -p.re)), region.real);
     }
     let upper = corners([SLOWEST * limit, limit], WIDEST_GROWTH * limit);

@@ -9,8 +9,8 @@ use super::path::{Eigenpair, Path, Waves};
 use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::CeaError;
+use crate::cea::accuracy::{MULTIPLE, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
-use crate::cea::spectrum::SAME_EIGENVALUE;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::rc::Rc;
@@ -186,7 +186,7 @@ impl Course<'_> {
 
     /// The eigenvalue with its vectors; nothing where two meet, or creep against dashpots hides them.
     fn found(&mut self, value: c64, friction: f64, shared: &Matrices) -> Option<Eigenpair> {
-        [1.0, 1.0 + 1e-7].into_iter().find_map(|shift| {
+        [1.0, 1.0 + MULTIPLE].into_iter().find_map(|shift| {
             let found = self.follower.find(shared, friction, value * shift)?;
             let is_it = (found.theta - value).norm() <= SAME_EIGENVALUE * value.norm();
             is_it.then_some(found)

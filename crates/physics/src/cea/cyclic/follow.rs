@@ -2,6 +2,7 @@
 
 use super::path::Eigenpair;
 use super::problem::{HarmonicProblem, Matrices};
+use crate::cea::accuracy::{MULTIPLE, RESIDUAL_BOUND, ROUND_OFF, SAME_EIGENVALUE};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;
 use crate::linalg::vectors::{dot, normalize};
@@ -35,12 +36,6 @@ pub(super) struct Follower<'a> {
 
 /// Largest number of Rayleigh quotient iterations for one point.
 const ITERATIONS: usize = 8;
-
-/// Distance of two points of a path below which their difference tells nothing of its curvature.
-const CLOSE: f64 = 1e-6;
-
-/// How far a shift is moved off an eigenvalue, relative to it: well within the reach of the iteration.
-const MOVED: f64 = 1e-9;
 
 impl<'a> Follower<'a> {
     pub fn new(problem: &'a HarmonicProblem) -> Self {
@@ -76,17 +71,17 @@ impl<'a> Follower<'a> {
                 }
                 // A shift that is an eigenvalue to the last bit makes the factor singular: a shift beside it does not.
                 is_moved = true;
-                theta += theta * MOVED;
+                theta += theta * RESIDUAL_BOUND;
                 [x, y] = before;
                 continue;
             }
             let change = (next - theta).norm();
             theta = next;
             // Each iteration leaves far less than the square of the change it made.
-            if change <= 1e-7 * theta.norm() {
+            if change <= MULTIPLE * theta.norm() {
                 theta = self.problem.without_round_off(theta);
                 let residual = self.problem.residual(at, theta, &x);
-                if residual > 1e-14 && change > 1e-13 * theta.norm() {
+                if residual > 1e-14 && change > ROUND_OFF * theta.norm() {
                     continue;
                 }
                 let rate = self.problem.rate_of(at, theta, &x, &y, slope);
@@ -185,7 +180,7 @@ fn extrapolate(path: &[Eigenpair], goal: f64) -> c64 {
     let ahead = goal - last.parameter;
     let before = &path[path.len().saturating_sub(2)];
     let h = last.parameter - before.parameter;
-    if h.abs() < CLOSE {
+    if h.abs() < SAME_EIGENVALUE {
         return last.theta + last.rate * ahead;
     }
     let secant = (last.theta - before.theta) / h;

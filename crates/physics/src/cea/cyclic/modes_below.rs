@@ -1,6 +1,7 @@
 //! The harmonics with modes at rest in a range of frequency, complete by inertia counts.
 
 use super::pencil::{Modes, Pencil};
+use crate::cea::accuracy::RESIDUAL_BOUND;
 use crate::cea::{CeaError, ModeLimit};
 use crate::prestress::{PrestressError, WaveTangent};
 use std::f64::consts::TAU;
@@ -76,7 +77,7 @@ fn of_all_waves(tangent: &WaveTangent, n: usize, modes: &Modes) -> Vec<f64> {
 fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
     kappas.sort_by(f64::total_cmp);
     let total = kappas.len();
-    let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + 1e-9));
+    let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + RESIDUAL_BOUND));
     highest.ok_or_else(|| CeaError::too_many_modes(asked, total))
 }
 

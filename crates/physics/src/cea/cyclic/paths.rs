@@ -6,6 +6,7 @@ use super::path::{Eigenpair, Path, Waves};
 use super::problem::{HarmonicProblem, Matrices};
 use super::reduction::Reduction;
 use crate::cea::CeaError;
+use crate::cea::accuracy::RESIDUAL_BOUND;
 use crate::linalg::c64;
 use crate::linalg::vectors::normalize;
 use std::rc::Rc;
@@ -234,5 +235,5 @@ pub(super) fn start(
 /// Whether no two paths have come to the same eigenpair.
 pub(super) fn are_distinct(paths: &[Path]) -> bool {
     let ends: Vec<&Eigenpair> = paths.iter().filter_map(|path| path.points.last()).collect();
-    ends.iter().enumerate().all(|(i, a)| ends[..i].iter().all(|b| !a.is_same(b, 1e-9)))
+    ends.iter().enumerate().all(|(i, a)| ends[..i].iter().all(|b| !a.is_same(b, RESIDUAL_BOUND)))
 }

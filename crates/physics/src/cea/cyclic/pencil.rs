@@ -1,6 +1,6 @@
 //! Modes of one harmonic without friction.
 
-use crate::cea::spectrum::CONVERGED;
+use crate::cea::accuracy::CONVERGED;
 use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
 use crate::linalg::dense::column;
 use crate::linalg::{LanczosPairs, LanczosSettings, Mat, MatRef, SymmetricPencil, block_lanczos};

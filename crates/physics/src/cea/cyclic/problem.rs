@@ -1,6 +1,7 @@
 //! The eigenproblem of one harmonic as a function of one scalar `theta`.
 
 use super::path::Eigenpair;
+use crate::cea::accuracy::SETTLED;
 use crate::cea::counted::STANDSTILL;
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
@@ -312,7 +313,7 @@ impl HarmonicProblem {
     /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is
     /// real to round-off.
     pub fn without_round_off(&self, theta: c64) -> c64 {
-        let is_real = theta.im.abs() <= 1e-10 * theta.norm();
+        let is_real = theta.im.abs() <= SETTLED * theta.norm();
         if self.tangent.is_standing && self.is_proportional() && is_real {
             return c64::new(theta.re, 0.0);
         }

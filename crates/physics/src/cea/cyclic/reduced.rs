@@ -4,7 +4,7 @@ use super::across::Across;
 use super::damped::follow_damped;
 use super::follow::Follower;
 use super::modes_below::AtRest;
-use super::path::{Eigenpair, NEAR};
+use super::path::{Eigenpair, GUESSED};
 use super::paths::{HarmonicPaths, Range, are_distinct, describe, follow_pairs};
 use super::pencil::{Modes, Pencil};
 use super::problem::HarmonicProblem;
@@ -16,9 +16,6 @@ use crate::prestress::{HarmonicTangent, WaveTangent};
 
 /// Modes at rest up to this much above the followed ones span the reduced space.
 pub(super) const SPAN: f64 = 1.4;
-
-/// Motions slower than this share of the largest creep against dashpots.
-const SLOW: f64 = 1e-2;
 
 /// The branches of one harmonic up to the margin of the range, from its modes at rest up to [`SPAN`] above that.
 pub(super) fn follow(
@@ -115,10 +112,10 @@ fn refined(
     let lost = |guess: &Eigenpair| {
         CeaError::unrefined(problem.tangent.harmonic, guess.parameter, guess.theta)
     };
-    // Losses have no meaning for a motion that does not oscillate or creeps; fast ones are not listed.
+    // Losses have no meaning for a motion that does not oscillate or, a hundred times slower, creeps; fast ones are not listed.
     let matters = |theta: c64| {
         let size = theta.norm();
-        !problem.is_ending(theta) && size > SLOW * largest && size <= largest
+        !problem.is_ending(theta) && size > 0.01 * largest && size <= largest
     };
     for path in &mut small.paths {
         let mut points: Vec<Eigenpair> = Vec::new();
@@ -131,7 +128,7 @@ fn refined(
                 None => follower.find(&at, guess.parameter, guess.theta),
             };
             let away = |own: &Eigenpair| (own.theta - guess.theta).norm() / guess.theta.norm();
-            match found.filter(|own| away(own) <= NEAR) {
+            match found.filter(|own| away(own) <= GUESSED) {
                 Some(found) => points.push(found),
                 None if matters(guess.theta) => return Err(lost(guess)),
                 None => break,

@@ -3,19 +3,13 @@
 use super::across::Across;
 use super::path::Eigenpair;
 use super::pencil::{Modes, Pencil};
+use crate::cea::accuracy::{CONVERGED, HALF_THE_DIGITS};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::dense::{dot, product, transpose_product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::vectors;
 use crate::linalg::{Mat, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
-
-/// Directions of the contact whose energy is below this share of the largest are left out; the error of an eigenvalue is
-/// of the order of the product of two of them.
-const LEAST_ENERGY: f64 = 1e-11;
-
-/// Basis vectors that add less than this share of their length are left out.
-const LEAST_PART: f64 = 1e-7;
 
 /// The reduced space of one harmonic.
 pub(super) struct Reduction {
@@ -84,7 +78,7 @@ impl Reduction {
             }
             let momentum = pencil.mass.multiply(&x);
             let left = length(&x, &momentum);
-            if left > LEAST_PART * before {
+            if left > HALF_THE_DIGITS * before {
                 columns.push(x.iter().map(|v| v / left).collect());
                 momenta.push(momentum.iter().map(|v| v / left).collect());
             }
@@ -265,7 +259,8 @@ fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     }
     let (values, vectors) = symmetric_eigen(&gram);
     let largest = values.last().copied().unwrap_or(0.0);
-    let kept = (0..size).rev().take_while(|&k| values[k] > LEAST_ENERGY * largest);
+    // The error of an eigenvalue is of the order of the product of two that are left out.
+    let kept = (0..size).rev().take_while(|&k| values[k] > CONVERGED * largest);
     kept.map(|k| {
         let mut x = vec![0.0; responses[0].len()];
         for (i, response) in responses.iter().enumerate() {

@@ -4,15 +4,13 @@ use super::branch::point_of;
 use super::follow::Follower;
 use super::path::Waves;
 use super::problem::HarmonicProblem;
+use crate::cea::accuracy::BESIDE;
 use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;
 use crate::linalg::vectors::{ZERO, dot};
 use crate::prestress::{HarmonicTangent, MovingHarmonic, WaveTangent};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Distance relative to an eigenvalue from that of its branch above which it is another's: small spaces leave out far less.
-const LOST: f64 = 1e-3;
 
 /// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.
 #[derive(Clone, Debug)]
@@ -157,7 +155,7 @@ fn pair_of(
     let found = Follower::new(problem).find(&at, friction, guess)?;
     let BranchPoint { eigenvalue, rate, .. } = point_of(problem, waves, &found);
     // Not so of what is not a number.
-    let is_it = (eigenvalue - start).norm() <= LOST * start.norm();
+    let is_it = (eigenvalue - start).norm() <= BESIDE * start.norm();
     let (root, right, left) = (waves.own(eigenvalue), found.x, found.y);
     let slope = dot(&left, &at.now.apply_slope(root, &right, false));
     let own_slope = problem.own_slope(&at, root, [&right, &left]).map(|own| own / slope);

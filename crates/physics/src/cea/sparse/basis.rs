@@ -10,8 +10,8 @@ use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
 use super::{
-    CHANGE_PLACES, CONVERGED, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS, SAME_SPACE, SEARCH_WIDTH,
-    SETTLED,
+    BESIDE, CHANGE_PLACES, CONVERGED, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS, ROUND_OFF,
+    SEARCH_WIDTH, SETTLED,
 };
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
@@ -25,13 +25,6 @@ use crate::linalg::{Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 
-/// The same for vectors of unit length whose span is compressed.
-const COMPRESSED: f64 = 5e-12;
-/// Krylov steps that follow a refinement, for each decade between its longest correction and [`CONVERGED`]: a step wins
-/// about a decade and a half, and costs half of another refinement, which needs residuals.
-const STEPS_PER_DECADE: f64 = 0.7;
-/// Part of the vectors of such a step, relative to the mode of highest frequency, that is worth keeping.
-const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
 const CHEBYSHEV_POINTS: usize = 5;
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
@@ -90,13 +83,13 @@ impl<'a> BasisBuilder<'a> {
         let mut model = ReducedModel::empty(tangent, linearization);
         // Rigid motions on their own: samples hold the first columns, and a block is put in the order of its remainders.
         let (first, others) = modes.split_at_col(rigid);
-        model.extend(first.to_owned(), 1e-8);
-        model.extend(others.to_owned(), 1e-8);
+        model.extend(first.to_owned(), HALF_THE_DIGITS);
+        model.extend(others.to_owned(), HALF_THE_DIGITS);
         let has_symmetry = !tangent.contact.angles.is_empty();
         let unknowns = tangent.stiffness.dimension();
         let is_whole = unknowns <= DENSE_UP_TO && !tangent.is_tabled();
         if is_whole {
-            model.extend(Mat::identity(unknowns, unknowns), SAME_SPACE);
+            model.extend(Mat::identity(unknowns, unknowns), ROUND_OFF);
         }
         Self {
             tangent,
@@ -185,7 +178,7 @@ impl<'a> BasisBuilder<'a> {
             vectors = join_columns(vectors.as_ref(), coordinates.as_ref());
         }
         let none = Mat::<f64>::zeros(m, 0);
-        let kept = orthonormal_complement(none.as_ref(), vectors, COMPRESSED);
+        let kept = orthonormal_complement(none.as_ref(), vectors, 0.5 * CONVERGED);
         self.model.compress(&kept);
         Ok(())
     }
@@ -201,7 +194,8 @@ impl<'a> BasisBuilder<'a> {
         let longest = column_norms(corrections.as_ref()).into_iter().fold(0.0, f64::max);
         let mut new = self.model.extend(corrections, SETTLED * longest);
         let has_added = new.ncols() > 0;
-        let steps = STEPS_PER_DECADE * (longest / CONVERGED).log10();
+        // A step wins about a decade and a half, and costs half of another refinement, which needs residuals.
+        let steps = 0.7 * (longest / CONVERGED).log10();
         // `|kappa|`, or `|lambda|^2`, of the highest of the modes.
         let inertia = modes.iter().map(|own| own.eigenvalue.norm_sqr()).fold(0.0, f64::max);
         // A negative number is none.
@@ -217,7 +211,7 @@ impl<'a> BasisBuilder<'a> {
                 image *= Scale(inertia);
                 Ok::<_, LinalgError>(image)
             })?;
-            new = self.model.extend(image, KRYLOV_TOLERANCE);
+            new = self.model.extend(image, BESIDE);
         }
         Ok(has_added.then_some(longest))
     }
@@ -255,7 +249,7 @@ impl<'a> BasisBuilder<'a> {
     /// with a few combinations of the `leading` vectors of the basis, or with any; whether the basis grew.
     fn sample(&mut self, mu: f64, count: usize, leading: Option<usize>) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, leading))?;
-        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
+        let has_grown = self.model.extend(vectors.clone(), ROUND_OFF).ncols() > 0;
         if self.is_sampling {
             self.model.hold_sample(mu, &vectors);
         }

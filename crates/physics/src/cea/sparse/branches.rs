@@ -5,19 +5,15 @@ use super::meetings::grown_between;
 use super::mode::{ModeAt, ModesAt, ReducedMode};
 use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
-use super::{CHANGE_PLACES, MULTIPLE, SAME, SAME_EIGENVALUE};
+use super::{ALIKE, BESIDE, CHANGE_PLACES, MULTIPLE, SAME, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::LinalgError;
 use crate::linalg::{Mat, c64};
 
-/// Distance of an overlap from 1 within which two modes at neighbouring friction coefficients may be one.
-const ALIKE: f64 = 0.5;
 /// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 /// Bisections of an interval in all; a branch that these do not follow is lost.
 const MOST_BETWEEN: usize = 250;
-/// Relative error of the predicted eigenvalue of a mode that is the same beyond doubt.
-const PREDICTED: f64 = 1e-3;
 
 /// Name of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -325,7 +321,7 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
         let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
         let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
         let error = (b.eigenvalue - predicted).norm();
-        let accuracy = if distance(j) < SAME { PREDICTED } else { SAME_EIGENVALUE };
+        let accuracy = if distance(j) < SAME { BESIDE } else { SAME_EIGENVALUE };
         if error <= 0.5 * reach + accuracy * a.eigenvalue.norm() {
             *link = Some(j);
             taken[j] = true;
@@ -364,7 +360,7 @@ fn link_by_extrapolation(
         let free = (0..to.1.len()).filter(|j| !links.contains(&Some(*j)));
         let nearest = free.min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
         // Near an exceptional point eigenvalues move like the square root of the step.
-        let reach = (step.abs().sqrt() + 1e-3) * a.eigenvalue.norm();
+        let reach = (step.abs().sqrt() + BESIDE) * a.eigenvalue.norm();
         links[i] = nearest.filter(|&j| distance(j) < reach);
     }
 }

@@ -1,14 +1,11 @@
 //! Eigenvalues in a part of the upper half plane, counted by the argument principle.
 
 use super::full_problem::{FullProblem, SharedAnalysis};
-use crate::cea::counted::STEP;
+use crate::cea::accuracy::NEAR;
 use crate::cea::{CeaError, CountedRegion, ModeCount};
 use crate::linalg::{LinalgError, Uncounted, ZeroCount, c64, count_zeros};
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
-
-/// Distance of the two determinants that a slope is taken from near the real axis, relative to the frequency.
-const STEP_BELOW: f64 = 0.02;
 
 /// Counts eigenvalues of `T(lambda; mu) = lambda^2 M + lambda C + K + i H` of a tangent.
 ///
@@ -52,7 +49,8 @@ impl<'a> ModeCounter<'a> {
             Ok(problem.ln_determinant(lambda)? - factors.sum::<c64>())
         };
         let scale = TAU * region.frequencies_hz[1];
-        let step = |at: c64| (STEP * scale).min(STEP_BELOW * at.im);
+        // Of the two determinants that a slope is taken from, near the real axis, too.
+        let step = |at: c64| (NEAR * scale).min(0.02 * at.im);
         let mut count = ModeCount {
             friction_coefficient: mu,
             region: *region,

@@ -1,12 +1,8 @@
 //! Circumferential harmonic and travelling direction from the displacement of the contact edge.
 
+use super::HALF_THE_DIGITS;
 use crate::linalg::c64;
 use crate::prestress::SlidingTangent;
-
-/// Edge amplitude, relative to the largest displacement of the mode, below which the edge is at rest.
-const SILENT: f64 = 1e-7;
-/// Amplitude ratio of the two travelling waves below which a mode stands.
-const STANDING: f64 = 2.0;
 
 /// Discrete Fourier transform over the contact nodes.
 ///
@@ -45,7 +41,7 @@ impl ContactEdge {
     /// still in the radial modes, which are axisymmetric, and in no other.
     pub fn harmonic(&self, edge: &[c64], peak: f64) -> usize {
         let largest = edge.iter().fold(0.0_f64, |m, v| m.max(v.norm()));
-        if largest <= SILENT * peak {
+        if largest <= HALF_THE_DIGITS * peak {
             return 0;
         }
         // Powers of e^{i theta}, one after the other: a sine and a cosine for each harmonic would cost more.
@@ -66,7 +62,8 @@ impl ContactEdge {
         best.0
     }
 
-    /// +1 if the wave of harmonic `n` travels with the rotor, -1 against it, 0 if it stands.
+    /// +1 if the wave of harmonic `n` travels with the rotor, -1 against it, 0 if it stands: neither way twice as much travels as the
+    /// other way.
     pub fn direction(&self, edge: &[c64], harmonic: usize) -> i8 {
         if harmonic == 0 {
             return 0;
@@ -74,9 +71,9 @@ impl ContactEdge {
         let angles = self.angles.iter().map(|angle| harmonic as f64 * angle);
         let phases: Vec<c64> = angles.map(|angle| c64::new(angle.cos(), angle.sin())).collect();
         let [forward, backward] = self.waves(edge, &phases);
-        let sense = if forward > STANDING * backward {
+        let sense = if forward > 2.0 * backward {
             1.0
-        } else if backward > STANDING * forward {
+        } else if backward > 2.0 * forward {
             -1.0
         } else {
             0.0

@@ -4,8 +4,8 @@ use super::basis::scale_to_unit_length;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
 use super::structure::StiffnessFactors;
-use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS};
-use crate::cea::spectrum::ROUNDING_ERRORS;
+use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS, NEAR};
+use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
 use crate::linalg::{
@@ -17,20 +17,11 @@ use std::f64::consts::TAU;
 
 /// Vectors iterated together: rigid motions of one body come six at a time.
 const BLOCK: usize = 8;
-/// First guess of the shift `c^2`, relative to the largest eigenvalue of the mesh: below the modes of all but the finest meshes.
-const FIRST_SHIFT: f64 = 1e-7;
 /// `c^2` relative to the highest eigenvalue wanted: small enough to tell the lowest modes apart, large enough that the highest keep
 /// their digits beside the reciprocals of the lowest.
 const SHIFT: f64 = 1e-3;
-/// What a shift grows by that leaves pairs short of their accuracy.
-const FARTHER: f64 = 10.0;
 /// Lowest eigenvalue, relative to the highest, above which factors of `K` itself serve all modes.
 const STIFFLY_HELD: f64 = 1e-5;
-/// Where the shift of the factors kept may lie between zero and the highest eigenvalue `kappa`.
-const AMID: std::ops::Range<f64> = 0.4..0.65;
-/// Distance of that shift from the frequencies about it, relative to the highest. At a pair of equal frequencies the factors would
-/// magnify round-off by all digits.
-const LEAST_DISTANCE: f64 = 1e-4;
 
 /// The lowest modes of `K x = kappa M x` at `mu = 0`, of bodies that are held, held in part or free.
 pub struct FrictionlessModes {
@@ -90,7 +81,8 @@ impl FrictionlessModes {
         let unknowns = tangent.stiffness.dimension();
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
         let (below, mut shift) = match limit {
-            ModeLimit::Lowest(count) => (count, FIRST_SHIFT * inertia.largest_ratio()),
+            // The first guess serves modes far below the largest eigenvalue of the mesh.
+            ModeLimit::Lowest(count) => (count, SHIFT * NEAR * inertia.largest_ratio()),
             ModeLimit::MaxFrequency(hz) => {
                 (inertia.bound_below(tangent, TAU * hz)?, SHIFT * (TAU * hz).powi(2))
             }
@@ -248,16 +240,16 @@ fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
 }
 
 /// Angular frequency whose square is about half of the highest, as far from all `frequencies` as that allows: nothing where they are
-/// so dense there that `K - sigma M` would be nearly singular.
+/// so dense there that `K - sigma M` would be nearly singular: factors at a pair of equal ones magnify round-off by all digits.
 fn frequency_amid(frequencies: &[f64]) -> Option<f64> {
     let highest = frequencies.last()?;
-    let [least, most] = [AMID.start, AMID.end].map(|part| part.sqrt() * highest);
+    let [least, most] = [0.4_f64, 0.65].map(|part| part.sqrt() * highest);
     let gaps = frequencies.windows(2).map(|pair| {
         let place = (0.5 * (pair[0] + pair[1])).clamp(least, most);
         // Negative where the whole gap lies elsewhere.
         ((place - pair[0]).min(pair[1] - place), place)
     });
-    let amid = gaps.filter(|(distance, _)| *distance > LEAST_DISTANCE * highest);
+    let amid = gaps.filter(|(distance, _)| *distance > NEAR * highest);
     let widest = amid.max_by(|a, b| a.0.total_cmp(&b.0));
     widest.map(|(_, place)| place)
 }
@@ -287,7 +279,7 @@ impl<'a> Inertia<'a> {
                 match SparseLdl::factorize(&self.analysis, &self.shifted(-*shift)) {
                     Ok(factors) if factors.negative_count() == 0 => break factors,
                     Err(error) if !(*shift < self.largest_ratio()) => return Err(error),
-                    _ => *shift *= FARTHER,
+                    _ => *shift *= 10.0,
                 }
             };
             let pencil =
@@ -307,7 +299,7 @@ impl<'a> Inertia<'a> {
             let placed = SHIFT * (pairs.values[count - 1].recip() - *shift);
             *shift = match attempt {
                 0 if placed > 0.0 => placed,
-                _ => FARTHER * *shift,
+                _ => 10.0 * *shift,
             };
         }
         let (tolerance, applications) = (CONVERGED, MOST_ATTEMPTS * count);

@@ -1,5 +1,6 @@
 //! Modes below a frequency, counted by Sylvester's law of inertia.
 
+use crate::cea::accuracy::HALF_THE_DIGITS;
 use crate::linalg::{LdlAnalysis, LinalgError, SparseLdl, SparsityPattern};
 use crate::prestress::SlidingTangent;
 use std::sync::Arc;
@@ -11,7 +12,7 @@ pub(super) fn counted(
     factorize: impl Fn(f64) -> Result<SparseLdl, LinalgError>,
 ) -> Result<usize, LinalgError> {
     let count = |attempt: i32| {
-        let moved = frequency * (1.0 + 1e-8 * f64::from(attempt));
+        let moved = frequency * (1.0 + HALF_THE_DIGITS * f64::from(attempt));
         factorize(moved).map(|ldl| ldl.negative_count())
     };
     (1..5).fold(count(0), |outcome, attempt| outcome.or_else(|_| count(attempt)))

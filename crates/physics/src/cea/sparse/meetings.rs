@@ -3,14 +3,11 @@
 use super::mode::{ModeAt, ModesAt, ReducedMode};
 use super::projected::ProjectedMatrices;
 use super::reduced::ReducedModel;
-use super::{MOST_ATTEMPTS, SAME, SAME_EIGENVALUE};
+use super::{ALIKE, MOST_ATTEMPTS, SAME, SAME_EIGENVALUE};
 use crate::cea::BranchPoint;
 use crate::cea::branch::Cubic;
 use crate::linalg::{LinalgError, c64};
 use std::slice::from_ref;
-
-/// Part of a mode in the space of two branches, of 1, from which on it is a combination of these; half of that is a part in one of them.
-const MIXED: f64 = 0.5;
 
 /// Two branches, each with its index at the lower end of a step and its modes at both ends.
 type Pair<'a> = [(usize, [&'a ReducedMode; 2]); 2];
@@ -97,7 +94,7 @@ pub fn grown_between(
             let [overlaps, _] = model.overlaps_at(place, &pair.map(|own| own.1[0].clone()), &modes);
             let parts = |j: usize| [0, 1].map(|i| overlaps[(i, j)].norm_sqr());
             let mut mixed: Vec<usize> =
-                (0..modes.len()).filter(|&j| parts(j).iter().sum::<f64>() > MIXED).collect();
+                (0..modes.len()).filter(|&j| parts(j).iter().sum::<f64>() > ALIKE).collect();
             crate::order::sort_by_number(&mut mixed, |&j| (modes[j].eigenvalue - mean).norm());
             mixed.truncate(2);
             crate::order::sort_by_number(&mut mixed, |&j| -modes[j].eigenvalue.re);
@@ -106,7 +103,7 @@ pub fn grown_between(
             };
             // It is said to the branch that grows at an end, or that it has more of.
             let parts = parts(growing);
-            let is_held = |i: &usize| pair[*i].0 < needed && parts[*i] > 0.5 * MIXED;
+            let is_held = |i: &usize| pair[*i].0 < needed && parts[*i] > 0.5 * ALIKE;
             let held = [0, 1].into_iter().filter(is_held).max_by(|&a, &b| {
                 let grows = |i: usize| pair[i].1.iter().any(|mode| mode.is_growing());
                 grows(a).cmp(&grows(b)).then(parts[a].total_cmp(&parts[b]))

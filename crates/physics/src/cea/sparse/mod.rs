@@ -43,7 +43,10 @@ mod structure;
 mod sweep;
 mod term;
 
-use crate::cea::spectrum::{CONVERGED, SAME_EIGENVALUE};
+use crate::cea::accuracy::{
+    BESIDE, CHANGE_PLACES, CONVERGED, HALF_THE_DIGITS, MULTIPLE, NEAR, RESIDUAL_BOUND, ROUND_OFF,
+    SAME_EIGENVALUE, SETTLED,
+};
 pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, TrackedBranch, label_first, track};
 pub use count::ModeCounter;
@@ -65,21 +68,10 @@ const GUARD_MODES: usize = 5;
 const LOSSY_GUARD: usize = 3;
 /// Modes beyond those to which a branch may be matched.
 const TRACKING_MARGIN: usize = 6;
-/// Relative distance of eigenvalues up to which they are one multiple eigenvalue, whose vectors are any basis of one space; farther apart
-/// each has a vector of its own.
-const MULTIPLE: f64 = 1e-7;
 /// Distance of the overlap of two modes from 1 within which they are one branch beyond doubt.
 const SAME: f64 = 0.1;
-/// Change of a vector of unit length, of a block of them relative to its longest, or of a critical friction coefficient, below which no
-/// more corrections are made. Source: A. Neumaier, SIAM J. Numer. Anal. 22 (1985), residual inverse iteration.
-const SETTLED: f64 = 1e-10;
-/// Error whose square, or what one more step leaves of it, is round-off.
-const HALF_THE_DIGITS: f64 = 1e-8;
-/// What a vector of unit length has beyond a space: more makes the space wider, less is round-off. A part as short as this along the
-/// stiffest waves of a mesh moves the slowest modes, a thousandth as fast, by a relative 1e-9.
-const SAME_SPACE: f64 = 1e-13;
-/// Distance of factors from an eigenvalue, relative to it: regular there, far above its error and far below its distance from others.
-const BESIDE: f64 = 1e-3;
+/// The same within which they may be one; part of a mode in the space of two branches from which on it is a combination of these.
+const ALIKE: f64 = 0.5;
 /// Steps of an iteration for one mode, or for one basis, after which it counts as one that does not converge: ten or fewer do, or three or
 /// four by factors at each.
 const MOST_STEPS: usize = 24;
@@ -88,15 +80,9 @@ const MOST_STEPS: usize = 24;
 const MOST_ATTEMPTS: usize = 8;
 /// Part of an error that a round of a remedy or a step of an iteration may leave: with more it is worth no other one.
 const LITTLE: f64 = 0.3;
-/// Frequency up to which modes are held or wanted, over the highest one: two that differ in damping change places as they converge, and the
-/// one of lower frequency may have the larger eigenvalue. One farther above is above the range beyond doubt.
-const CHANGE_PLACES: f64 = 1.01;
 /// Samples near a friction coefficient whose modes, together, come near its own and their left vectors.
 const NEIGHBOURS: usize = 4;
 /// Start vectors of an iteration that relies on no known modes: as many as equal eigenvalues may come together.
 const SEARCH_WIDTH: usize = 4;
 /// Vectors over the unknowns that are expanded, multiplied and solved for together.
 const GROUP_WIDTH: usize = 24;
-/// Relative error that is promised. A pair with a larger residual of the quadratic problem is not listed as converged, and one whose
-/// eigenvalue round-off of that residual moves by more is improved.
-const RESIDUAL_BOUND: f64 = 1e-9;

@@ -1,15 +1,13 @@
 //! A mode in coordinates of the common basis.
 
 use super::{CONVERGED, SAME_EIGENVALUE};
+use crate::cea::accuracy::NEAR;
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::c64;
 use crate::linalg::vectors::{dot, length, product};
 
 /// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
 const HARDLY_OSCILLATING: f64 = 0.95;
-/// What the overlap of two right vectors lacks to 1 where they are one, and relative change of the frequency from which on the Rayleigh
-/// quotient iteration finishes: it is the square of the change of the vectors.
-pub(super) const NEAR: f64 = 1e-4;
 
 /// One mode of the projected problem.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,19 +1,15 @@
 //! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
 
 use super::full_problem::{FullProblem, form};
+use super::{MULTIPLE, SAME_EIGENVALUE, SETTLED};
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::random_columns;
 use crate::linalg::vectors::dot;
 use crate::linalg::{ComplexSparseLu, Mat, SparsityPattern, c64};
 use crate::prestress::SlidingTangent;
 
-/// Distances of the shift from an eigenvalue, relative to it, one tried after the other: far enough for regular factors, near enough for
-/// iterations that gain as many digits.
-const OFFSETS: [f64; 2] = [1e-7, 1e-6];
 /// Steps of inverse iteration.
 const STEPS: usize = 4;
-/// What the vectors from two starts may differ by, of length 1, where an eigenvalue is single.
-const ALIKE: f64 = 1e-5;
 
 /// An eigenvalue with its vectors over the unknowns of a tangent.
 #[derive(Clone, Debug)]
@@ -101,7 +97,8 @@ fn inverse_iterations(problem: &FullProblem<'_>, target: c64) -> Option<[Vec<c64
     let unknowns = problem.dimension();
     let start = random_columns(unknowns, 2.min(unknowns), 7);
     let start = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
-    let mut beside = OFFSETS.iter().map(|own| target * (1.0 + own));
+    // Far enough from the eigenvalue for regular factors, near enough for iterations that gain as many digits.
+    let mut beside = [MULTIPLE, SAME_EIGENVALUE].into_iter().map(|own| target * (1.0 + own));
     let factors = beside.find_map(|lambda| problem.factors(lambda).ok())?;
     let right = single(&iterated(&factors, start.clone(), false))?;
     Some([right, single(&iterated(&factors, start, true))?])
@@ -113,5 +110,5 @@ fn single(x: &Mat<c64>) -> Option<Vec<c64>> {
     let overlap = dot(&own, &other);
     let rest: f64 = own.iter().zip(&other).map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
     // No number at all is no vector either.
-    (rest.sqrt() <= ALIKE).then_some(own)
+    (rest <= SETTLED).then_some(own)
 }

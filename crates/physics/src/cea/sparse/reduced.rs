@@ -6,12 +6,12 @@ mod parts;
 use super::NEIGHBOURS;
 use super::basis::turn_to_real;
 use super::linearization::Linearization;
-use super::mode::{NEAR, ReducedMode};
+use super::mode::ReducedMode;
 use super::packed::side_by_side;
 use super::pencil::Pencil;
 use super::projected::{ProjectedMatrices, summed};
 use super::term::Term;
-use super::{MULTIPLE, SAME_SPACE};
+use super::{MULTIPLE, NEAR, ROUND_OFF};
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
@@ -31,7 +31,7 @@ fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
 
 /// Orthonormal `columns` continued by what `others` have beyond them.
 fn widened(columns: Mat<f64>, others: Mat<f64>) -> Mat<f64> {
-    let new = orthonormal_complement(columns.as_ref(), others, SAME_SPACE);
+    let new = orthonormal_complement(columns.as_ref(), others, ROUND_OFF);
     join_columns(columns.as_ref(), new.as_ref())
 }
 

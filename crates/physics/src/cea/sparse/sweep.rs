@@ -15,6 +15,7 @@ use super::linearization::Linearization;
 use super::point::SolvedPoint;
 use super::structure::StructureMatrices;
 use super::{GUARD_MODES, MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::accuracy::CHANGE_PLACES;
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, PartWatch, SweepRequest, SweepWatch, UnconvergedMode,
 };
@@ -24,10 +25,6 @@ use std::f64::consts::TAU;
 
 /// Friction values at which the basis is refined, at least, over a range.
 const MIN_SAMPLES: usize = 6;
-/// Range of friction coefficients over which modes hardly change.
-const SHORT_RANGE: f64 = 0.05;
-/// Relative change that is none of the frequency that stiffness is referred to where it depends on it.
-const REFERENCE_SETTLED: f64 = 0.02;
 
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
 ///
@@ -98,7 +95,7 @@ fn referred(
                 let place = count.min(modes.frequencies.len()) - 1;
                 let found_hz = modes.frequencies[place] / TAU;
                 referred = tangent.referred_to(found_hz);
-                if (found_hz - highest_hz).abs() <= REFERENCE_SETTLED * found_hz {
+                if (found_hz - highest_hz).abs() <= (CHANGE_PLACES - 1.0) * found_hz {
                     break;
                 }
                 highest_hz = found_hz;
@@ -179,8 +176,8 @@ impl<'a> SparseSweep<'a> {
         }
         if self.builder.is_sampling {
             let first = self.first_asked();
-            // Over a short range the modes at its middle are corrected to those at its ends.
-            if self.is_continued && self.grid[self.grid.len() - 1] - self.lowest < SHORT_RANGE {
+            // Over the range of one of several base states the modes at its middle are corrected to those at its ends.
+            if self.is_continued {
                 return self.builder.improve_at(self.grid[self.grid.len() / 2]).map(|_| ());
             }
             if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {

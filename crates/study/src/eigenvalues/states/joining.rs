@@ -6,7 +6,7 @@ use frictionsim_physics::cea::{
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The sweep of one base state.
+/// The sweep of one base state, its points by rising friction.
 pub struct Part {
     /// Friction coefficient from which the state holds; the sweep may begin before that, where the last one ends.
     pub begin: f64,
@@ -16,14 +16,12 @@ pub struct Part {
 impl Part {
     /// The point of highest friction.
     fn last(&self) -> Option<&FrictionPoint> {
-        let points = self.sweep.points.iter();
-        points.max_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient))
+        self.sweep.points.last()
     }
 
     /// The point of lowest friction.
     fn first(&self) -> Option<&FrictionPoint> {
-        let points = self.sweep.points.iter();
-        points.min_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient))
+        self.sweep.points.first()
     }
 }
 

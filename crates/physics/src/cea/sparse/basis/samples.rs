@@ -8,7 +8,7 @@ use crate::cea::sparse::mode::{ModeAt, ReducedMode};
 use crate::cea::sparse::packed::{PackedModes, joined, side_by_side};
 use crate::cea::sparse::structure::{StiffnessFactors, StructureMatrices};
 use crate::cea::sparse::{
-    BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_SPACE, SETTLED,
+    BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, ROUND_OFF, SETTLED,
 };
 use crate::linalg::dense::join_columns;
 use crate::linalg::vectors::length;
@@ -94,7 +94,7 @@ impl BasisBuilder<'_> {
     pub fn hold_all(&mut self, mu: f64) -> Result<(), LinalgError> {
         let unknowns = self.tangent.stiffness.dimension();
         let all = self.step(mu, |_| Ok::<_, LinalgError>(Mat::identity(unknowns, unknowns)))?;
-        self.model.extend(all.clone(), SAME_SPACE);
+        self.model.extend(all.clone(), ROUND_OFF);
         self.begin_sample(mu);
         self.model.hold_sample(mu, &all);
         Ok(())
@@ -164,7 +164,7 @@ impl BasisBuilder<'_> {
 
     /// Takes up corrections of modes at `mu`; whether the basis grew.
     fn hold(&mut self, mu: f64, corrections: &Mat<f64>) -> bool {
-        let has_grown = self.model.extend(corrections.clone(), SAME_SPACE).ncols() > 0;
+        let has_grown = self.model.extend(corrections.clone(), ROUND_OFF).ncols() > 0;
         match self.is_sampled(mu) {
             true => self.model.hold_sample(mu, corrections),
             false => self.model.hold_correction(mu, corrections),

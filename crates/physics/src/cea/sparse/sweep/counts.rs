@@ -9,8 +9,6 @@ use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit, SweepRequest};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
-/// How much farther the sides of the region are put where an eigenvalue lies on its edge.
-const FARTHER: [f64; 3] = [1.0, 1.37, 0.83];
 /// Friction values up to which modes are counted at each.
 const FEW_VALUES: usize = 6;
 
@@ -109,10 +107,11 @@ fn count_below(
         let region = CountedRegion::about(&inside, top, factor);
         counter.count(point.friction_coefficient, known, &region)
     };
-    let mut found = count(FARTHER[0]);
-    for factor in &FARTHER[1..] {
+    let mut found = count(1.0);
+    // Where an eigenvalue lies on the edge of the region its sides are put elsewhere.
+    for factor in [1.37, 0.83] {
         if found.missing.is_err() {
-            found = count(*factor);
+            found = count(factor);
         }
     }
     found

@@ -4,10 +4,7 @@ use super::SparseSweep;
 use crate::cea::CeaError;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, RESIDUAL_BOUND};
-
-/// Residual force, relative to the inertia force, up to which modes are corrected rather than computed anew.
-const CORRECTABLE: f64 = 1e-4;
+use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, MULTIPLE, NEAR, RESIDUAL_BOUND, SETTLED};
 
 /// Remedies, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +88,7 @@ impl SparseSweep<'_> {
         let (mu, point) = (self.grid[k], &self.points[k]);
         match rung {
             Rung::AtRest => {
-                let is_near = is_alone && point.worst().1 <= CORRECTABLE;
+                let is_near = is_alone && point.worst().1 <= NEAR;
                 let modes = &point.modes[..point.checks.len()];
                 if self.builder.is_sampling && (is_near || self.builder.is_sampled(mu)) {
                     self.builder.take_up(mu, modes);
@@ -125,8 +122,8 @@ impl SparseSweep<'_> {
     fn goal(&self) -> f64 {
         match self.linearization {
             _ if self.tangent.is_lossy() => RESIDUAL_BOUND,
-            Linearization::Reduced(..) => 1e-10,
-            Linearization::Companion { .. } => 1e-7,
+            Linearization::Reduced(..) => SETTLED,
+            Linearization::Companion { .. } => MULTIPLE,
         }
     }
 

@@ -2,11 +2,11 @@
 
 use super::SparseSweep;
 use super::points::uncertainty;
+use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::{TrackedBranch, followed};
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::{MOST_STEPS, RESIDUAL_BOUND, SAME, SETTLED};
-use crate::cea::spectrum::ROUNDING_ERRORS;
+use crate::cea::sparse::{MOST_STEPS, NEAR, RESIDUAL_BOUND, SAME, SETTLED};
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
 use crate::linalg::vectors::length;
@@ -262,7 +262,7 @@ impl BranchSolver for &SparseSweep<'_> {
         let expected = from.mode.eigenvalue * (1.0 - t) + to.mode.eigenvalue * t;
         let score = |j: usize| {
             let distance = (modes[j].eigenvalue - expected).norm() / expected.norm();
-            (overlap(0, j) + overlap(1, j)) / (1e-4 + distance)
+            (overlap(0, j) + overlap(1, j)) / (NEAR + distance)
         };
         let best = (0..modes.len()).max_by(|&i, &j| score(i).total_cmp(&score(j)));
         Ok(best.map(|best| {
