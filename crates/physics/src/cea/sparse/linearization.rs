@@ -1,6 +1,5 @@
 //! Linearization of the quadratic eigenproblem.
 
-use super::BESIDE;
 use crate::cea::counted::is_vibration;
 use crate::fem::RayleighDamping;
 use crate::linalg::{MatrixPolynomial, c64};
@@ -100,17 +99,6 @@ impl Linearization {
             Self::Companion { frequency_scale, centre } => {
                 ((lambda - centre.shift) / frequency_scale).inv()
             }
-        }
-    }
-
-    /// The `kappa` of `lambda` where it is nearly real, so that no factors of complex numbers are needed beside it.
-    pub fn real_value(self, lambda: c64) -> Option<f64> {
-        match self {
-            Self::Reduced(damping, _) => {
-                let kappa = damping.kappa(lambda);
-                (kappa.im.abs() <= BESIDE * kappa.norm()).then_some(kappa.re)
-            }
-            Self::Companion { .. } => None,
         }
     }
 

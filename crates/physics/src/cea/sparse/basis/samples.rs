@@ -6,14 +6,12 @@ use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
 use crate::cea::sparse::packed::{PackedModes, joined, side_by_side};
-use crate::cea::sparse::structure::{StiffnessFactors, StructureMatrices};
 use crate::cea::sparse::{
-    BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, ROUND_OFF, SETTLED,
+    BESIDE, CHANGE_PLACES, MOST_ATTEMPTS, RESIDUAL_BOUND, ROUND_OFF, SETTLED,
 };
 use crate::linalg::dense::join_columns;
 use crate::linalg::vectors::length;
-use crate::linalg::{LinalgError, Mat, MatrixPolynomial, c64};
-use crate::prestress::SlidingTangent;
+use crate::linalg::{LinalgError, Mat, c64};
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
 const MOST_SHIFTS: usize = 6;
@@ -158,7 +156,7 @@ impl BasisBuilder<'_> {
     /// # Errors
     /// If the analysis of the matrices fails.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
+        let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes, false))?;
         Ok(self.hold(mu, &vectors))
     }
 
@@ -173,87 +171,73 @@ impl BasisBuilder<'_> {
     }
 
     /// Corrects one mode, nearly that at `mu`, and its left vector, of which a basis of right ones holds less: its eigenvalue is wrong by
-    /// the product of what both lack. By factors beside it as [`Self::shift`] has them or, `is_at_rest`, by those without friction, which
-    /// cost next to nothing and leave more; whether the basis grew.
+    /// the product of what both lack. As [`Self::shift`] or, `is_at_rest`, by the factors without friction, which cost next to nothing and
+    /// leave more; whether the basis grew.
     ///
     /// # Errors
-    /// If the factors cannot be computed.
+    /// If the analysis of the matrices fails.
     pub fn correct_both(
         &mut self,
         ModeAt { mu, mode }: &ModeAt,
         is_at_rest: bool,
     ) -> Result<bool, CeaError> {
         let vectors = self.step(*mu, |builder| {
-            let problem = FullProblem::at(builder.tangent, *mu).sharing(&builder.analysis);
-            let [x, w] = [&mode.right, &mode.left].map(|own| {
-                let own = side_by_side(builder.model.dimension(), &[own]);
-                joined(&builder.model.expand(own.as_ref()), 0)
-            });
-            let size = length(&w);
-            let mut residuals = problem.residuals(mode.eigenvalue, &x, &w);
-            residuals[1].iter_mut().for_each(|v| *v /= size);
-            let mut parts = side_by_side(x.len(), &residuals);
-            let beside = mode.eigenvalue * (1.0 + BESIDE);
-            let factors = (!is_at_rest).then(|| problem.factors(beside).ok()).flatten();
-            match factors {
-                None => builder.factors.solve_in_place(&mut parts),
-                Some(factors) => {
-                    let [mut right, mut left] =
-                        residuals.map(|own| Mat::from_fn(own.len(), 1, |i, _| own[i]));
-                    factors.solve_in_place(right.as_mut());
-                    factors.solve_transpose_in_place(left.as_mut());
-                    parts = join_columns(parts_of(&right).as_ref(), parts_of(&left).as_ref());
-                }
+            if !is_at_rest {
+                return builder.shifted_corrections(*mu, std::slice::from_ref(mode), true);
             }
+            let problem = FullProblem::at(builder.tangent, *mu);
+            let mut parts = side_by_side(problem.dimension(), &builder.residuals(&problem, mode));
+            builder.factors.solve_in_place(&mut parts);
             turn_to_real(&mut parts);
             Ok::<_, LinalgError>(parts)
         })?;
         Ok(self.hold(*mu, &vectors))
     }
 
-    /// The corrections of [`Self::shift`], two real columns each. Neighbours in frequency share factors.
-    fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode]) -> Result<Mat<f64>, LinalgError> {
+    /// `T(lambda) x` and, of a left vector of unit length, `T(lambda)^T w`.
+    fn residuals(&self, problem: &FullProblem<'_>, mode: &ReducedMode) -> [Vec<c64>; 2] {
+        let [x, mut w] = [&mode.right, &mode.left].map(|own| {
+            let own = side_by_side(self.model.dimension(), &[own]);
+            joined(&self.model.expand(own.as_ref()), 0)
+        });
+        let size = length(&w);
+        w.iter_mut().for_each(|v| *v /= size);
+        problem.residuals(mode.eigenvalue, &x, &w)
+    }
+
+    /// The corrections of [`Self::shift`], two real columns each, those of left vectors too where they are asked for. Neighbours in
+    /// frequency share factors.
+    fn shifted_corrections(
+        &self,
+        mu: f64,
+        modes: &[ReducedMode],
+        with_lefts: bool,
+    ) -> Result<Mat<f64>, LinalgError> {
         let problem = FullProblem::at(self.tangent, mu).sharing(&self.analysis);
         let unknowns = problem.dimension();
-        // Residuals in the full matrices.
-        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let packed = PackedModes::of(modes, self.model.dimension());
-        let mut open: Vec<(c64, Vec<c64>)> = Vec::with_capacity(modes.len());
-        for group in packed.groups(GROUP_WIDTH) {
-            let x = self.model.expand(packed.coordinates.get(.., group.columns.clone()));
-            let (residuals, _) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
-            open.extend(group.modes.iter().map(|&j| {
-                let own = packed.vector(j, &group, &residuals);
-                (modes[j].eigenvalue, (0..unknowns).map(|i| own.at(i)).collect())
-            }));
-        }
-        crate::order::sort_by_number(&mut open, |a| a.0.im);
+        let mut open: Vec<&ReducedMode> = modes.iter().collect();
+        crate::order::sort_by_number(&mut open, |own| own.eigenvalue.im);
 
         // Factors beside the middle one of each group; where an eigenvalue lies just there, another round has others.
         let share = open.len().div_ceil(MOST_SHIFTS).max(1);
         let solved: Vec<Option<_>> = crate::parallel::map(open.chunks(share), |own| {
-            let beside = own[own.len() / 2].0 * (1.0 + BESIDE);
-            let mut x = Mat::from_fn(unknowns, own.len(), |i, j| own[j].1[i]);
-            if let Some(shift) = self.linearization.real_value(beside) {
-                let mut parts = parts_of(&x);
-                self.factors_about(shift, mu).ok()?.solve_in_place(&mut parts);
-                return Some(parts);
+            let beside = own[own.len() / 2].eigenvalue * (1.0 + BESIDE);
+            let factors = problem.factors(beside).ok()?;
+            let residuals: Vec<_> = own.iter().map(|mode| self.residuals(&problem, mode)).collect();
+            let [mut rights, mut lefts] =
+                [0, 1].map(|side| Mat::from_fn(unknowns, own.len(), |i, j| residuals[j][side][i]));
+            factors.solve_in_place(rights.as_mut());
+            if !with_lefts {
+                return Some(parts_of(&rights));
             }
-            problem.factors(beside).ok()?.solve_in_place(x.as_mut());
-            Some(parts_of(&x))
+            factors.solve_transpose_in_place(lefts.as_mut());
+            Some(join_columns(parts_of(&rights).as_ref(), parts_of(&lefts).as_ref()))
         });
         let none = Mat::zeros(unknowns, 0);
         let mut columns =
             solved.iter().flatten().fold(none, |all, own| join_columns(all.as_ref(), own.as_ref()));
         turn_to_real(&mut columns);
         Ok(columns)
-    }
-
-    /// Real factors of `K - kappa M` at `mu`.
-    fn factors_about(&self, kappa: f64, mu: f64) -> Result<StiffnessFactors, LinalgError> {
-        let SlidingTangent { stiffness, mass, .. } = self.tangent;
-        let shifted = MatrixPolynomial::combination(1.0, stiffness, -kappa, mass);
-        StiffnessFactors::general(&shifted, self.analysis.of(shifted.pattern())?, mu)
     }
 
     /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.

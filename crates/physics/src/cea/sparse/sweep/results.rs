@@ -86,7 +86,6 @@ impl SparseSweep<'_> {
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
         let all = || (0..branches.len()).collect::<Vec<usize>>();
         let mut found: Vec<Vec<FoundInterval>> = branches.iter().map(|_| Vec::new()).collect();
-        let mut before: Vec<Vec<f64>> = vec![Vec::new(); branches.len()];
         let (mut sought, mut searches) = (all(), true);
         for round in 0.. {
             let own: Result<Vec<_>, LinalgError> =
@@ -94,21 +93,22 @@ impl SparseSweep<'_> {
                     true => self.intervals_of(&branches[i]),
                     false => self.intervals_again(&branches[i], &found[i]),
                 });
-            sought.iter().zip(own?).for_each(|(&i, own)| found[i] = own);
             // Crossings that moved since the last round, all in the first one.
-            let mut open: Vec<&ModeAt> = Vec::new();
-            let mut moved: Vec<usize> = Vec::new();
-            for &i in sought.iter().filter(|_| self.builder.is_sampling) {
+            let (mut open, mut moved): (Vec<ModeAt>, Vec<usize>) = Default::default();
+            for (&i, own) in sought.iter().zip(own?) {
+                let before = std::mem::replace(&mut found[i], own);
+                let before: Vec<f64> =
+                    before.iter().flat_map(FoundInterval::crossings).map(|own| own.mu).collect();
                 let own: Vec<&ModeAt> =
                     found[i].iter().flat_map(FoundInterval::crossings).collect();
-                let places: Vec<f64> = own.iter().map(|state| state.mu).collect();
-                let before = std::mem::replace(&mut before[i], places);
                 let is_same = round > 0 && before.len() == own.len();
                 let moving = own.into_iter().enumerate().filter(|(k, state)| {
                     !is_same || (state.mu - before[*k]).abs() > SETTLED.max(doubt(state))
                 });
                 let known = open.len();
-                open.extend(moving.map(|(_, state)| state));
+                open.extend(
+                    moving.filter(|_| self.builder.is_sampling).map(|(_, own)| own.clone()),
+                );
                 if open.len() > known {
                     moved.push(i);
                 }
@@ -117,7 +117,7 @@ impl SparseSweep<'_> {
             let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
             searches = open.is_empty();
             if searches {
-                open.extend(missed());
+                open.extend(missed().cloned());
                 moved = all();
             }
             if round == MOST_ATTEMPTS {
@@ -127,7 +127,7 @@ impl SparseSweep<'_> {
             // By turns: factors beside a mode leave little, which those at rest then show to be little.
             for state in open {
                 let is_at_rest = !searches && round % 2 == 1;
-                has_grown |= self.builder.correct_both(state, is_at_rest)?;
+                has_grown |= self.builder.correct_both(&state, is_at_rest)?;
             }
             if !has_grown {
                 let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
