@@ -3,7 +3,7 @@
 use super::RESIDUAL_BOUND;
 use super::mode::ReducedMode;
 use super::reduced::{ReducedModel, inside};
-use crate::cea::accuracy::ROUNDING_ERRORS;
+use crate::cea::accuracy::ROUND_OFF;
 use crate::linalg::vectors::length;
 use crate::linalg::{Mat, c64};
 
@@ -65,7 +65,7 @@ impl SolvedPoint {
         let open = pairs.filter(move |(_, check)| {
             // A residual of round-off is no excuse where the mode answers to it.
             let is_round_off =
-                check.residual <= ROUNDING_ERRORS * f64::EPSILON && check.error() <= RESIDUAL_BOUND;
+                check.residual <= 0.01 * ROUND_OFF && check.error() <= RESIDUAL_BOUND;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
             !is_fine && !is_round_off
         });
