@@ -6,6 +6,8 @@ use frictionsim::study::transient::TransientStudy;
 
 /// A pad on a disc that turns, the seam of the disc glued.
 const PAD: &str = include_str!("../cases/pad-on-a-turning-disc.toml");
+/// A lining glued to a plate that presses it on a turning disc.
+const GLUED: &str = include_str!("../cases/lining-glued-to-a-plate.toml");
 const BLOCK: &str = include_str!("../cases/block-under-falling-friction.toml");
 
 /// Changes with which the eigenvalue analysis has what the transient has.
@@ -31,6 +33,23 @@ fn a_pad_on_springs_on_a_disc_grows_from_its_mode() {
     let file = [("body.msh", &file_of(&blocks, polar)[..])];
     let springs = "contacts.pad.normal_stiffness=1e11";
     grows_from_its_mode(&case_beside("pad-from-a-mode", &file, PAD, &[AS_STEPPED, springs]), 6e3);
+}
+
+/// A damped lining glued to a plate of another mesh, whose nodes it follows: velocities of such nodes counted twice.
+#[test]
+fn a_damped_lining_that_follows_a_plate_grows_from_its_mode() {
+    let blocks = [
+        brick("disc", [0.0; 3], [0.06, 0.06, 0.008], [3, 3, 1]),
+        brick("lining", [0.01, 0.01, 0.008], [0.04, 0.04, 0.006], [2, 2, 1]),
+        brick("plate", [0.01, 0.01, 0.014], [0.04, 0.04, 0.004], [3, 3, 1]),
+    ];
+    let mesh = file_of(&blocks, |point| point);
+    for damping in ["stiffness_coefficient=1e-6", "mass_coefficient=3000.0"] {
+        let damping = format!("materials.lining.{damping}");
+        let changes = [AS_STEPPED, damping.as_str()];
+        let case = case_beside("lining-from-a-mode", &[("body.msh", &mesh)], GLUED, &changes);
+        grows_from_its_mode(&case, 3e4);
+    }
 }
 
 /// Rigid contact, springs, and springs of which a row is open.

@@ -181,18 +181,18 @@ fn sum_around(
 }
 
 /// What damping coefficients of their own, of regions and of patches, add to `alpha_R M + beta_R K_e` of the whole body, Pa s,
-/// over all dofs.
+/// over all dofs; the first sum by itself.
 ///
 /// ```text
-/// sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e  +  sum_patch (alpha_p M_e + beta_p K_e)
+/// sum_e (alpha_e - alpha_R) M_e,   sum_e (beta_e - beta_R) K_e  +  sum_patch (alpha_p M_e + beta_p K_e)
 /// ```
 pub fn assemble_extra_damping(
     mesh: &Mesh,
     material: &dyn MaterialField,
     kind: MassKind,
     common: RayleighDamping,
-) -> Triplets {
-    let mut triplets = assemble_patch_damping(mesh, material, kind);
+) -> [Triplets; 2] {
+    let mut parts = [Triplets::default(), assemble_patch_damping(mesh, material, kind)];
     let own: Vec<_> = (0..mesh.regions.len()).map(|region| material.own_damping(region)).collect();
     for e in 0..mesh.element_count() {
         // Nothing of a mesh without regions.
@@ -200,10 +200,11 @@ pub fn assemble_extra_damping(
             let [mass, stiffness] = element_matrices(mesh, material, kind, e);
             let alpha = damping.mass_coefficient - common.mass_coefficient;
             let beta = damping.stiffness_coefficient - common.stiffness_coefficient;
-            scatter(&mut triplets, mesh, e, &(mass * alpha + stiffness * beta));
+            let own = [mass * alpha, stiffness * beta];
+            parts.iter_mut().zip(&own).for_each(|(part, own)| scatter(part, mesh, e, own));
         }
     }
-    triplets
+    parts
 }
 
 /// Damping of the patches alone over all dofs.

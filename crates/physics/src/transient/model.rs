@@ -100,10 +100,14 @@ impl<'a> TransientModel<'a> {
 
     /// A matrix over all dofs without those that are held or follow others.
     fn bound(&self, matrix: Triplets) -> Triplets {
-        match self.body {
-            SteppedBody::Assembly { assembly, .. } => assembly.joined.basis.congruent(&matrix),
-            _ => matrix,
-        }
+        let SteppedBody::Assembly { assembly, .. } = self.body else {
+            return matrix;
+        };
+        let (basis, unknowns) = (&assembly.joined.basis, assembly.joined.basis.unknowns());
+        let mut matrix = basis.congruent(&matrix);
+        let moves = |dof: usize| unknowns.unknown_of[dof].is_some();
+        matrix.entries.retain(|&(row, column, _)| moves(row) && moves(column));
+        matrix
     }
 
     /// The mesh that its matrices are made of: of a body of revolution that of a sector.
@@ -226,8 +230,15 @@ impl<'a> TransientModel<'a> {
             damping.entries.extend(springs.scaled(-beta).entries);
         }
         let (mesh, kind) = (self.own_mesh(), MassKind::Lumped);
-        let own = self.everywhere(assemble_extra_damping(mesh, self.material, kind, self.damping));
+        let own = assemble_extra_damping(mesh, self.material, kind, self.damping);
+        let [mut masses, own] = own.map(|part| self.everywhere(part));
         damping.entries.extend(own.entries);
+        // Lumped as the masses are.
+        if let SteppedBody::Assembly { assembly, .. } = self.body {
+            masses = assembly.joined.basis.gathered(&masses);
+        }
+        let mut damping = self.bound(damping);
+        damping.entries.extend(masses.entries);
         let pressure = match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
             SteppedBody::Revolution(SolidSector { strip, .. }) => {
@@ -236,7 +247,7 @@ impl<'a> TransientModel<'a> {
             SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh)
                 .map(|load| assembly.joined.basis.transposed_forces(&load)),
         };
-        BoundaryForces::of(self.bound(damping), &pressure.unwrap_or_default(), operator)
+        BoundaryForces::of(damping, &pressure.unwrap_or_default(), operator)
     }
 
     /// Maxwell elements of its regions.
