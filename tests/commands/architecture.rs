@@ -48,13 +48,13 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_970),
+    ("crates/case", 10_972),
     ("crates/chart", 4_727),
     ("crates/described", 107),
     ("crates/formats", 6_156),
     ("crates/linalg", 4_168),
     ("crates/output", 801),
-    ("crates/physics/src/cea", 10_395),
+    ("crates/physics/src/cea", 10_421),
     ("crates/physics/src/contact", 2_746),
     ("crates/physics/src/cycle", 7_822),
     ("crates/physics/src/fem", 4_576),

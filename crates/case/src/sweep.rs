@@ -2,8 +2,8 @@
 
 use super::value::range_count;
 use super::{
-    Analysis, Bound, Case, CaseErrors, Combination, Diagnostic, Location, RawEntry, RawValue,
-    Section, VariedKey, parameters, placed, refuse_at,
+    Analysis, Bound, Case, CaseErrors, Combination, Diagnostic, RawEntry, RawValue, Section,
+    VariedKey, parameters, placed, refuse_at,
 };
 use std::collections::BTreeSet;
 
@@ -191,7 +191,7 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
     });
     let mut errors = Vec::new();
     // The value before of the same key, and the case with it.
-    let mut before: Option<(String, Location, Case)> = None;
+    let mut before: Option<(String, Case)> = None;
     for (what, changes, at) in swept.chain(uncertain) {
         let found = match point.with_overrides(&changes).and_then(Case::read) {
             // What it was read from differs at any rate, and so the title.
@@ -206,15 +206,36 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
             }
         };
         let now = changes.into_iter().next().unwrap_or_default();
-        if let Some((other, place, case)) = &before
-            && *place == at
+        let key = |own: &String| own.split('=').next().map(str::to_owned);
+        if let Some((other, case)) = &before
+            && key(other) == key(&now)
             && *other != now
             && *case == found
         {
-            errors.push(placed!(at.clone(), "{what} values {other} and {now} make the same case";
+            errors.push(placed!(at, "{what} values {other} and {now} make the same case";
                 "nothing depends on this key"; "leave it out: this body does not use it"));
         }
-        before = Some((now, at, found));
+        before = Some((now, found));
     }
     if errors.is_empty() { Ok(()) } else { Err(case.raw.errors(errors)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The values of two keys that the case has itself, one after the other, are no value given twice.
+    #[test]
+    fn values_that_the_case_has_may_be_swept_and_uncertain() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/polycarbonate-disc.toml");
+        let bytes = std::fs::read(path).unwrap();
+        for study in [
+            "sweep={\"contact.friction_coefficient\"=[0.2,0.3],\"material.young_modulus\"=[2.5e9,3e9]}",
+            "uncertainty={samples=4,seed=1,distributions={\"contact.friction_coefficient\"={normal=[0.3,0.01]},\
+             \"material.young_modulus\"={normal=[2.5e9,1e8]}}}",
+        ] {
+            let found = Case::parse(path, &bytes, &[study.to_owned()]);
+            assert!(found.is_ok(), "{:?}", found.err().map(|errors| errors.line()));
+        }
+    }
 }

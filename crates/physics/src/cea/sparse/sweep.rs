@@ -105,6 +105,9 @@ fn referred(
     }
 }
 
+/// Steps of the friction values between two whose modes the basis holds, up to which their points are solved at once.
+const MOST_BETWEEN_SAMPLES: usize = 3;
+
 /// The stages of [`sweep`], in order.
 pub struct SparseSweep<'a> {
     tangent: &'a SlidingTangent,
@@ -183,7 +186,8 @@ impl<'a> SparseSweep<'a> {
             if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
                 self.builder.begin_at_rest()?;
             }
-            return self.builder.cover(&self.grid[first..]);
+            self.builder.cover(&self.grid[first..])?;
+            return self.fill_gaps();
         }
         let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
         let mut samples = self.grid.clone();
@@ -201,6 +205,28 @@ impl<'a> SparseSweep<'a> {
             samples.retain(|mu| *mu > 0.0);
         }
         self.builder.cover(&samples)
+    }
+
+    /// Takes up the modes at the middle of a wide gap between those that the basis holds, where these do not converge there, and so in its
+    /// halves: one point says what all points of a gap need.
+    fn fill_gaps(&mut self) -> Result<(), CeaError> {
+        let mut seen: Vec<usize> = Vec::new();
+        loop {
+            let is_held = |k: &usize| self.builder.is_sampled(self.grid[*k]);
+            let held: Vec<usize> = (self.first_asked()..self.grid.len()).filter(is_held).collect();
+            let wide = held.windows(2).filter(|ends| ends[1] - ends[0] > MOST_BETWEEN_SAMPLES);
+            let middles = wide.map(|ends| (ends[0] + ends[1]) / 2);
+            let middles: Vec<usize> = middles.filter(|k| !seen.contains(k)).collect();
+            if middles.is_empty() {
+                return Ok(());
+            }
+            for (&k, point) in middles.iter().zip(self.solve_points(&middles)?) {
+                if point.open_modes(self.goal()).next().is_some() {
+                    self.builder.improve_at(self.grid[k])?;
+                }
+            }
+            seen.extend(middles);
+        }
     }
 
     /// Index of the first friction value asked for; before it there is only 0, where branches begin.

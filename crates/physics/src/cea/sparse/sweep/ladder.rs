@@ -119,7 +119,7 @@ impl SparseSweep<'_> {
     /// The real problem's bases aim lower anyway. Of the quadratic one an eigenvalue is wrong by the product of the errors of its right
     /// and left vectors: this keeps it below 1e-9. With other than viscous damping the basis, made of right vectors alone, is too poor in
     /// left ones for errors of eigenvalues to be of second order.
-    fn goal(&self) -> f64 {
+    pub(super) fn goal(&self) -> f64 {
         match self.linearization {
             _ if self.tangent.is_lossy() => RESIDUAL_BOUND,
             Linearization::Reduced(..) => SETTLED,
