@@ -6,15 +6,13 @@ use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::{TrackedBranch, followed};
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::{MOST_STEPS, NEAR, RESIDUAL_BOUND, SAME, SETTLED};
+use crate::cea::sparse::{BESIDE, MOST_STEPS, NEAR, RESIDUAL_BOUND, SAME, SETTLED};
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
 use crate::linalg::vectors::length;
 
 /// Steps over the whole range, at least, in which a branch is led back: a crossing lies between two of them.
 const STEPS_BACK: usize = 8;
-/// Change of a critical friction coefficient up to which it is the same one.
-const NEARBY: f64 = 1e-3;
 
 /// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
 pub fn doubt(ModeAt { mode, .. }: &ModeAt) -> f64 {
@@ -172,7 +170,7 @@ impl SparseSweep<'_> {
             }
             // What the basis lacked moves a crossing by less.
             let step = at.mode.eigenvalue.re / at.mode.derivative.re;
-            if !(step.abs() <= NEARBY) {
+            if !(step.abs() <= BESIDE) {
                 return None;
             }
             is_there = step.abs() <= SETTLED.max(doubt(&at));
