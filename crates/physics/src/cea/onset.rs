@@ -32,6 +32,7 @@ pub(super) trait BranchSolver {
 }
 
 /// A range of friction coefficients over which a branch grows.
+#[derive(Clone)]
 pub(super) struct Instability<S> {
     pub onset: S,
     pub restabilized: Option<S>,

@@ -1,11 +1,13 @@
 //! The dashpots of friction across the sliding, which grow without bound as the sliding slows down.
 
 use super::pencil::{Modes, Pencil};
-use crate::cea::accuracy::NEAR;
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::dense::dot;
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
+
+/// Stiffness that holds the motion across the sliding, over that of the body at the same unknown.
+const HOLDING: f64 = 1e4;
 
 /// `A = int p_0 / V d d^T dA` of one harmonic: `mu A` damps the motion across the sliding.
 ///
@@ -53,7 +55,7 @@ impl Across {
             .filter(|&k| self.dashpots.get(k, k) > 0.0)
             .map(|k| pencil.stiffness().get(k, k) / self.dashpots.get(k, k))
             .fold(0.0, f64::max);
-        let held = pencil.stiffened(stiffest / NEAR, &self.dashpots);
+        let held = pencil.stiffened(HOLDING * stiffest, &self.dashpots);
         held.map_or_else(Vec::new, |held| held.lowest(held.count_below(kappa)))
     }
 }

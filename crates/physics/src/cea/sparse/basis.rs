@@ -329,7 +329,7 @@ pub(super) fn turn_to_real(vectors: &mut Mat<f64>) {
         let (p, q) = (column(vectors.as_ref(), j), column(vectors.as_ref(), j + 1));
         let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));
         let angle = 0.5 * (2.0 * pq).atan2(pp - qq);
-        let length = (pp + qq).sqrt();
+        let length = (pp + qq).sqrt().max(f64::MIN_POSITIVE);
         let (cosine, sine) = (angle.cos() / length, angle.sin() / length);
         let turned: Vec<[f64; 2]> =
             p.iter().zip(q).map(|(p, q)| [cosine * p + sine * q, cosine * q - sine * p]).collect();

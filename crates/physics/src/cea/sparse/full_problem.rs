@@ -60,17 +60,17 @@ impl<'a> FullProblem<'a> {
         pencil
     }
 
-    /// `T(lambda) x` and `T(lambda)^T w`.
-    pub fn residuals(&self, lambda: c64, x: &[c64], w: &[c64]) -> [Vec<c64>; 2] {
+    /// `T(lambda) x` or, of a left vector, `T(lambda)^T x`.
+    pub fn residual(&self, lambda: c64, x: &[c64], is_left: bool) -> Vec<c64> {
         let pencil = self.pencil(lambda);
-        let [mut right, mut left] = [(); 2].map(|()| vec![c64::new(0.0, 0.0); self.dimension()]);
+        let mut residual = vec![c64::new(0.0, 0.0); self.dimension()];
         for j in 0..self.dimension() {
             for (at, i) in self.pattern.column(j) {
-                right[i] += pencil[at] * x[j];
-                left[j] += pencil[at] * w[i];
+                let (to, from) = if is_left { (j, i) } else { (i, j) };
+                residual[to] += pencil[at] * x[from];
             }
         }
-        [right, left]
+        residual
     }
 
     /// LU factors of `T(lambda)`.

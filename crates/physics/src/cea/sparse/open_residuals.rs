@@ -7,6 +7,10 @@ use crate::linalg::dense::{column, dot, norm, pick_columns};
 use crate::linalg::{Mat, MatRef};
 use std::ops::Range;
 
+/// Energy of a correction, relative to its mode, below which the mode is left as it is: a stiff contact has large
+/// forces in short displacements, so lengths do not tell.
+const SMALLEST_ENERGY: f64 = 1e-24;
+
 /// Residuals of the packed vectors that have not converged.
 pub struct OpenResiduals {
     /// One column for a real vector, two for a complex one.
@@ -52,7 +56,7 @@ impl OpenResiduals {
     pub fn with_energy(&self, corrections: Mat<f64>) -> Mat<f64> {
         let has_energy = |(own, whole): &&(Range<usize>, f64)| {
             let (t, r) = (corrections.as_ref(), self.columns.as_ref());
-            products(t, r, own.clone()) > (0.1 * CONVERGED).powi(2) * whole
+            products(t, r, own.clone()) > SMALLEST_ENERGY * whole
         };
         let kept = self.vectors.iter().filter(has_energy);
         let kept: Vec<usize> = kept.flat_map(|(own, _)| own.clone()).collect();

@@ -3,9 +3,11 @@
 use super::RESIDUAL_BOUND;
 use super::mode::ReducedMode;
 use super::reduced::{ReducedModel, inside};
-use crate::cea::accuracy::ROUND_OFF;
 use crate::linalg::vectors::length;
 use crate::linalg::{Mat, c64};
+
+/// Residual relative to the matrices below which there is only round-off.
+const ROUND_OFF: f64 = 1e-15;
 
 /// What the full matrices say about one mode.
 #[derive(Clone, Debug)]
@@ -64,8 +66,7 @@ impl SolvedPoint {
         let pairs = self.modes.iter().zip(&self.checks).take(self.wanted);
         let open = pairs.filter(move |(_, check)| {
             // A residual of round-off is no excuse where the mode answers to it.
-            let is_round_off =
-                check.residual <= 0.01 * ROUND_OFF && check.error() <= RESIDUAL_BOUND;
+            let is_round_off = check.residual <= ROUND_OFF && check.error() <= RESIDUAL_BOUND;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
             !is_fine && !is_round_off
         });

@@ -3,12 +3,14 @@
 use super::linearization::Linearization;
 use super::packed::PackedEntry;
 use super::pencil::Pencil;
-use crate::cea::accuracy::BESIDE;
 use crate::linalg::dense::{column, column_mut, join_rows};
 use crate::linalg::{BlockOperator, LinalgError, MatrixPolynomial, SparsityPattern};
 use crate::linalg::{LdlAnalysis, LuAnalysis, Mat, MatRef, SparseLdl, SparseLu, c64};
 use crate::prestress::SlidingTangent;
 use std::sync::Arc;
+
+/// Terms of a matrix, over their sum, from which on their rounding shows in residuals.
+const CANCELLING: f64 = 1e3;
 
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
 pub struct StructureMatrices<'a> {
@@ -112,7 +114,7 @@ impl<'a> StructureMatrices<'a> {
             (&tangent.damping, &own.damping),
             (&tangent.mass, &own.mass),
         ]
-        .map(|(p, values)| (p.cancellation(mu) * BESIDE).max(1.0) * norm(values));
+        .map(|(p, values)| (p.cancellation(mu) / CANCELLING).max(1.0) * norm(values));
         let damped = match self.linearization {
             Linearization::Reduced(damping, _) => {
                 damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff

@@ -12,6 +12,7 @@ use crate::cea::sparse::{
 use crate::linalg::dense::join_columns;
 use crate::linalg::vectors::length;
 use crate::linalg::{LinalgError, Mat, c64};
+use std::convert::Infallible;
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
 const MOST_SHIFTS: usize = 6;
@@ -114,7 +115,7 @@ impl BasisBuilder<'_> {
                 self.hold_solved(mu, &modes);
             }
             let has_grown = match is_light {
-                true => self.shift(mu, &modes)?,
+                true => self.shift(mu, &modes),
                 false => self.refine_modes(mu, &modes)?,
             };
             if !has_grown {
@@ -152,20 +153,17 @@ impl BasisBuilder<'_> {
     ///
     /// What `x` has of another mode, with the eigenvalue `nu`, a correction takes away down to `|sigma - lambda| / |sigma - nu|`: factors
     /// that hold friction, damping, losses and tables, and lie beside the mode, leave a hundredth or less.
-    ///
-    /// # Errors
-    /// If the analysis of the matrices fails.
-    pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes, false))?;
-        Ok(self.hold(mu, &vectors))
+    pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> bool {
+        self.corrected(mu, |builder| builder.shifted_corrections(mu, modes, &[false]))
     }
 
-    /// Takes up corrections of modes at `mu`; whether the basis grew.
-    fn hold(&mut self, mu: f64, corrections: &Mat<f64>) -> bool {
+    /// Takes up the corrections of modes at `mu` that `find` has; whether the basis grew.
+    fn corrected(&mut self, mu: f64, find: impl FnOnce(&Self) -> Mat<f64>) -> bool {
+        let Ok(corrections) = self.step(mu, |builder| Ok::<_, Infallible>(find(builder)));
         let has_grown = self.model.extend(corrections.clone(), ROUND_OFF).ncols() > 0;
         match self.is_sampled(mu) {
-            true => self.model.hold_sample(mu, corrections),
-            false => self.model.hold_correction(mu, corrections),
+            true => self.model.hold_sample(mu, &corrections),
+            false => self.model.hold_correction(mu, &corrections),
         }
         has_grown
     }
@@ -173,46 +171,34 @@ impl BasisBuilder<'_> {
     /// Corrects one mode, nearly that at `mu`, and its left vector, of which a basis of right ones holds less: its eigenvalue is wrong by
     /// the product of what both lack. As [`Self::shift`] or, `is_at_rest`, by the factors without friction, which cost next to nothing and
     /// leave more; whether the basis grew.
-    ///
-    /// # Errors
-    /// If the analysis of the matrices fails.
-    pub fn correct_both(
-        &mut self,
-        ModeAt { mu, mode }: &ModeAt,
-        is_at_rest: bool,
-    ) -> Result<bool, CeaError> {
-        let vectors = self.step(*mu, |builder| {
+    pub fn correct_both(&mut self, ModeAt { mu, mode }: &ModeAt, is_at_rest: bool) -> bool {
+        self.corrected(*mu, |builder| {
+            let sides = [false, true];
             if !is_at_rest {
-                return builder.shifted_corrections(*mu, std::slice::from_ref(mode), true);
+                return builder.shifted_corrections(*mu, std::slice::from_ref(mode), &sides);
             }
             let problem = FullProblem::at(builder.tangent, *mu);
-            let mut parts = side_by_side(problem.dimension(), &builder.residuals(&problem, mode));
+            let residuals = sides.map(|is_left| builder.residual(&problem, mode, is_left));
+            let mut parts = side_by_side(problem.dimension(), &residuals);
             builder.factors.solve_in_place(&mut parts);
             turn_to_real(&mut parts);
-            Ok::<_, LinalgError>(parts)
-        })?;
-        Ok(self.hold(*mu, &vectors))
+            parts
+        })
     }
 
-    /// `T(lambda) x` and, of a left vector of unit length, `T(lambda)^T w`.
-    fn residuals(&self, problem: &FullProblem<'_>, mode: &ReducedMode) -> [Vec<c64>; 2] {
-        let [x, mut w] = [&mode.right, &mode.left].map(|own| {
-            let own = side_by_side(self.model.dimension(), &[own]);
-            joined(&self.model.expand(own.as_ref()), 0)
-        });
-        let size = length(&w);
-        w.iter_mut().for_each(|v| *v /= size);
-        problem.residuals(mode.eigenvalue, &x, &w)
+    /// `T(lambda) x` of the right vector of a mode, or `T(lambda)^T w` of the left one, of unit length.
+    fn residual(&self, problem: &FullProblem<'_>, mode: &ReducedMode, is_left: bool) -> Vec<c64> {
+        let own =
+            side_by_side(self.model.dimension(), &[if is_left { &mode.left } else { &mode.right }]);
+        let mut x = joined(&self.model.expand(own.as_ref()), 0);
+        let size = length(&x);
+        x.iter_mut().for_each(|v| *v /= size);
+        problem.residual(mode.eigenvalue, &x, is_left)
     }
 
-    /// The corrections of [`Self::shift`], two real columns each, those of left vectors too where they are asked for. Neighbours in
-    /// frequency share factors.
-    fn shifted_corrections(
-        &self,
-        mu: f64,
-        modes: &[ReducedMode],
-        with_lefts: bool,
-    ) -> Result<Mat<f64>, LinalgError> {
+    /// The corrections of [`Self::shift`], two real columns each, of right vectors (`false`) and of left ones where `sides` has them.
+    /// Neighbours in frequency share factors.
+    fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode], sides: &[bool]) -> Mat<f64> {
         let problem = FullProblem::at(self.tangent, mu).sharing(&self.analysis);
         let unknowns = problem.dimension();
         let mut open: Vec<&ReducedMode> = modes.iter().collect();
@@ -220,24 +206,28 @@ impl BasisBuilder<'_> {
 
         // Factors beside the middle one of each group; where an eigenvalue lies just there, another round has others.
         let share = open.len().div_ceil(MOST_SHIFTS).max(1);
-        let solved: Vec<Option<_>> = crate::parallel::map(open.chunks(share), |own| {
+        let none = || Mat::zeros(unknowns, 0);
+        let solved: Vec<Mat<f64>> = crate::parallel::map(open.chunks(share), |own| {
             let beside = own[own.len() / 2].eigenvalue * (1.0 + BESIDE);
-            let factors = problem.factors(beside).ok()?;
-            let residuals: Vec<_> = own.iter().map(|mode| self.residuals(&problem, mode)).collect();
-            let [mut rights, mut lefts] =
-                [0, 1].map(|side| Mat::from_fn(unknowns, own.len(), |i, j| residuals[j][side][i]));
-            factors.solve_in_place(rights.as_mut());
-            if !with_lefts {
-                return Some(parts_of(&rights));
-            }
-            factors.solve_transpose_in_place(lefts.as_mut());
-            Some(join_columns(parts_of(&rights).as_ref(), parts_of(&lefts).as_ref()))
+            let Ok(factors) = problem.factors(beside) else {
+                return none();
+            };
+            let of_side = |is_left: bool| {
+                let residual = |mode: &&ReducedMode| self.residual(&problem, mode, is_left);
+                let residuals: Vec<Vec<c64>> = own.iter().map(residual).collect();
+                let mut x = Mat::from_fn(unknowns, own.len(), |i, j| residuals[j][i]);
+                match is_left {
+                    true => factors.solve_transpose_in_place(x.as_mut()),
+                    false => factors.solve_in_place(x.as_mut()),
+                }
+                parts_of(&x)
+            };
+            sides.iter().fold(none(), |all, own| join_columns(all.as_ref(), of_side(*own).as_ref()))
         });
-        let none = Mat::zeros(unknowns, 0);
         let mut columns =
-            solved.iter().flatten().fold(none, |all, own| join_columns(all.as_ref(), own.as_ref()));
+            solved.iter().fold(none(), |all, own| join_columns(all.as_ref(), own.as_ref()));
         turn_to_real(&mut columns);
-        Ok(columns)
+        columns
     }
 
     /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.

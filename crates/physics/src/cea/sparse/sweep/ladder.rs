@@ -4,7 +4,7 @@ use super::SparseSweep;
 use crate::cea::CeaError;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, MULTIPLE, NEAR, RESIDUAL_BOUND, SETTLED};
+use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, NEAR, RESIDUAL_BOUND};
 
 /// Remedies, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,7 +105,7 @@ impl SparseSweep<'_> {
                 let open: Vec<ReducedMode> = open.cloned().collect();
                 self.builder.take_up(mu, &point.modes);
                 if !open.is_empty() {
-                    self.builder.shift(mu, &open)?;
+                    self.builder.shift(mu, &open);
                 }
             }
             Rung::Whole => self.builder.hold_all(mu)?,
@@ -122,8 +122,8 @@ impl SparseSweep<'_> {
     pub(super) fn goal(&self) -> f64 {
         match self.linearization {
             _ if self.tangent.is_lossy() => RESIDUAL_BOUND,
-            Linearization::Reduced(..) => SETTLED,
-            Linearization::Companion { .. } => MULTIPLE,
+            Linearization::Reduced(..) => 1e-10,
+            Linearization::Companion { .. } => 1e-7,
         }
     }
 

@@ -138,18 +138,12 @@ impl SparseSweep<'_> {
         known: &[FoundInterval],
     ) -> Result<Vec<FoundInterval>, LinalgError> {
         let again = |own: &FoundInterval| {
-            let Instability { onset, restabilized, .. } = &own.found;
-            let found = own.found.crosses.then(|| Instability {
-                onset: onset.clone(),
-                restabilized: restabilized.clone(),
-                ..own.found
-            });
-            let mut found = found?;
+            let mut found = own.found.crosses.then(|| own.found.clone())?;
             if own.interval.is_located() {
-                found.onset = self.crossing_near(onset)?;
+                found.onset = self.crossing_near(&found.onset)?;
             }
-            if let Some(end) = restabilized {
-                found.restabilized = Some(self.crossing_near(end)?);
+            if let Some(end) = &mut found.restabilized {
+                *end = self.crossing_near(end)?;
             }
             Some(FoundInterval { is_led_back: own.is_led_back, ..self.report(branch, found) })
         };

@@ -127,7 +127,7 @@ impl SparseSweep<'_> {
             // By turns: factors beside a mode leave little, which those at rest then show to be little.
             for state in open {
                 let is_at_rest = !searches && round % 2 == 1;
-                has_grown |= self.builder.correct_both(&state, is_at_rest)?;
+                has_grown |= self.builder.correct_both(&state, is_at_rest);
             }
             if !has_grown {
                 let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
