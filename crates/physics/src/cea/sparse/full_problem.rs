@@ -1,5 +1,6 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
+use super::packed::add_complex_multiple;
 use super::pencil::Pencil;
 use crate::linalg::{
     ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial, SparsityPattern, c64,
@@ -100,11 +101,7 @@ impl<'a> FullProblem<'a> {
         let images = self.transposed_images(w);
         for (k, own) in values.iter().enumerate() {
             for (factor, image) in images.terms(*own) {
-                for i in 0..image.nrows() {
-                    let value = factor * c64::new(image[(i, 2 * k)], image[(i, 2 * k + 1)]);
-                    sum[(i, 2 * k)] += value.re;
-                    sum[(i, 2 * k + 1)] += value.im;
-                }
+                add_complex_multiple(&mut sum, factor, image, 2 * k..2 * k + 2);
             }
         }
         sum

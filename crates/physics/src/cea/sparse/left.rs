@@ -29,8 +29,7 @@ fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64
 /// E = Z^T T(lambda')^T Z,             lambda' beside lambda
 /// ```
 ///
-/// until the energy of what a further correction would be is negligible; scales them to `w^T (2 lambda M + C) x = 1`. Right vectors at
-/// several friction coefficients span what is global in a left one; what is missing is near the contact, where the normal force works on
+/// until the energy of what a further correction would be is negligible. Right vectors at several friction coefficients span what is global in a left one; what is missing is near the contact, where the normal force works on
 /// its slip, and follows the load as in statics. What that stirs up of the modes, which `P` weighs otherwise than `T`, `E` takes out.
 ///
 /// Source: S. C. Eisenstat, H. C. Elman and M. H. Schultz, SIAM J. Numer. Anal. 20 (1983), the generalized conjugate residual method;
@@ -45,10 +44,15 @@ pub fn correct_lefts(
     let modes = AmongModes::of(&problem, modes);
     crate::parallel::map(pairs.chunks_mut(PAIRS_AT_A_TIME), |group| {
         correct_group(&problem, (factors, &modes), group);
-        for ModeVectors { eigenvalue, right, left, .. } in group {
-            let scale = problem.slope(*eigenvalue, left, right);
-            left.iter_mut().for_each(|w| *w /= scale);
-        }
+    })
+}
+
+/// Scales left vectors over the unknowns to `w^T (2 lambda M + C) x = 1`.
+pub fn scale_lefts(tangent: &SlidingTangent, mu: f64, pairs: &mut [ModeVectors]) {
+    let problem = FullProblem::at(tangent, mu);
+    crate::parallel::map(pairs, |ModeVectors { eigenvalue, right, left, .. }| {
+        let scale = problem.slope(*eigenvalue, left, right);
+        left.iter_mut().for_each(|w| *w /= scale);
     })
 }
 
@@ -76,28 +80,36 @@ impl AmongModes {
         ComplexDenseLu::factorize(sum)
     }
 
-    /// Adds to a vector what leaves nothing along `Z` of the residual `r`, and its image to that of the vector, `[w, T(lambda)^T w]`.
-    fn complete(
-        &self,
-        lambda: c64,
-        factors: &ComplexDenseLu,
-        residual: &[c64],
-        [vector, image]: [&mut [c64]; 2],
-    ) {
-        let open: Vec<c64> = residual.iter().zip(&*image).map(|(r, own)| r - own).collect();
-        let open = side_by_side(open.len(), &[open]);
-        let along = joined(&transpose_product(self.modes.as_ref(), open.as_ref()), 0);
-        let mut shares = Mat::from_fn(along.len(), 1, |i, _| along[i]);
-        factors.solve_in_place(shares.as_mut());
-        let shares: Vec<c64> = shares.col(0).iter().copied().collect();
-        let shares = side_by_side(shares.len(), &[shares]);
-        let add = |to: &mut [c64], factor: c64, columns: &Mat<f64>| {
-            let own = joined(&product(columns.as_ref(), shares.as_ref()), 0);
-            to.iter_mut().zip(own).for_each(|(to, own)| *to += factor * own);
+    /// Adds to each vector what leaves nothing along `Z` of its residual `r`, and its image to that of the vector, `[w, T(lambda)^T w]`.
+    fn complete(&self, open: &[(c64, &ComplexDenseLu, &[c64])], vectors: &mut [[Vec<c64>; 2]]) {
+        let left = open.iter().zip(&*vectors).map(|((_, _, residual), [_, image])| {
+            residual.iter().zip(image).map(|(r, own)| r - own).collect::<Vec<c64>>()
+        });
+        let left = side_by_side(self.modes.nrows(), &left.collect::<Vec<_>>());
+        let along = transpose_product(self.modes.as_ref(), left.as_ref());
+        let shares = open.iter().enumerate().map(|(k, (_, factors, _))| {
+            let own = joined(&along, k);
+            let mut shares = Mat::from_fn(own.len(), 1, |i, _| own[i]);
+            factors.solve_in_place(shares.as_mut());
+            shares.col(0).iter().copied().collect()
+        });
+        let shares: Vec<Vec<c64>> = shares.collect();
+        let mut add = |half: usize, columns: &Mat<f64>, factors: &dyn Fn(usize) -> c64| {
+            let scaled = shares
+                .iter()
+                .enumerate()
+                .map(|(k, own)| own.iter().map(|share| factors(k) * share).collect::<Vec<c64>>());
+            let scaled = side_by_side(columns.ncols(), &scaled.collect::<Vec<_>>());
+            let sums = product(columns.as_ref(), scaled.as_ref());
+            for (k, vector) in vectors.iter_mut().enumerate() {
+                vector[half].iter_mut().zip(joined(&sums, k)).for_each(|(to, own)| *to += own);
+            }
         };
-        add(vector, c64::new(1.0, 0.0), &self.modes);
-        let terms = self.images.terms(lambda).into_iter();
-        terms.for_each(|(factor, columns)| add(image, factor, columns));
+        add(0, &self.modes, &|_| c64::new(1.0, 0.0));
+        let terms: Vec<_> = open.iter().map(|(lambda, ..)| self.images.terms(*lambda)).collect();
+        for (place, (_, columns)) in terms[0].iter().enumerate() {
+            add(1, columns, &|k| terms[k][place].0);
+        }
     }
 }
 
@@ -140,15 +152,13 @@ fn correct_group(
         }
         // Static corrections, and what these stir up of the modes.
         let statics: Vec<&[c64]> = open.iter().map(|&k| &lefts[k][2][..]).collect();
-        let corrections = images(&open, &statics).into_iter().zip(statics).zip(&open);
-        let corrections = corrections.map(|((mut image, own), &k)| {
-            let mut own = own.to_vec();
-            let [_, residual, _] = &lefts[k];
-            modes.complete(eigenvalues[k], &among[k], residual, [&mut own, &mut image]);
-            [own, image]
-        });
+        let corrections = images(&open, &statics).into_iter().zip(statics);
+        let mut corrections: Vec<[Vec<c64>; 2]> =
+            corrections.map(|(image, own)| [own.to_vec(), image]).collect();
+        let own = |&k: &usize| (eigenvalues[k], &among[k], &lefts[k][1][..]);
+        modes.complete(&open.iter().map(own).collect::<Vec<_>>(), &mut corrections);
         // The least residual over all directions so far.
-        for (&k, mut own) in open.iter().zip(mapped(corrections.collect())) {
+        for (&k, mut own) in open.iter().zip(mapped(corrections)) {
             for other in &directions[k] {
                 let share = dot(&other[2], &own[2]);
                 subtract(&mut own, share, other);

@@ -1,9 +1,10 @@
 //! Complex vectors of modes in real matrices, for real arithmetic.
 
 use super::mode::ReducedMode;
-use crate::linalg::dense::{column, dot, product, transpose_product};
+use crate::linalg::dense::{column, column_mut, dot, product, transpose_product};
 use crate::linalg::vectors::length;
 use crate::linalg::{Mat, c64};
+use std::ops::Range;
 
 /// `w_i^T P x_j` of the left vectors of some modes and the right ones of others, by one product of real matrices.
 pub fn forms(lefts: &[ReducedMode], p: &Mat<f64>, rights: &[ReducedMode]) -> Mat<c64> {
@@ -37,6 +38,28 @@ pub fn joined(columns: &Mat<f64>, k: usize) -> Vec<c64> {
     re.zip(im).map(|(&re, &im)| c64::new(re, im)).collect()
 }
 
+/// `target += factor source` on one vector: a real column, or two columns of real and imaginary part.
+pub fn add_complex_multiple(
+    target: &mut Mat<f64>,
+    factor: c64,
+    source: &Mat<f64>,
+    columns: Range<usize>,
+) {
+    let j = columns.start;
+    let real = column(source.as_ref(), j);
+    if columns.len() == 1 {
+        let sum = column_mut(target, j).iter_mut().zip(real);
+        sum.for_each(|(t, p)| *t += factor.re * p);
+        return;
+    }
+    let imaginary = column(source.as_ref(), j + 1);
+    let parts = || real.iter().zip(imaginary);
+    let sum = column_mut(target, j).iter_mut().zip(parts());
+    sum.for_each(|(t, (p, q))| *t += factor.re * p - factor.im * q);
+    let sum = column_mut(target, j + 1).iter_mut().zip(parts());
+    sum.for_each(|(t, (p, q))| *t += factor.re * q + factor.im * p);
+}
+
 /// Where a vector is among packed columns.
 #[derive(Clone, Copy, Debug)]
 pub struct PackedEntry {
@@ -50,7 +73,7 @@ pub struct PackedEntry {
 
 impl PackedEntry {
     /// Its columns.
-    pub fn columns(&self) -> std::ops::Range<usize> {
+    pub fn columns(&self) -> Range<usize> {
         self.column..self.column + 1 + usize::from(self.is_complex)
     }
 }
@@ -58,7 +81,7 @@ impl PackedEntry {
 /// Neighbouring packed columns that are worked on together.
 pub struct PackedGroup {
     /// Their range among all packed columns.
-    pub columns: std::ops::Range<usize>,
+    pub columns: Range<usize>,
     /// Their entries, columns counted from the first of the group.
     pub entries: Vec<PackedEntry>,
     /// The modes, stored or conjugate, whose vectors they hold.

@@ -1,9 +1,9 @@
 //! The matrices of small motions at one friction coefficient, and how their eigenproblem is solved.
 
 use super::linearization::Linearization;
-use super::packed::PackedEntry;
+use super::packed::{PackedEntry, add_complex_multiple};
 use super::pencil::Pencil;
-use crate::linalg::dense::{column, column_mut, join_rows};
+use crate::linalg::dense::join_rows;
 use crate::linalg::{BlockOperator, LinalgError, MatrixPolynomial, SparsityPattern};
 use crate::linalg::{LdlAnalysis, LuAnalysis, Mat, MatRef, SparseLdl, SparseLu, c64};
 use crate::prestress::SlidingTangent;
@@ -56,7 +56,7 @@ impl<'a> StructureMatrices<'a> {
         let add = |sum: &mut Mat<f64>, image: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
             for entry in entries {
                 let value = self.linearization.value(entry.inverse_value);
-                add_complex_multiple(sum, factor(value), image, entry);
+                add_complex_multiple(sum, factor(value), image, entry.columns());
             }
         };
         if let Linearization::Reduced(..) = self.linearization {
@@ -123,28 +123,6 @@ impl<'a> StructureMatrices<'a> {
         };
         [stiff, damped, inert]
     }
-}
-
-/// `target += factor source` on one packed vector.
-fn add_complex_multiple(
-    target: &mut Mat<f64>,
-    factor: c64,
-    source: &Mat<f64>,
-    entry: &PackedEntry,
-) {
-    let j = entry.column;
-    let real = column(source.as_ref(), j);
-    if !entry.is_complex {
-        let sum = column_mut(target, j).iter_mut().zip(real);
-        sum.for_each(|(t, p)| *t += factor.re * p);
-        return;
-    }
-    let imaginary = column(source.as_ref(), j + 1);
-    let parts = || real.iter().zip(imaginary);
-    let sum = column_mut(target, j).iter_mut().zip(parts());
-    sum.for_each(|(t, (p, q))| *t += factor.re * p - factor.im * q);
-    let sum = column_mut(target, j + 1).iter_mut().zip(parts());
-    sum.for_each(|(t, (p, q))| *t += factor.re * q + factor.im * p);
 }
 
 /// Factors of `K(mu)`.

@@ -1,7 +1,7 @@
 //! Modes at the friction coefficients of a sweep, each held to its residual in the full matrices, and their vectors.
 
 use super::SparseSweep;
-use crate::cea::sparse::left::correct_lefts;
+use crate::cea::sparse::left::{correct_lefts, scale_lefts};
 use crate::cea::sparse::mode::{ReducedMode, from_columns, to_columns};
 use crate::cea::sparse::packed::{PackedModes, PackedVector, joined, side_by_side};
 use crate::cea::sparse::point::{ModeCheck, SolvedPoint, normalize};
@@ -23,6 +23,17 @@ fn magnitude([stiff, damped, inert]: [f64; 3], lambda: c64) -> f64 {
 pub(super) fn uncertainty(norms: [f64; 3], mode: &ReducedMode) -> f64 {
     let lambda = mode.eigenvalue;
     f64::EPSILON * magnitude(norms, lambda) * length(&mode.left) / lambda.norm()
+}
+
+/// What is to be done about the left vectors of modes.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Lefts {
+    /// None are asked for.
+    Unneeded,
+    /// The basis holds them: those of symmetric matrices, which are the right ones, and those that were corrected.
+    Held,
+    /// The basis hardly holds them.
+    Coarse,
 }
 
 impl SparseSweep<'_> {
@@ -150,14 +161,14 @@ impl SparseSweep<'_> {
         edge / (whole - friction)
     }
 
-    /// Right and, `with_lefts`, left vectors of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; left ones are corrected by
-    /// the stiffness and the modes without friction.
+    /// Right vectors and, if asked for, left ones of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; coarse left ones are
+    /// corrected by the stiffness and the modes without friction.
     pub(super) fn vectors(
         &self,
-        (mu, with_lefts): (f64, bool),
+        (mu, lefts): (f64, Lefts),
         modes: &[ReducedMode],
     ) -> Vec<ModeVectors> {
-        let model = &self.builder.model;
+        let (model, with_lefts) = (&self.builder.model, lefts != Lefts::Unneeded);
         let expanded = |of: fn(&ReducedMode) -> &Vec<c64>| -> Vec<Vec<c64>> {
             let groups = modes.chunks(GROUP_WIDTH / 2).flat_map(|group| {
                 let coordinates: Vec<&Vec<c64>> = group.iter().map(of).collect();
@@ -167,7 +178,7 @@ impl SparseSweep<'_> {
             groups.collect()
         };
         let rights = expanded(|mode| &mode.right);
-        let lefts = match with_lefts {
+        let held = match with_lefts {
             true => expanded(|mode| &mode.left),
             false => vec![Vec::new(); modes.len()],
         };
@@ -178,11 +189,14 @@ impl SparseSweep<'_> {
             right,
             left,
         };
-        let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(lefts).map(own).collect();
-        if with_lefts {
+        let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(held).map(own).collect();
+        if lefts == Lefts::Coarse {
             let leading = self.builder.leading_count().min(model.dimension());
             let leading = model.expand(Mat::identity(leading, leading).as_ref());
             correct_lefts(self.tangent, (&self.builder.factors, leading), mu, &mut all);
+        }
+        if with_lefts {
+            scale_lefts(self.tangent, mu, &mut all);
         }
         // Over all nodal dofs.
         for ModeVectors { right, left, .. } in &mut all {

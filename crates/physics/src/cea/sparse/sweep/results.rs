@@ -2,6 +2,7 @@
 
 use super::SparseSweep;
 use super::onset::{FoundInterval, doubt};
+use super::points::Lefts;
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
 use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, SETTLED};
@@ -50,8 +51,8 @@ impl SparseSweep<'_> {
         });
         let vectors = |own: &FoundInterval| {
             let ModeAt { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
-            let own = std::slice::from_ref(mode);
-            self.vectors((*mu, true), own).pop()
+            let lefts = if self.builder.is_sampling { Lefts::Held } else { Lefts::Coarse };
+            self.vectors((*mu, lefts), std::slice::from_ref(mode)).pop()
         };
         let crossed = |own: &FoundInterval| UnstableInterval {
             crossing: vectors(own),
@@ -148,8 +149,13 @@ impl SparseSweep<'_> {
         let point = &self.points[k];
         let wanted = &point.modes[..point.wanted];
         let mu = point.friction_coefficient;
+        let lefts = match with_lefts {
+            false => Lefts::Unneeded,
+            true if mu == 0.0 && !self.tangent.is_gyroscopic => Lefts::Held,
+            true => Lefts::Coarse,
+        };
         let vectors = match with_shapes {
-            true => self.vectors((mu, with_lefts), wanted),
+            true => self.vectors((mu, lefts), wanted),
             false => Vec::new(),
         };
         let mut vectors = vectors.into_iter();
