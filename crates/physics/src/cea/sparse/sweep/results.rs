@@ -148,10 +148,7 @@ impl SparseSweep<'_> {
         let point = &self.points[k];
         let wanted = &point.modes[..point.wanted];
         let mu = point.friction_coefficient;
-        let vectors = match with_shapes {
-            true => self.vectors((mu, with_lefts), wanted),
-            false => Vec::new(),
-        };
+        let vectors = if with_shapes { self.vectors((mu, with_lefts), wanted) } else { Vec::new() };
         let mut vectors = vectors.into_iter();
         let modes = point.modes.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
             let branch = branches.iter().find(|b| b.modes[k] == Some(i));
