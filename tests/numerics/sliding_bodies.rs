@@ -276,6 +276,53 @@ fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
     }
 }
 
+/// Independent check: Newton's method on the exported matrices at each critical friction, of damping that follows mass and stiffness and of
+/// damping of supports, regions and contacts.
+#[test]
+fn growth_vanishes_at_the_critical_friction_of_damped_bodies() {
+    let plane = Slider {
+        is_plane: true,
+        counts: [6, 4, 1],
+        size: [0.04, 0.03, 0.01],
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.35,
+        rayleigh: [40.0, 5e-8],
+        support: [1e12, 1e12, 0.0],
+        contact_stiffness: None,
+        loss_factor: 0.0,
+        friction: 0.15,
+        speed: 1.5,
+        modes: 12,
+    };
+    let solid = Slider {
+        is_plane: false,
+        counts: [4, 3, 2],
+        contact_stiffness: Some(3e12),
+        ..plane.clone()
+    };
+    let dashpots = Slider { support: [1e12, 3e11, 2e3], ..solid.clone() };
+    let lossy = Slider { loss_factor: 0.002, ..dashpots.clone() };
+    let mut count = 0;
+    for slider in
+        [plane.clone(), Slider { support: [1e12, 3e11, 2e3], ..plane }, solid, dashpots, lossy]
+    {
+        let case = part(&slider);
+        let found = modes_and_onsets(&case).unwrap();
+        let located = found.intervals.iter().filter(|own| own.is_located());
+        let onsets = located.flat_map(|own| {
+            [(own.critical_friction, own.frequency_hz)].into_iter().chain(own.restabilized)
+        });
+        for (friction, frequency_hz) in onsets {
+            let problem = sums(&matrices(&case, Some(friction)).unwrap());
+            let mode = polished(&problem, c64::new(0.0, TAU * frequency_hz));
+            assert!((mode.im / (TAU * frequency_hz) - 1.0).abs() < 1e-9, "{mode} {slider:?}");
+            assert!(mode.re.abs() < 1e-12 * mode.norm(), "{mode} at {friction} {slider:?}");
+            count += 1;
+        }
+    }
+    assert!(count >= 3, "{count}");
+}
+
 /// Bending of a block about its two sides, which differ by 1e-3, under a turning plane: friction couples the two, and one grows from
 /// where they meet. The other one decays from there on, and was given the same onset.
 #[test]

@@ -71,15 +71,13 @@ pub(super) fn cea(
         "friction_coefficients", "cea.friction_coefficients is empty"; "at least one value");
     let unknowns =
         body.map_or(0, |body| body.node_count().saturating_mul(body.dimension() as u128));
-    let is_stressed = match section.has("geometric_stiffness") {
-        true => section.flag("geometric_stiffness"),
-        false => is_stressed_by_default(body, root.section("mesh", false).has("file")),
-    };
+    let own = section.has("geometric_stiffness").then(|| section.flag("geometric_stiffness"));
+    let has_file = root.section("mesh", false).has("file");
     Cea {
         modes: mode_selection(section, unknowns),
         method: section.choice("method"),
         mass: section.choice("mass"),
-        geometric_stiffness: is_stressed,
+        geometric_stiffness: own.unwrap_or(is_stressed_by_default(body, has_file)),
         shapes_at: section.rising("shapes_at").unwrap_or_else(|| vec![friction_coefficient]),
         own_friction: Some(friction_coefficient),
         friction_coefficients,

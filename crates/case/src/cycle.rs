@@ -67,10 +67,8 @@ impl Case {
         self.refuse_what_has_no_cycle()?;
         // What no section would help against comes first.
         let has_waves = self.has_rotating_waves();
-        let remedy = match has_waves {
-            true => "[cycle]\nharmonics = [1, 2]",
-            false => "[cycle]\nonsets = \"all\"",
-        };
+        let key = if has_waves { "harmonics = [1, 2]" } else { "onsets = \"all\"" };
+        let remedy = &format!("[cycle]\n{key}");
         let cycle = self.required(&self.cycle, "cycle", "limit cycle", remedy)?;
         let speed = self.contact.sliding.rotation_speed;
         let is_moving = if has_waves { speed > 0.0 } else { speed != 0.0 };

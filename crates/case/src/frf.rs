@@ -55,14 +55,15 @@ pub(super) fn read(section: &Section<'_>, body: Option<&Body>) -> Frf {
         direction
     };
     let force_direction = direction("force_direction");
-    let response_direction = match section.has("response_direction") {
-        true => direction("response_direction"),
-        false => force_direction,
-    };
+    let response_direction =
+        section.has("response_direction").then(|| direction("response_direction"));
     let frf = Frf {
         boundary: section.choice("boundary"),
         force: Terminal { node: force_node, direction: force_direction },
-        response: Terminal { node: response_node, direction: response_direction },
+        response: Terminal {
+            node: response_node,
+            direction: response_direction.unwrap_or(force_direction),
+        },
         frequencies_hz,
         quantity: section.choice("quantity"),
         method: section.choice("method"),

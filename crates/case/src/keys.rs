@@ -111,8 +111,7 @@ pub fn find(name: &str) -> Option<&'static CaseKey> {
     })
 }
 
-/// Whether a dotted name is that of a section, or the beginning of one's; `*` stands for any one
-/// name.
+/// Whether a dotted name is that of a section, or the beginning of one's; `*` stands for any one name.
 pub(super) fn is_section(name: &str) -> bool {
     KEYS.iter().any(|key| {
         let mut parts = key.name.split('.');

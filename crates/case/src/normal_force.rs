@@ -1,8 +1,7 @@
 //! `normal_force`: the counterface is pushed in until it presses with a given force.
 //!
-//! Without friction the summed normal force of a contact rises with its interference, by straight
-//! pieces where contact is rigid. The interference that belongs to a force is the one root of their
-//! difference.
+//! Without friction the summed normal force of a contact rises with its interference, by straight pieces where contact
+//! is rigid. The interference that belongs to a force is the one root of their difference.
 
 use super::{BodyKind, Case, CaseErrors, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};

@@ -80,9 +80,8 @@ impl MeshBytes {
 impl RawCase {
     /// Parses the bytes of a case file and lays the overrides over it.
     ///
-    /// An override is one TOML assignment to a dotted key, `contact.friction_coefficient=0.4`; a
-    /// value that is not TOML is taken as a string, so that `mesh.element=quad8` needs no quotes.
-    /// Nothing is validated here but the syntax.
+    /// An override is one TOML assignment to a dotted key, `contact.friction_coefficient=0.4`; a value that is not TOML
+    /// is taken as a string, so that `mesh.element=quad8` needs no quotes. Nothing is validated here but the syntax.
     ///
     /// # Errors
     /// [`CaseErrors`] with every syntax error of the file and of the overrides.

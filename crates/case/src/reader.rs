@@ -244,10 +244,9 @@ impl<'a> Section<'a> {
         let names: Vec<&str> = asked.iter().map(String::as_str).collect();
         let entries = self.table.into_iter().flatten();
         let mut unknown = entries.filter(|(key, _)| !asked.contains(key.as_str()));
-        let place = match self.path.is_empty() {
-            true => "the case has no such section or key".to_owned(),
-            false => format!("not a key of [{}]", self.path),
-        };
+        let section = format!("not a key of [{}]", self.path);
+        let is_root = self.path.is_empty();
+        let place = if is_root { "the case has no such section or key" } else { &section };
         for (key, entry) in unknown.by_ref().take(MOST_UNKNOWN) {
             let help = match self.declarations {
                 Some(own) => suggestion::suggest_part(key, own),
@@ -261,7 +260,7 @@ impl<'a> Section<'a> {
             }
             let message = format!("unknown key `{}`", cut(self.name(key)));
             let at = entry.key_at.clone();
-            self.findings.push(Diagnostic::error(message, place.clone(), at, Some(help)));
+            self.findings.push(Diagnostic::error(message, place, at, Some(help)));
         }
         if let Some((_, first)) = unknown.next() {
             let count = 1 + unknown.count();

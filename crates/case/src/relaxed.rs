@@ -16,7 +16,11 @@ pub(super) fn relaxed(case: &Case) -> Option<Vec<RegionMaterial>> {
     if case.transient.is_none() || !case.body.has_lossy_materials() {
         return None;
     }
-    let band = constant_band(case);
+    // A constant loss factor is kept over this band, Hz.
+    let band = match case.cea.as_ref().map(|own| own.modes) {
+        Some(ModeLimit::MaxFrequency(limit)) => Some([LOWEST * limit, limit]),
+        Some(ModeLimit::Lowest(_)) | None => None,
+    };
     let needs_band = materials.iter().any(|own| own.elastic.loss_factor != 0.0);
     if needs_band && band.is_none() {
         return None;
@@ -33,14 +37,6 @@ pub(super) fn relaxed(case: &Case) -> Option<Vec<RegionMaterial>> {
     };
     let each = materials.iter().enumerate();
     Some(each.map(|(k, own)| RegionMaterial::in_time(materials, k, chain(own))).collect())
-}
-
-/// The band over which a constant loss factor is kept, Hz.
-fn constant_band(case: &Case) -> Option<[f64; 2]> {
-    match case.cea.as_ref()?.modes {
-        ModeLimit::MaxFrequency(limit) => Some([LOWEST * limit, limit]),
-        ModeLimit::Lowest(_) => None,
-    }
 }
 
 impl Case {

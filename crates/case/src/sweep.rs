@@ -90,14 +90,15 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
 /// Most points of a study, and most values of its keys together.
 const MOST_POINTS: usize = 1_000_000;
 
-/// Sections that no analysis of a sweep uses.
-const UNUSED: [&str; 6] = ["sweep", "frf", "improve", "convergence", "fit", "uncertainty"];
+/// Sections on which no result depends that the points of a sweep have.
+const UNUSED: [&str; 7] =
+    ["sweep", "frf", "improve", "convergence", "fit", "uncertainty", "output"];
 
 /// Whether a key can be swept; else why not.
 fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
     parameters::known(section, name, |_| true)?;
     let unused = UNUSED.iter().find(|own| name.split('.').next() == Some(own));
-    unused.map_or(Ok(()), |own| Err(format!("no analysis of a sweep uses [{own}]")))
+    unused.map_or(Ok(()), |own| Err(format!("no result of a sweep depends on [{own}]")))
 }
 
 /// The values of an entry: its own, or those beside `also`.
@@ -169,9 +170,8 @@ fn values(
     SweptKey { varied: VariedKey { at: entry.item.at.clone(), ..varied }, values }
 }
 
-/// Tries each value of a study on its own, all others as the case has them, so that a bad one is
-/// reported before anything runs: swept values, and the median of what is uncertain. Where the lists
-/// are long only evenly spaced values are tried: the sweep itself reports the rest, point by point.
+/// Tries each value of a study on its own, all others as the case has them, so that a bad one is reported before
+/// anything runs: swept values, of long lists evenly spaced ones, and the median of what is uncertain.
 pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
     // A point is read at the cost of its key lines and of the lists that they stand for.
     const EFFORT: usize = 400_000;
@@ -179,45 +179,51 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
     let each = 200 + RawValue::Table(point.root.clone()).length();
     let keys = case.sweep.iter().flat_map(|sweep| &sweep.keys);
     let most = (EFFORT / (each * keys.clone().count().max(1))).clamp(2, 1000);
-    let swept = keys.flat_map(|key| {
+    let swept = keys.map(|key| {
         let last = key.values.len().saturating_sub(1);
         let tried = key.values.len().min(most);
-        let tried = (0..tried).map(move |i| &key.values[i * last / tried.max(2).saturating_sub(1)]);
-        tried.map(|value| ("swept", key.varied.overrides(value), key.varied.at.clone()))
+        let tried = (0..tried).map(|i| &key.values[i * last / tried.max(2).saturating_sub(1)]);
+        ("swept", &key.varied, tried.cloned().collect::<Vec<_>>())
     });
-    let uncertain = case.uncertainty.iter().flat_map(|study| &study.parameters).map(|own| {
-        let overrides = own.parameter.overrides(&format!("{:?}", own.value(0.5)));
-        ("uncertain", overrides, own.parameter.at.clone())
-    });
+    let uncertain = case.uncertainty.iter().flat_map(|study| &study.parameters);
+    let uncertain =
+        uncertain.map(|own| ("uncertain", &own.parameter, vec![format!("{:?}", own.value(0.5))]));
     let mut errors = Vec::new();
-    // The value before of the same key, and the case with it.
-    let mut before: Option<(String, Case)> = None;
-    for (what, changes, at) in swept.chain(uncertain) {
-        let found = match point.with_overrides(&changes).and_then(Case::read) {
+    for (what, varied, mut values) in swept.chain(uncertain) {
+        let given = values.len();
+        // Beside the only value another one shows whether anything depends on the key.
+        values.extend(values.first().filter(|_| given == 1).and_then(|own| beside(own)));
+        let mut before: Option<(&String, Case)> = None;
+        for (k, value) in values.iter().enumerate() {
+            let read = point.with_overrides(&varied.overrides(value)).and_then(Case::read);
             // What it was read from differs at any rate, and so the title.
-            Ok(read) => Case { raw: point.clone(), title: String::new(), warnings: vec![], ..read },
-            Err(bad) => {
-                errors.extend(bad.diagnostics.into_iter().map(|error| Diagnostic {
-                    message: format!("{what} value {}: {}", changes[0], error.message),
-                    at: at.clone(),
-                    ..error
-                }));
-                continue;
+            let (raw, title) = (point.clone(), String::new());
+            let read = read.map(|own| Case { raw, title, warnings: vec![], ..own });
+            match (read, &before) {
+                (Ok(found), Some((other, case))) if found == *case && *other != value => {
+                    errors.push(placed!(varied.at.clone(),
+                        "{what} values {other} and {value} of {} make the same case", varied.key;
+                        "nothing depends on this key"; "leave it out: this body does not use it"));
+                }
+                (Ok(found), _) => before = Some((value, found)),
+                (Err(_), _) if k >= given => {}
+                (Err(bad), _) => {
+                    errors.extend(bad.diagnostics.into_iter().map(|error| Diagnostic {
+                        message: format!("{what} value {}={value}: {}", varied.key, error.message),
+                        at: varied.at.clone(),
+                        ..error
+                    }))
+                }
             }
-        };
-        let now = changes.into_iter().next().unwrap_or_default();
-        let key = |own: &String| own.split('=').next().map(str::to_owned);
-        if let Some((other, case)) = &before
-            && key(other) == key(&now)
-            && *other != now
-            && *case == found
-        {
-            errors.push(placed!(at, "{what} values {other} and {now} make the same case";
-                "nothing depends on this key"; "leave it out: this body does not use it"));
         }
-        before = Some((now, found));
     }
     if errors.is_empty() { Ok(()) } else { Err(case.raw.errors(errors)) }
+}
+
+/// A number next to one, in TOML.
+fn beside(value: &str) -> Option<String> {
+    let whole = value.parse::<i64>().map(|own| own.saturating_add(1).to_string());
+    whole.ok().or_else(|| Some(format!("{:?}", 0.999 * value.parse::<f64>().ok()?)))
 }
 
 #[cfg(test)]

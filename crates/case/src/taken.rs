@@ -1,10 +1,9 @@
 //! Materials, ties, contact pairs, conditions and motions that a case takes from its mesh file, as
 //! the sections that it would have for them.
 //!
-//! Sections of the case win: a key that it gives is not taken. The case alone says the condition of
-//! a boundary that has one there. The same holds for a contact or a tie whose surfaces it names,
-//! and for a motion whose axis it gives. Elastic constants are taken together, and so are the two
-//! coefficients of Rayleigh's damping.
+//! Sections of the case win: a key that it gives is not taken. The case alone says the condition of a boundary that has
+//! one there. The same holds for a contact or a tie whose surfaces it names, and for a motion whose axis it gives.
+//! Elastic constants are taken together, and so are the two coefficients of Rayleigh's damping.
 
 use super::file_sections::sections;
 use super::value::table_of;
@@ -224,10 +223,8 @@ impl Taken {
             }
             self.notes.push(format!("mesh.drop leaves out of {}: {left_out}", self.file));
             let reason = std::mem::take(&mut left_out.reason);
-            left_out.reason = match reason.is_empty() {
-                true => DROPPED.to_owned(),
-                false => format!("{DROPPED} ({reason})"),
-            };
+            let why = if reason.is_empty() { reason } else { format!(" ({reason})") };
+            left_out.reason = format!("{DROPPED}{why}");
         }
     }
 

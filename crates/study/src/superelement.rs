@@ -28,7 +28,7 @@ pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
         dofs: own.mass.rows,
         method: "dense".to_owned(),
         modes: modes.len(),
-        unstable: modes.iter().filter(|mode| mode.eigenvalue.re > 0.0).count(),
+        unstable: modes.iter().filter(|mode| mode.is_unstable()).count(),
         overdamped,
         max_residual: modes.iter().map(|mode| mode.residual).fold(0.0, f64::max),
     };

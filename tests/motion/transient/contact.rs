@@ -1,6 +1,7 @@
 //! The contact law, the steady start, and an exact impact.
 
 use super::*;
+use frictionsim::study::transient::TransientStudy;
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
 #[test]
@@ -178,4 +179,47 @@ fn a_node_that_is_held_along_the_sliding_slips_with_its_friction() {
     let base = base["base_state"]["power_w"].as_f64().unwrap();
     let power = transient["power_w"]["external"].as_f64().unwrap();
     assert!((power / base - 1.0).abs() < 1e-9, "{power} {base}");
+}
+
+/// Theory: in space such a node moves across the sliding; at slow and at fast sliding `T = mu N v / |v|` with the mean slip of the step `v`.
+#[test]
+fn a_node_of_a_solid_that_is_held_along_the_sliding_drags_along_its_slip() {
+    let block = [brick("block", [0.0; 3], [0.04, 0.03, 0.02], [3, 2, 2])];
+    let file = file_of(&block, |point| point);
+    let text = include_str!("../../cases/block-under-falling-friction.toml");
+    let guided = "boundaries.block_x1.condition=guide ; transient.duration=0.01";
+    for speed in [0.01, 1.0] {
+        let changes = [guided.to_owned(), format!("contact.speed={speed:?}")];
+        let case = case_beside("held-in-space", &[("body.msh", &file)], text, &changes);
+        let study = TransientStudy::new(&case, SimdLevel::detect()).unwrap();
+        let noise = Perturbation { noise: 0.1, ..Perturbation::default() };
+        let settings = transient_settings([1e-4, 1e-4, 0.0], InitialState::SteadySliding, noise);
+        let mut run = started(study.body(), OperatorChoice::Auto, &settings);
+        let nodes = &study.body().interface().nodes;
+        let mesh = case.body.mesh().unwrap();
+        let held: Vec<usize> =
+            (0..nodes.len()).filter(|&i| mesh.nodes[nodes[i] as usize][0] > 0.039).collect();
+        assert_eq!(held.len(), 3);
+        for _ in 0..200 {
+            let before = run.state().velocity;
+            run.advance();
+            let (after, contact) = (run.state().velocity, run.contact());
+            for &i in &held {
+                let normal = contact.normal_force[i];
+                if normal == 0.0 {
+                    continue;
+                }
+                assert_eq!(contact.status[i], ContactStatus::Slip);
+                let across = 3 * nodes[i] as usize + 1;
+                let slip = [speed, -0.5 * (before[across] + after[across])];
+                let size = slip[0].hypot(slip[1]);
+                let friction = 0.3 * (1.0 + 0.3 * (-size / 0.5_f64).exp()) * normal;
+                let found = [contact.tangential_force[i], contact.across_force[i]];
+                for (found, slip) in found.iter().zip(slip) {
+                    let error = (found - friction * slip / size).abs();
+                    assert!(error < 1e-9 * friction, "{speed} {i}: {found} {friction} {slip}");
+                }
+            }
+        }
+    }
 }

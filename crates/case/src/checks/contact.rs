@@ -152,10 +152,8 @@ pub(super) fn overlap(case: &Case) -> Option<Diagnostic> {
     let least = ROUND_OFF * case.body.size();
     let (key, depth, pushed) =
         found.into_iter().find(|(_, depth, pushed)| *depth > pushed.max(least))?;
-    let times = match pushed > 0.0 {
-        true => format!(", {:.1} times {key}", depth / pushed),
-        false => String::new(),
-    };
+    let times = format!(", {:.1} times {key}", depth / pushed);
+    let times = if pushed > 0.0 { &times } else { "" };
     Some(diagnosis!(case, &key,
         "the surface enters its counterface by {depth:.2e} m{times}, before this is pushed in: the \
          overlap is loaded as pressure"; "less than the mesh's own overlap";

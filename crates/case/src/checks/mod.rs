@@ -6,6 +6,8 @@ mod mesh;
 mod motion;
 
 use super::{Case, CaseKey, Diagnostic, KEYS, diagnosis};
+use frictionsim_physics::linalg::c64;
+use frictionsim_signal::{FrequencyResponse, ResponseQuantity};
 pub(super) use material::material_key;
 
 /// A value beyond what is plausible.
@@ -21,8 +23,8 @@ const LIMITED: [fn(&Case) -> Option<Limit>; 4] =
     [material::wave_speed, motion::seeds, contact::friction, contact::stiffness];
 
 /// What cannot run.
-const IMPOSSIBLE: [fn(&Case) -> Option<Diagnostic>; 3] =
-    [motion::time_step, motion::duration, motion::start];
+const IMPOSSIBLE: [fn(&Case) -> Option<Diagnostic>; 4] =
+    [motion::time_step, motion::duration, motion::start, unwritten_response];
 
 /// What hardly anybody means.
 const DOUBTFUL: [fn(&Case) -> Option<Diagnostic>; 11] = [
@@ -38,6 +40,15 @@ const DOUBTFUL: [fn(&Case) -> Option<Diagnostic>; 11] = [
     motion::steep_friction,
     material::overdamping,
 ];
+
+/// A response that a universal file does not take.
+fn unwritten_response(case: &Case) -> Option<Diagnostic> {
+    let lines = case.frf.as_ref().filter(|_| case.output.universal)?.frequencies_hz.clone();
+    let values = vec![c64::ZERO; lines.len()];
+    let error = FrequencyResponse::new(lines, values, ResponseQuantity::Receptance).err()?;
+    let key = "frf.frequencies_hz";
+    Some(diagnosis!(case, key, "{key} with output.universal: {error}"; "cannot be written"))
+}
 
 /// What is said of values on one side of what is possible.
 fn limited(case: &Case, is_possible: bool) -> impl Iterator<Item = Diagnostic> {

@@ -12,7 +12,7 @@ pub(super) trait BranchSolver {
     /// Why it could not be solved for.
     type Error;
 
-    /// Newton steps of the friction coefficient shorter than this end the search.
+    /// Newton steps of the friction coefficient shorter than this are the last of the search: their square is round-off.
     const TOLERANCE: f64;
 
     /// Eigenvalue and slope.
@@ -216,10 +216,8 @@ impl<B: BranchSolver> Search<'_, B> {
         let (mut low, mut high) = (start.clone(), end.clone());
         let (mut bottom, mut top) = (first.friction_coefficient, last.friction_coefficient);
         let mut friction = bottom + cubic.root() * cubic.width;
-        let mut best = match first.eigenvalue.re.abs() < last.eigenvalue.re.abs() {
-            true => start.clone(),
-            false => end.clone(),
-        };
+        let is_first = first.eigenvalue.re.abs() < last.eigenvalue.re.abs();
+        let (mut best, mut is_there) = (if is_first { start.clone() } else { end.clone() }, false);
         for _ in 0..60 {
             let origin = first.friction_coefficient;
             let Some(state) = self.solve(&low, &high, &cubic, origin, friction)? else {
@@ -234,14 +232,15 @@ impl<B: BranchSolver> Search<'_, B> {
                 (high, top) = (state.clone(), friction);
             }
             best = state;
+            if is_there {
+                break;
+            }
             // Where two neutral branches meet the square of the growth rate is even in friction, not the rate itself.
             let power = if is_neutral && growth > 0.0 { 2.0 } else { 1.0 };
             let newton = friction - growth / (power * point.rate.re);
             let is_inside = newton > bottom && newton < top;
             let next = if is_inside { newton } else { 0.5 * (bottom + top) };
-            if (next - friction).abs() <= B::TOLERANCE * (1.0 + friction) {
-                break;
-            }
+            is_there = (next - friction).abs() <= B::TOLERANCE * (1.0 + friction);
             friction = next;
         }
         let point = self.solver.point(&best);

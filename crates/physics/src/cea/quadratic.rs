@@ -1,6 +1,7 @@
 //! All eigenvalues of a small dense quadratic problem, over any range of sizes.
 
 use super::CeaError;
+use super::accuracy::ROUNDING_ERRORS;
 use crate::linalg::dense_eigen::real_eigenvalues;
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, Mat, MatRef, c64};
 
@@ -23,6 +24,15 @@ pub struct QuadraticMode {
     /// `|T x| / ((|lambda|^2 |M| + |lambda| |C| + |K|) |x|)` of the problem whose rows and columns are scaled to the size of one: the
     /// relative change of the matrices that makes the pair exact.
     pub residual: f64,
+    /// What rounding of the matrices moves the eigenvalue by, relative to its size.
+    pub uncertainty: f64,
+}
+
+impl QuadraticMode {
+    /// Whether it grows by more than rounding.
+    pub fn is_unstable(&self) -> bool {
+        self.eigenvalue.re > self.uncertainty * self.eigenvalue.norm()
+    }
 }
 
 /// All eigenpairs of a real quadratic problem, by size.
@@ -36,7 +46,8 @@ pub struct QuadraticMode {
 /// ```
 ///
 /// has the eigenvalues `1 / (lambda - sigma)`, accurate for those of its window. Windows go on until nothing is left on either side, so
-/// sizes that lie many orders apart cost more windows, not digits. Zero and infinite eigenvalues are left out.
+/// sizes that lie many orders apart cost more windows, not digits. Zero and infinite eigenvalues are left out, and rounding of zero, as
+/// rigid motions have it.
 ///
 /// # Errors
 /// [`CeaError::Linalg`] where an entry is not finite or a decomposition fails, or all are singular together.
@@ -65,13 +76,17 @@ pub fn quadratic_modes(
         while left > 0 && step < MOST_WINDOWS {
             step += 1;
             let shift = first * WINDOW.powi(direction * step);
-            let [below, above] = problem.window(shift, &mut values)?;
+            // Singular to working precision: what is left is zero or infinite.
+            let Ok([below, above]) = problem.window(shift, &mut values) else {
+                break;
+            };
             left = if direction < 0 { below } else { above };
         }
     }
     values.retain(|value| value.im >= 0.0);
     values.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
-    Ok(values.iter().map(|value| problem.mode(*value)).collect())
+    let modes = values.iter().map(|value| problem.mode(*value));
+    Ok(modes.filter(|mode| mode.uncertainty < 1.0).collect())
 }
 
 struct Problem<'a> {
@@ -126,10 +141,7 @@ impl Problem<'_> {
             k + shift * (c + shift * m)
         });
         let (mut rows, mut columns) = (vec![1.0; n], vec![1.0; n]);
-        let root = |largest: f64| match largest > 0.0 {
-            true => (-0.5 * largest.log2()).round().exp2(),
-            false => 1.0,
-        };
+        let root = |largest: f64| (-0.5 * largest.max(f64::MIN_POSITIVE).log2()).round().exp2();
         for _ in 0..SCALINGS {
             for i in 0..n {
                 let entries = (0..n).map(|j| size[(i, j)] * rows[i] * columns[j]);
@@ -170,6 +182,8 @@ impl Problem<'_> {
         }
         let forces = pencil(unit) * &x;
         let sizes = mass.norm_l2() + damping.norm_l2() + stiffness.norm_l2();
+        let rate = |i: usize, j: usize| damping[(i, j)] + 2.0 * unit * mass[(i, j)];
+        let slope = (x.adjoint() * (Mat::from_fn(n, n, rate) * &x))[(0, 0)];
 
         // Back in the unknowns of the problem, the largest one.
         let own: Vec<c64> = (0..n).map(|i| x[(i, 0)] * columns[i]).collect();
@@ -178,6 +192,7 @@ impl Problem<'_> {
         QuadraticMode {
             eigenvalue,
             residual: forces.norm_l2() / sizes,
+            uncertainty: ROUNDING_ERRORS * f64::EPSILON * sizes / slope.norm(),
             vector: own.iter().map(|v| v / largest).collect(),
         }
     }
@@ -219,5 +234,47 @@ mod tests {
         let one = Mat::from_fn(2, 2, |i, j| f64::from(u8::from(i == 0 && j == 0)));
         let found = quadratic_modes(one.as_ref(), zero.as_ref(), one.as_ref());
         assert!(found.unwrap_err().to_string().contains("singular together"));
+    }
+
+    /// Rigid motions and undamped ones of a free frame of springs, and of a chain whose stiffness is singular to the last bit.
+    #[test]
+    fn rigid_motions_are_no_modes_and_rounding_is_no_growth() {
+        let place = |i: usize| [(2.3 * i as f64).sin(), (1.1 * (i * i) as f64).cos()];
+        let frame = |i: usize, j: usize| {
+            let across = [0, 1].map(|c| place(i)[c] - place(j)[c]);
+            let length = across[0].hypot(across[1]);
+            across.map(|c| c / length)
+        };
+        let mut stiffness = Mat::zeros(24, 24);
+        for (i, j) in (0..12).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            for (a, b) in [(i, i), (j, j), (i, j), (j, i)] {
+                for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let value = 1e9 * frame(i, j)[c] * frame(i, j)[d];
+                    stiffness[(2 * a + c, 2 * b + d)] += if a == b { value } else { -value };
+                }
+            }
+        }
+        let chain = Mat::from_fn(12, 12, |i, j| match i.abs_diff(j) {
+            0 => {
+                if i % 11 == 0 {
+                    1e8
+                } else {
+                    2e8
+                }
+            }
+            1 => -1e8,
+            _ => 0.0,
+        });
+        for (stiffness, rigid) in [(stiffness, 3), (chain, 1)] {
+            let n = stiffness.nrows();
+            let mass = Mat::from_fn(n, n, |i, j| if i == j { 0.01 } else { 0.0 });
+            for beta in [0.0, 1e-7] {
+                let damping = Mat::from_fn(n, n, |i, j| beta * stiffness[(i, j)]);
+                let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref());
+                let found = found.unwrap();
+                assert_eq!(found.len(), n - rigid, "{beta}");
+                assert!(found.iter().all(|mode| mode.eigenvalue.im > 1e3 && !mode.is_unstable()));
+            }
+        }
     }
 }

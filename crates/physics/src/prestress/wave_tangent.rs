@@ -253,11 +253,6 @@ impl WaveTangent {
         other
     }
 
-    /// Whether regions have viscous damping other than that of the whole body.
-    pub fn has_own_damping(&self) -> bool {
-        self.terms.regions().iter().any(|law| law.damping != self.options.damping)
-    }
-
     /// Matrices of harmonic `n`.
     pub fn harmonic(&self, n: usize) -> HarmonicTangent {
         let of = |factor: usize| self.polynomial(n, |term| self.terms.factors(term)[factor]);

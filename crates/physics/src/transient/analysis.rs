@@ -40,8 +40,7 @@ impl Growth {
 /// Means over the last fifth of a run, for each metre of thickness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LastFifth {
-    /// Frequency of the strongest harmonic of the contact edge's tangential displacement, Hz; `None` if it does
-    /// not vibrate.
+    /// Frequency of the strongest harmonic of the contact edge's tangential displacement, Hz; `None` if it does not vibrate.
     pub main_frequency_hz: Option<f64>,
     /// Circumferential harmonic of that vibration; a body without symmetry has none.
     pub main_harmonic: Option<usize>,
@@ -53,8 +52,7 @@ pub struct LastFifth {
     pub powers: ContactPowers,
     /// Mean power of material damping, W/m.
     pub material_damping: f64,
-    /// Mean amplitude of harmonic `n` of the tangential displacement of the contact edge, m; for `n = 0` the mean
-    /// twist.
+    /// Mean amplitude of harmonic `n` of the tangential displacement of the contact edge, m; for `n = 0` the mean twist.
     pub harmonics: [f64; HARMONIC_COUNT],
     /// The same of every harmonic `n >= 1` that is above a thousandth of the largest of them.
     pub significant: Vec<(usize, f64)>,
@@ -90,8 +88,7 @@ pub struct TransientAnalysis {
 }
 
 impl TransientAnalysis {
-    /// Reads the `record` of a body whose motion has circumferential harmonics; growth is fitted for those of `harmonics`
-    /// that it follows.
+    /// Reads the `record` of a body whose motion has circumferential harmonics; growth is fitted for those of `harmonics` that it follows.
     pub fn of(record: &Recorder, harmonics: &[usize]) -> Self {
         let mut analysis = Self::without_growth(record);
         let stage = grown_samples(record);
@@ -138,12 +135,6 @@ impl TransientAnalysis {
             first_nonlinearity: ended.then(|| rows[stage.end].time),
             largest_residual: residuals.fold(0.0, f64::max),
         }
-    }
-
-    /// Without a linear stage: that of a run that starts on a limit cycle.
-    #[must_use]
-    pub fn from_limit_cycle(self) -> Self {
-        Self { growth: Vec::new(), first_nonlinearity: None, ..self }
     }
 }
 

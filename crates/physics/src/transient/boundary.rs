@@ -12,8 +12,7 @@ const SIDE_BY_SIDE: usize = 4;
 /// D v - f,   D = C_support - beta_R K_support + sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e
 /// ```
 ///
-/// with `f` the boundary pressures: the springs of a support are part of the operator's `K`, but `beta_R` stays on the
-/// body.
+/// with `f` the boundary pressures: the springs of a support are part of the operator's `K`, but `beta_R` stays on the body.
 pub(super) struct BoundaryForces {
     rows: Vec<Row>,
     /// `(place, value)` of the entries of all rows, N s/m for each metre of thickness.

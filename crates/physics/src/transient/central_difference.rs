@@ -208,8 +208,7 @@ impl<'a> CentralDifference<'a> {
         Ok(observer.observe(&sample))
     }
 
-    /// Contact powers, power of material damping and node statuses, summed over the steps since the last sample or the last
-    /// call of this.
+    /// Contact powers, power of material damping and node statuses, summed over the steps since the last sample or the last call of this.
     pub fn take_sums(&mut self) -> (ContactPowers, f64, StatusCounts) {
         std::mem::take(&mut self.sums)
     }

@@ -23,10 +23,9 @@ const NEWTON_STEPS: usize = 200;
 /// N = (U_+ - U_-) / (p_+ - p_-) + c w (max(0, p_+) - max(0, p_-)) / dt
 /// ```
 ///
-/// (with the energy of the law where contact stiffens with pressure, whose base state is on its springs: there is nothing to go
-/// further by), a scalar equation for each node, implicit in `p_+ = p* - dt^2 N / 2m` and in closed form (by Newton's
-/// method for a law). It is stable for any
-/// stiffness, second order in time, and adds no damping of its own.
+/// (with the energy of the law where contact stiffens with pressure, whose base state is on its springs: there is nothing to go further
+/// by), a scalar equation for each node, implicit in `p_+ = p* - dt^2 N / 2m` and in closed form (by Newton's method for a law). It is
+/// stable for any stiffness, second order in time, and adds no damping of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spring {
     /// The law of a unit of the share; of linear contact that of `k w` itself, with a share of one.
@@ -147,13 +146,9 @@ fn stiffening_after(
     let excess = |after: f64| after + yielding * force(after).max(0.0) - free;
     let slope = |after: f64| {
         let way = after - before;
-        let rise = match way.abs() > 1e-6 * (before.abs() + after.abs()) {
-            true => {
-                let pressure = law.pressure(after.max(0.0));
-                (pressure - law.mean_pressure(before, after)) / way
-            }
-            false => 0.5 * law.stiffness(after.max(0.0)),
-        };
+        let change = law.pressure(after.max(0.0)) - law.mean_pressure(before, after);
+        let is_far = way.abs() > 1e-6 * (before.abs() + after.abs());
+        let rise = if is_far { change / way } else { 0.5 * law.stiffness(after.max(0.0)) };
         1.0 + yielding * (w * rise + c)
     };
 

@@ -18,10 +18,9 @@ use std::ops::Range;
 
 /// Contact of points, each with what it meets.
 ///
-/// A point has a row of the separation and one or two rows of the slip over the dofs. The forces at `n` enforce the
-/// constraints at `n + 1` (equation (6) of Brunetti et al.). A trial step without contact gives `u*`, `v*` along the rows; then
-/// with penetration `g = delta - g_0 - u_n* > 0`, `g_0` the gap of the undeformed point, and the mass `m` that a force along a
-/// row moves,
+/// A point has a row of the separation and one or two rows of the slip over the dofs. The forces at `n` enforce the constraints at `n + 1`
+/// (equation (6) of Brunetti et al.). A trial step without contact gives `u*`, `v*` along the rows; then with penetration
+/// `g = delta - g_0 - u_n* > 0`, `g_0` the gap of the undeformed point, and the mass `m` that a force along a row moves,
 ///
 /// ```text
 /// N = m g / dt^2,   T* = m (V - v_t*) / dt,   T = min(max(T*, -mu N), mu N),
@@ -91,6 +90,8 @@ struct ContactPoint {
     speed: f64,
     /// Tangential dashpot, N s/m.
     dashpot: f64,
+    /// Whether it is held along the sliding, not across it.
+    is_led: bool,
 }
 
 /// Points of one law.
@@ -159,8 +160,7 @@ impl LagrangeContact {
         }
     }
 
-    /// Energy in the springs of a compliant contact at the half step before `u` and after its `shares` of the
-    /// interference, J/m.
+    /// Energy in the springs of a compliant contact at the half step before `u` and after its `shares` of the interference, J/m.
     pub fn energy(&self, fields: &MotionFields, shares: [f64; 2], dt: f64) -> f64 {
         let mut energy = 0.0;
         for surfaces in &self.surfaces {

@@ -116,10 +116,8 @@ pub(super) fn places(mesh: &Mesh, annulus: Option<&AnnulusMesh>) -> Vec<Place> {
         let place = points.enumerate().map(|(node, ([x, y], &angle))| {
             let beyond = x.hypot(y) - own.inner_radius;
             let is_shaft = node % annulus.sector_node_count() < first;
-            let depth = match is_shaft {
-                true => -beyond / (own.inner_radius - bore),
-                false => beyond / (own.outer_radius - own.inner_radius),
-            };
+            let end = if is_shaft { bore } else { own.outer_radius };
+            let depth = beyond / (end - own.inner_radius);
             Place { depth, angle, direction: [0.0, 1.0, 0.0] }
         });
         return place.collect();

@@ -310,8 +310,7 @@ impl Recorder {
         all.iter().filter(matters).map(|&(n, _)| n).collect()
     }
 
-    /// Largest amplitude of the harmonics `0..=8` over some samples, or the expansion of the cylinder where that is
-    /// larger, m.
+    /// Largest amplitude of the harmonics `0..=8` over some samples, or the expansion of the cylinder where that is larger, m.
     pub fn largest_motion(&self, samples: Range<usize>) -> f64 {
         let amplitudes = self.rows[samples].iter().flat_map(|row| row.harmonics);
         amplitudes.fold(self.interference.abs(), |m, [re, im]| m.max(re.hypot(im)))

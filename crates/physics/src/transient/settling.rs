@@ -36,8 +36,7 @@ const GROWTH: f64 = 1.2;
 pub enum EndState {
     /// A periodic vibration of constant amplitude, frequency and status.
     LimitCycle,
-    /// A stationary vibration of two frequencies without a common fundamental: it never repeats itself, and its envelope
-    /// swings.
+    /// A stationary vibration of two frequencies without a common fundamental: it never repeats itself, and its envelope swings.
     TwoFrequency(TwoFrequencies),
     /// The cylinder slides, and nothing vibrates, or what does dies out and is small already.
     SteadySliding,
@@ -132,8 +131,7 @@ pub enum Unsettled {
     },
 }
 
-/// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no
-/// small vibration grows.
+/// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no small vibration grows.
 ///
 /// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies. A modulation that is
 /// longer than a fifth of the run is not seen, and neither is growth from below round-off.

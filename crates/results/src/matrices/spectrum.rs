@@ -57,7 +57,7 @@ columns! {
     harmonic: "none" = None::<usize>;
     branch: BRANCH = row.0 + 1;
     direction: "none" = None::<i8>;
-    unstable: "whether it grows" = row.1.eigenvalue.re > 0.0;
+    unstable: "whether it grows" = row.1.is_unstable();
     residual: "relative residual" = row.1.residual;
     contact_share: "none" = None::<f64>;
 }

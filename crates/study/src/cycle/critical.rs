@@ -1,9 +1,7 @@
 //! Where along a parameter steady sliding loses its stability.
 
-/// Growth rates spent on an onset.
-const SPECTRA: usize = 14;
 /// Share of the interval that an onset is known to.
-const NEAR: f64 = 1e-5;
+const NEAR: f64 = 1e-7;
 /// Values of a range, evenly over it, at which growth is looked for.
 const LOOKED_AT: usize = 9;
 
@@ -35,27 +33,25 @@ pub(super) fn critical(
         return None;
     }
     let width = (growing - stable).abs();
-    let (mut kept, mut value) = ([0_u32; 2], stable);
-    for _ in 0..SPECTRA {
-        // Illinois: the end that stays gives way.
-        let [a, b] = [
-            low.1 * 0.5_f64.powi(kept[0].saturating_sub(1) as i32),
-            high.1 * 0.5_f64.powi(kept[1].saturating_sub(1) as i32),
-        ];
-        let next = low.0 + (high.0 - low.0) * (a / (a - b)).clamp(0.02, 0.98);
+    let (mut was_stable, mut turn) = (None, 0);
+    while (high.0 - low.0).abs() > NEAR * width {
+        turn += 1;
+        // Where growth has a kink the secant stays at one end: every third turn halves.
+        let share = match turn % 3 {
+            0 => 0.5,
+            _ => (low.1 / (low.1 - high.1)).clamp(0.001, 0.999),
+        };
+        let next = low.0 + (high.0 - low.0) * share;
         let rate = growth(next)?;
-        let has_moved = (next - value).abs();
-        value = next;
-        if rate <= 0.0 {
-            (low, kept) = ((next, rate), [0, kept[1] + 1]);
-        } else {
-            (high, kept) = ((next, rate), [kept[0] + 1, 0]);
-        }
-        if (high.0 - low.0).abs() < NEAR * width || has_moved < 0.1 * NEAR * width {
-            break;
+        // Illinois: the end that stays gives way.
+        let is_stable = rate <= 0.0;
+        let (moved, kept) = if is_stable { (&mut low, &mut high) } else { (&mut high, &mut low) };
+        *moved = (next, rate);
+        if was_stable.replace(is_stable) == Some(is_stable) {
+            kept.1 *= 0.5;
         }
     }
-    Some(value)
+    Some(0.5 * (low.0 + high.0))
 }
 
 #[cfg(test)]
@@ -67,9 +63,14 @@ mod tests {
         let growth = |value: f64| Some(value.powi(3) - 8.0);
         for ends in [[0.5, 7.0], [-3.0, 2.5]] {
             let found = critical(growth, ends).unwrap();
-            assert!((found - 2.0).abs() < 1e-4, "{found}");
+            assert!((found - 2.0).abs() < 1e-6, "{found}");
         }
         assert_eq!(critical(growth, [3.0, 4.0]), None);
+        // Two modes that meet beside one that decays slowly: flat, a kink, and steep.
+        let growth = |mu: f64| Some((7e3 * (mu - 0.16).max(0.0).sqrt() - 600.0).max(-55.0));
+        let (found, exact) =
+            (critical(growth, [0.02, 0.5]).unwrap(), 0.16 + (6.0_f64 / 70.0).powi(2));
+        assert!((found - exact).abs() < 1e-7, "{found} {exact}");
     }
 
     #[test]

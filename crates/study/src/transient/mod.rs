@@ -119,7 +119,10 @@ impl<'a> TransientStudy<'a> {
             (true, _) => TransientAnalysis::of(record, &record.significant_harmonics()),
         };
         match self.settings.initial {
-            InitialState::LimitCycle { .. } => analysis.from_limit_cycle(),
+            // On a limit cycle nothing grows at first.
+            InitialState::LimitCycle { .. } => {
+                TransientAnalysis { growth: Vec::new(), first_nonlinearity: None, ..analysis }
+            }
             InitialState::Rest | InitialState::SteadySliding => analysis,
         }
     }

@@ -87,10 +87,8 @@ pub(super) struct Found {
 impl Found {
     /// Whether a friction value has fewer modes than the lowest asked for.
     pub fn is_short_of(&self, limit: ModeLimit) -> bool {
-        let ModeLimit::Lowest(asked) = limit else {
-            return false;
-        };
-        self.points.iter().any(|point| point.modes.len() < asked)
+        let least = self.points.iter().map(|point| point.modes.len()).min();
+        matches!(limit, ModeLimit::Lowest(asked) if least < Some(asked))
     }
 
     /// The sweep of what was found over friction coefficients `grid`, with the other harmonics that are proven and counted empty.

@@ -102,10 +102,8 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
     let own = |node: usize| &wave[components * node..components * (node + 1)];
     let size = |u: &[c64]| u.iter().map(|v| v.norm_sqr()).sum::<f64>();
     let nodes = tangent.nodes.iter().map(|(node, _)| own(*node));
-    let peak = nodes.fold(own(tangent.nodes[0].0), |best, u| match size(u) > size(best) {
-        true => u,
-        false => best,
-    });
+    let larger = |best, u| if size(u) > size(best) { u } else { best };
+    let peak = nodes.fold(own(tangent.nodes[0].0), larger);
     let larger =
         peak.iter().fold(peak[0], |best, v| if v.norm() > best.norm() { *v } else { best });
     let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);

@@ -27,10 +27,8 @@ pub(super) fn follow(
     let across = Across::new(&harmonic, &tangent.sideways_unknowns());
     // Whether friction damps the motion across the sliding strongly somewhere in the range.
     let is_damped = across.are_strong(&modes, range.highest_friction());
-    let held = match is_damped {
-        true => across.held_modes(&pencil, range.margin * SPAN * SPAN),
-        false => Vec::new(),
-    };
+    let held =
+        if is_damped { across.held_modes(&pencil, range.margin * SPAN * SPAN) } else { Vec::new() };
     let reduction = space(tangent, &harmonic, &pencil, (modes, held));
     let reduction = if is_damped { reduction.turned(&across) } else { reduction };
 
@@ -64,9 +62,8 @@ fn space(
     modes: (Modes, Modes),
 ) -> Reduction {
     let lossy = harmonic.losses.iter().map(|(_, own)| &own[0]);
-    // Damping of parts, other than that of the whole body.
+    // Damping of parts, and that of the whole body where supports have none of it.
     let damped = harmonic.damping.iter().map(|own| &own[0]);
-    let damped = damped.filter(|_| tangent.has_own_damping());
     let lossy: Vec<&BandedMatrix> = lossy.chain(damped).collect();
     let columns = tangent.normal_columns(harmonic.harmonic);
     Reduction::new(pencil, columns, (&tangent.pressed_unknowns(), &lossy), modes)

@@ -137,10 +137,8 @@ fn follow(
         }
         _ => modes_below(tangent, kappa, known)?,
     };
-    let wanted = match is_tabled {
-        true => bound,
-        false => modes_below::wanted(tangent, &found, limit, bound)?,
-    };
+    let wanted =
+        if is_tabled { bound } else { modes_below::wanted(tangent, &found, limit, bound)? };
     let margin = wanted * margin * margin;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
 

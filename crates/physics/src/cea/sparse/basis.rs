@@ -228,7 +228,7 @@ impl<'a> BasisBuilder<'a> {
         }
         let mut corrections = open.columns.clone();
         self.factors.solve_in_place(&mut corrections);
-        open.with_energy(corrections)
+        open.with_energy(&corrections)
     }
 
     /// Adds the lowest modes at `mu` from an iteration of its own, independent of the basis so far, with the factors of `K(mu)`;

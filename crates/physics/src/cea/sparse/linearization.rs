@@ -47,6 +47,11 @@ impl Linearization {
         }
     }
 
+    /// Real eigenvalue beyond which a motion grows and is no rigid one, rad/s; 0 where there are none.
+    pub fn least_growth(self) -> f64 {
+        10.0 * self.centre().rigid
+    }
+
     /// What takes the place of `K` about the centre.
     pub fn centred_stiffness(self, tangent: &SlidingTangent) -> Cow<'_, MatrixPolynomial> {
         let shift = self.centre().shift;

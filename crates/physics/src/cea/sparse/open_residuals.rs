@@ -53,17 +53,14 @@ impl OpenResiduals {
     }
 
     /// Those `corrections` `t` of these residuals `r` that have an energy, `t^T r`, beside that of their mode.
-    pub fn with_energy(&self, corrections: Mat<f64>) -> Mat<f64> {
+    pub fn with_energy(&self, corrections: &Mat<f64>) -> Mat<f64> {
         let has_energy = |(own, whole): &&(Range<usize>, f64)| {
             let (t, r) = (corrections.as_ref(), self.columns.as_ref());
             products(t, r, own.clone()) > SMALLEST_ENERGY * whole
         };
         let kept = self.vectors.iter().filter(has_energy);
         let kept: Vec<usize> = kept.flat_map(|(own, _)| own.clone()).collect();
-        if kept.len() == corrections.ncols() {
-            return corrections;
-        }
-        pick_columns(&corrections, &kept)
+        pick_columns(corrections, &kept)
     }
 }
 

@@ -248,10 +248,8 @@ impl<'a> SparseSweep<'a> {
 
     /// Whether what grows without oscillating has taken the places of modes, of which a number is asked for.
     fn lacks_places(&self, branches: &[TrackedBranch]) -> Result<bool, CeaError> {
-        let ModeLimit::Lowest(count) = self.limit else {
-            return Ok(false);
-        };
-        let is_short = self.points.iter().any(|point| point.wanted < count);
+        let least = self.points.iter().map(|point| point.wanted).min();
+        let is_short = matches!(self.limit, ModeLimit::Lowest(count) if least < Some(count));
         let may_hold_more = is_short && self.builder.count < self.elastic();
         Ok(may_hold_more && self.divergence(branches)?.is_some())
     }

@@ -1,8 +1,11 @@
 //! The laws of normal contact and friction at one point.
 
 use super::{ContactPoint, PointForces, Step, TouchingSurfaces};
-use crate::contact::Slipping;
+use crate::contact::{ContactStatus, Friction, Slipping};
 use crate::transient::compliance::CompressedNode;
+
+/// Halvings of the share of the slip that friction leaves: to the last bit.
+const HALVINGS: usize = 64;
 
 /// A point before its forces are known.
 #[derive(Clone, Copy, Debug)]
@@ -98,6 +101,8 @@ impl TouchingSurfaces {
             let node = Slipping { inertia: damped, free_slip, slip_before: slip_before[0] };
             let own = self.law.resolve(&node, normal);
             own.with([own.force, 0.0])
+        } else if point.is_led {
+            self.lead(point.speed, 0.5 * (free_slip[1] + slip_before[1]), damped, normal)
         } else {
             let node = Slipping { inertia: damped, free_slip, slip_before };
             self.law.resolve_point(&node, normal)
@@ -112,5 +117,20 @@ impl TouchingSurfaces {
             is_ambiguous: friction.is_ambiguous,
             ..forces
         }
+    }
+
+    /// Friction of a point that is held along the sliding and slips there at `speed`, across it by `free` in the mean of the step without
+    /// friction: `T = mu N v / |v|` with the mean slip `v`.
+    fn lead(&self, speed: f64, free: f64, inertia: f64, normal: f64) -> Friction<[f64; 2]> {
+        let (mut drag, [mut least, mut most]) = (0.0, [0.0, 1.0]);
+        for _ in 0..HALVINGS {
+            let share = 0.5 * (least + most);
+            let size = speed.hypot(share * free);
+            drag = self.law.cone(normal) * self.law.decay.map_or(1.0, |own| own.share(size)) / size;
+            let is_less = share * (1.0 + 0.5 * drag / inertia) < 1.0;
+            *if is_less { &mut least } else { &mut most } = share;
+        }
+        let force = [drag * speed, drag * least * free];
+        Friction { force, status: ContactStatus::Slip, is_ambiguous: false }
     }
 }

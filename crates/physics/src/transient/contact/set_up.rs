@@ -45,12 +45,16 @@ impl LagrangeContact {
                 for row in &[&point.normal, &point.slip, &point.across][..=tangents] {
                     contact.touch(&bound(row), operator, &mut touched);
                 }
-                let mut mass = contact.masses_of(contact.points.len());
+                let place = contact.points.len();
+                let mut mass = contact.masses_of(place);
+                let moves =
+                    |c| contact.entries[contact.row(place, c)].iter().any(|own| own.1 != 0.0);
                 // A spring pushes against what nothing moves; without one there is no force to find.
                 if mass[0] == 0.0 && springs.is_some() {
                     mass[0] = f64::INFINITY;
                 }
                 contact.points.push(ContactPoint {
+                    is_led: tangents > 1 && point.speed != 0.0 && !moves(1) && moves(2),
                     mass,
                     gap: point.gap,
                     speed: point.speed,

@@ -38,8 +38,7 @@ impl LagrangeContact {
         self.show();
     }
 
-    /// The motion before the step, and its end without contact. Forces start from none, as those of the last step are not in
-    /// a saved state.
+    /// The motion before the step, and its end without contact. Forces start from none, as those of the last step are not in a saved state.
     fn gather(&mut self, fields: &MotionFields, step: &Step) {
         let coefficients = &step.coefficients;
         for (dof, velocity) in self.dofs.iter_mut().zip(&mut self.velocities) {

@@ -192,10 +192,8 @@ impl TransientModel<'_> {
             SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => {
                 let base = self.sliding_state()?;
                 let springs = base.springs(friction).into_iter().map(spring);
-                Ok(match base.stiffnesses.is_empty() {
-                    true => base.normal_forces(friction).into_iter().map(force).collect(),
-                    false => springs.collect(),
-                })
+                let forces = base.normal_forces(friction).into_iter().map(force);
+                Ok(if base.stiffnesses.is_empty() { forces.collect() } else { springs.collect() })
             }
         }
     }

@@ -114,10 +114,8 @@ impl BasisBuilder<'_> {
             if round % HISTORY == 0 {
                 self.hold_solved(mu, &modes);
             }
-            let has_grown = match is_light {
-                true => self.shift(mu, &modes),
-                false => self.refine_modes(mu, &modes)?,
-            };
+            let has_grown =
+                if is_light { self.shift(mu, &modes) } else { self.refine_modes(mu, &modes)? };
             if !has_grown {
                 break;
             }

@@ -173,8 +173,12 @@ impl ReducedModel {
         let operator = self.shift_inverted(at, &DenseLu::factorize(at.stiffness.clone()));
         let values = real_eigenvalues(operator.as_ref())?.into_iter();
         let values = values.filter(|s| s.im == 0.0).map(|s| self.linearization.value(s).re);
-        let sign = if let Linearization::Reduced(..) = self.linearization { -1.0 } else { 1.0 };
-        Ok(values.filter(|value| sign * value > 0.0).count())
+        let least = self.linearization.least_growth();
+        let grows = |value: &f64| match self.linearization {
+            Linearization::Reduced(..) => -value > least * least,
+            Linearization::Companion { .. } => *value > least,
+        };
+        Ok(values.filter(grows).count())
     }
 
     /// The dense shift-inverted operator of the linearisation.

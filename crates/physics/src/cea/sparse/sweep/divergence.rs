@@ -19,7 +19,7 @@ impl SparseSweep<'_> {
         &self,
         branches: &[TrackedBranch],
     ) -> Result<Option<UnstableInterval>, CeaError> {
-        if !self.is_static() {
+        if self.tangent.is_tabled() {
             return Ok(None);
         }
         let first = self.grid[self.first_asked()];
@@ -38,7 +38,7 @@ impl SparseSweep<'_> {
 
     /// Where, as a branch ends, `det K` changes its sign: by false position with the Illinois rule.
     pub(super) fn diverges_at(&self, end: &BranchEnd) -> Result<Option<f64>, CeaError> {
-        if !self.is_static() {
+        if self.tangent.is_tabled() {
             return Ok(None);
         }
         let (mut low, beyond) = (end.seen.mu, end.lost_at);
@@ -64,9 +64,6 @@ impl SparseSweep<'_> {
             let t = (before / (before - after)).clamp(0.05, 0.95);
             let middle = low + t * (high - low);
             let value = self.static_determinant(middle, size)?;
-            if value == 0.0 {
-                return Ok(Some(middle));
-            }
             if value * before > 0.0 {
                 (low, before, after) = (middle, value, 0.5 * after);
             } else {
@@ -76,15 +73,15 @@ impl SparseSweep<'_> {
         Ok(Some(0.5 * (low + high)))
     }
 
-    /// Whether the stiffness at rest is known, and nothing moves rigidly.
-    fn is_static(&self) -> bool {
-        self.builder.rigid == 0 && !self.tangent.is_tabled()
-    }
-
-    /// `ln det K(mu)`; minus infinity where there are no factors.
+    /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
     fn ln_static(&self, mu: f64) -> Result<c64, CeaError> {
         let analysis = self.builder.analysis.of(self.tangent.stiffness.pattern())?;
-        let found = analysis.ln_determinant(&self.tangent.stiffness.evaluate(mu));
+        let mut values = self.tangent.stiffness.evaluate(mu);
+        let growth = self.linearization.least_growth();
+        let [damping, mass] = [&self.tangent.damping, &self.tangent.mass].map(|p| p.evaluate(mu));
+        let terms = values.iter_mut().zip(damping.iter().zip(&mass));
+        terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m));
+        let found = analysis.ln_determinant(&values);
         Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }
 
@@ -100,8 +97,9 @@ mod tests {
     use crate::cea::sparse::fixtures::string_on_belt;
     use crate::cea::sparse::sweep;
     use crate::cea::{ModeLimit, SweepRequest};
+    use crate::fem::DofMap;
     use crate::linalg::MatrixPolynomial;
-    use crate::prestress::LossGain;
+    use crate::prestress::{LossGain, SlidingTangent};
     use std::sync::Arc;
 
     /// Independent check: a string on springs that friction takes away, which grows beyond without oscillating. Losses of two of the
@@ -139,5 +137,45 @@ mod tests {
         let critical = found.intervals.iter().map(|own| own.critical_friction);
         let critical = critical.fold(f64::INFINITY, f64::min);
         assert!(is_stable(0.97 * critical) && !is_stable(1.03 * critical), "{critical}");
+    }
+
+    /// A string on springs that friction takes away amid it, with one end damped, and pairs of masses that nothing holds.
+    fn softened_string(pairs: usize, is_proportional: bool) -> SlidingTangent {
+        let count = 60 + 2 * pairs;
+        let mut tangent = string_on_belt(60, 0.0, is_proportional);
+        let mut elastic: Vec<(usize, usize, f64)> = (0..60).map(|i| (i, i, 2.01)).collect();
+        elastic.extend((1..60).flat_map(|i| [(i - 1, i, -1.0), (i, i - 1, -1.0)]));
+        elastic.extend((60..count).map(|i| (i, i, 1.0)));
+        elastic.extend((60..count).map(|i| (i, i ^ 1, -1.0)));
+        let softened = (20..40).map(|i| (i, i, -1.0)).collect();
+        tangent.stiffness = MatrixPolynomial::from_triplets(count, &[elastic, softened]);
+        let diagonal = |count: usize, value: f64| {
+            let entries = (0..count).map(|i| (i, i, value)).collect();
+            MatrixPolynomial::on_pattern(tangent.stiffness.pattern(), &[entries])
+        };
+        tangent.mass = diagonal(count, 1.0);
+        tangent.damping = match is_proportional {
+            true => MatrixPolynomial::combination(1e-3, &tangent.mass, 1e-3, &tangent.stiffness),
+            false => diagonal(10, 1e-2),
+        };
+        tangent.unknowns = DofMap::excluding(count, []);
+        tangent
+    }
+
+    #[test]
+    fn static_stability_is_lost_at_the_same_friction_beside_bodies_that_move_freely() {
+        let frictions = [0.0, 0.02, 0.05, 0.1, 0.15];
+        for is_proportional in [true, false] {
+            let critical = [0, 1, 2].map(|pairs| {
+                let tangent = softened_string(pairs, is_proportional);
+                let request = SweepRequest::new(&frictions, ModeLimit::Lowest(8));
+                let found = sweep(&tangent, &request, &|_| {}).unwrap();
+                assert_eq!(found.rigid_motions, pairs);
+                let mut statically = found.intervals.iter().filter(|own| own.branch == 0);
+                statically.next().expect("it diverges").critical_friction
+            });
+            let apart = critical.map(|own| (own - critical[0]).abs());
+            assert!(apart.iter().all(|own| *own < 1e-9), "{critical:?}");
+        }
     }
 }

@@ -178,10 +178,8 @@ impl SparseSweep<'_> {
             groups.collect()
         };
         let rights = expanded(|mode| &mode.right);
-        let held = match with_lefts {
-            true => expanded(|mode| &mode.left),
-            false => vec![Vec::new(); modes.len()],
-        };
+        let none = vec![Vec::new(); modes.len()];
+        let held = if with_lefts { expanded(|mode| &mode.left) } else { none };
         // Over the unknowns.
         let own = |((mode, right), left): ((&ReducedMode, _), _)| ModeVectors {
             eigenvalue: mode.eigenvalue,

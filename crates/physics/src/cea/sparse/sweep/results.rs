@@ -154,10 +154,7 @@ impl SparseSweep<'_> {
             true if mu == 0.0 && !self.tangent.is_gyroscopic => Lefts::Held,
             true => Lefts::Coarse,
         };
-        let vectors = match with_shapes {
-            true => self.vectors((mu, lefts), wanted),
-            false => Vec::new(),
-        };
+        let vectors = if with_shapes { self.vectors((mu, lefts), wanted) } else { Vec::new() };
         let mut vectors = vectors.into_iter();
         let modes = point.modes.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
             let branch = branches.iter().find(|b| b.modes[k] == Some(i));
