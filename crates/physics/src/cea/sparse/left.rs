@@ -4,6 +4,7 @@ use super::StiffnessFactors;
 use super::full_problem::FullProblem;
 use super::packed::{joined, side_by_side};
 use super::pencil::Pencil;
+use super::projected::ProjectedMatrices;
 use super::{BESIDE, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS};
 use crate::cea::ModeVectors;
 use crate::linalg::dense::{product, transpose_product};
@@ -60,7 +61,7 @@ pub fn scale_lefts(tangent: &SlidingTangent, mu: f64, pairs: &mut [ModeVectors])
 struct AmongModes {
     modes: Mat<f64>,
     images: Pencil<Mat<f64>>,
-    small: Pencil<Mat<f64>>,
+    small: ProjectedMatrices,
 }
 
 impl AmongModes {
@@ -68,16 +69,6 @@ impl AmongModes {
         let images = problem.transposed_images(modes.as_ref());
         let small = images.map(|image| transpose_product(modes.as_ref(), image.as_ref()));
         Self { modes, images, small }
-    }
-
-    /// Factors of `Z^T T(lambda)^T Z`.
-    fn factors(&self, lambda: c64) -> ComplexDenseLu {
-        let size = self.modes.ncols();
-        let mut sum = Mat::zeros(size, size);
-        for (factor, small) in self.small.terms(lambda) {
-            sum += Mat::from_fn(size, size, |i, j| factor * small[(i, j)]);
-        }
-        ComplexDenseLu::factorize(sum)
     }
 
     /// Adds to each vector what leaves nothing along `Z` of its residual `r`, and its image to that of the vector, `[w, T(lambda)^T w]`.
@@ -136,8 +127,11 @@ fn correct_group(
         let all = vectors.into_iter().enumerate();
         all.map(|(k, [vector, image])| [vector, image, joined(&solved, k)]).collect()
     };
-    let among: Vec<ComplexDenseLu> =
-        eigenvalues.iter().map(|lambda| modes.factors(lambda * (1.0 + BESIDE))).collect();
+    let among: Vec<ComplexDenseLu> = eigenvalues
+        .iter()
+        .map(|lambda| modes.small.pencil(lambda * (1.0 + BESIDE)))
+        .map(ComplexDenseLu::factorize)
+        .collect();
     let goals: Vec<f64> = pairs.iter().map(left_energy).collect();
     let mut open: Vec<usize> = (0..pairs.len()).collect();
     let starts: Vec<&[c64]> = pairs.iter().map(|pair| &pair.left[..]).collect();
