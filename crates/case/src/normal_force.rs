@@ -6,7 +6,7 @@
 use super::{BodyKind, Case, CaseErrors, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
 use frictionsim_physics::fem::MassKind;
-use frictionsim_physics::mesh::{SectorMesh, SolidSector};
+use frictionsim_physics::mesh::{SolidSector, Strip};
 use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
 
 /// Factor of the steps up to an interference that presses enough.
@@ -152,9 +152,9 @@ impl Case {
         let (materials, mass) = (&self.body.materials, self.mass());
         let pressed = match &self.body.kind {
             BodyKind::Annulus(annulus) => {
-                let mesh = SectorMesh::generate(annulus).map_err(in_words)?;
+                let mesh = Strip::of_annulus(annulus).map_err(in_words)?;
                 let base = SectorSliding::solve(&mesh, materials, &contact, law);
-                let whole = self.thickness * mesh.strip.count as f64;
+                let whole = self.thickness * mesh.count as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
             BodyKind::Revolution(specification) => {

@@ -1,8 +1,8 @@
 //! The contact edge of a mesh.
 
-use super::opposite::{OppositeMotion, meetings};
+use super::opposite::{Meeting, OppositeMotion, meetings, pairs};
 use super::{Point, Row, SlidingContact, SteadyFriction, scaled};
-use crate::mesh::{BoundaryCondition, Counterface, Mesh};
+use crate::mesh::{BoundaryCondition, Counterface, Mesh, Strip};
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,19 @@ impl ContactInterface {
     /// The contact edge of `mesh`; nodes that a boundary condition clamps, or that have no other body before them, have no
     /// part in it.
     pub fn of(mesh: &Mesh) -> Self {
+        Self::meeting(mesh, meetings(mesh))
+    }
+
+    /// That of one sector of an annulus; slopes of the opposite body reach into the sectors beside it.
+    pub fn of_sector(strip: &Strip) -> Self {
+        let mesh = &strip.mesh;
+        let ahead = |node: u32, sectors| strip.node_ahead(node as usize, sectors);
+        let opposite = mesh.opposite.map(|own| &mesh.boundaries[own].nodes[..]);
+        Self::meeting(mesh, opposite.map(|nodes| pairs(mesh, nodes, (strip.count, &ahead))))
+    }
+
+    /// With what its nodes meet, unless that is a rigid counterface.
+    fn meeting(mesh: &Mesh, mut meetings: Option<Vec<Meeting>>) -> Self {
         let edge = mesh.contact_edge();
         let mut is_clamped = vec![false; mesh.node_count()];
         for boundary in &mesh.boundaries {
@@ -32,7 +45,6 @@ impl ContactInterface {
                 boundary.nodes.iter().for_each(|&node| is_clamped[node as usize] = true);
             }
         }
-        let mut meetings = meetings(mesh);
         let meets = |i: usize| meetings.as_ref().is_none_or(|all| all[i].covered > 0.0);
         let kept: Vec<usize> = (0..edge.nodes.len())
             .filter(|&i| !is_clamped[edge.nodes[i] as usize] && meets(i))

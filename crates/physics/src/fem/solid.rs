@@ -1,6 +1,5 @@
 //! Places on the faces of a body of revolution in three dimensions, at which contact acts.
 
-use super::fold::dof_ahead;
 use crate::mesh::{FaceElement, SolidSector, face_quadrature};
 
 /// A place of a face.
@@ -11,7 +10,7 @@ pub struct FacePoint {
     pub radius: f64,
     /// Its place along the element, -1 to 1.
     pub along: f64,
-    /// Rows of the displacement there along `(e_r, e_theta, e_z)`, see [`dof_ahead`].
+    /// Rows of the displacement there along `(e_r, e_theta, e_z)` over the dofs of the strip.
     pub rows: [Vec<(usize, f64)>; 3],
 }
 
@@ -45,8 +44,7 @@ pub fn face_points(
     rule: FaceRule,
 ) -> Vec<FacePoint> {
     let is_quadratic = sector.is_quadratic();
-    let dofs = 3 * sector.node_count();
-    let first = |(node, half): (usize, usize)| dof_ahead(3 * node, half as isize, dofs);
+    let first = |(node, half): (usize, usize)| 3 * (node + half / 2 * sector.node_count());
     if !is_quadratic && rule == FaceRule::Nodal {
         let mut areas = vec![0.0; face.nodes.len()];
         for point in face_quadrature(is_quadratic) {

@@ -65,11 +65,11 @@ impl SolidSector {
             (specification.element_kind(), specification.annulus.circumferential_elements);
         let region = |at| specification.region_at(&radii, at);
         let elements = elements_between(&nodes, kind, specification.divisions(), region);
-        let numbering: Vec<usize> = (0..nodes.len()).collect();
+        let order = (0..nodes.len()).collect();
         let mesh = specification.strip(&nodes, &elements);
         let is_held = |dof| specification.is_held(&nodes[dof / 3], dof % 3);
         let mut sector = Self {
-            strip: Strip::new(mesh, (&nodes, &numbering), count, is_held),
+            strip: Strip::new(mesh, (&nodes, order), count, is_held),
             specification: specification.clone(),
             elements,
             nodes,

@@ -35,7 +35,6 @@ mod tangent;
 mod terms;
 mod wave_harmonic;
 mod wave_tangent;
-mod wave_terms;
 
 pub use crate::contact::PressedState;
 pub use crate::fem::{LossGain, TabledGain};

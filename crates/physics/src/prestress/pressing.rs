@@ -6,7 +6,6 @@ use super::full_sliding::FullSliding;
 use super::solid::{OverRings, node_point};
 use super::{SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
-use crate::fem::fold::SectorMatrix;
 use crate::fem::solid::{FacePoint, FaceRule, face_points};
 use crate::fem::{MassKind, MaterialField, Triplets};
 use crate::mesh::{ContactRing, SolidSector};
@@ -34,18 +33,7 @@ impl SolidSliding {
         stiffness: &ContactStiffness,
         mass: MassKind,
     ) -> Result<Self, PrestressError> {
-        let elastic = sector.strip.stiffness_alike(material);
-        Self::of(sector, &elastic, contact, stiffness, mass)
-    }
-
-    /// [`Self::solve`] with the stiffness of a sector that moves like all others.
-    pub(super) fn of(
-        sector: &SolidSector,
-        elastic: &Triplets,
-        contact: &SlidingContact,
-        stiffness: &ContactStiffness,
-        mass: MassKind,
-    ) -> Result<Self, PrestressError> {
+        let elastic = &sector.strip.stiffness_alike(material);
         let law = stiffness.base_law();
         let is_integrated = law.is_some() && mass == MassKind::Consistent;
         let rule = match sector.is_quadratic() || is_integrated {
@@ -249,7 +237,7 @@ impl Springs<'_> {
                 sum.push_product(area * weight(approach), row, row);
             }
         }
-        SectorMatrix::alike_in_all(&[&sector.strip.at_places(&sum)])
+        sector.strip.alike([&sum])
     }
 }
 

@@ -198,12 +198,13 @@ impl SlidingTangent {
 
 impl ContactPart<'_> {
     /// Adds what it does around its state.
-    fn add_to(&self, terms: &mut Terms<Triplets>) {
+    pub(super) fn add_to(&self, terms: &mut Terms<Triplets>) {
         let state = (self.state, self.first);
         let own = linearized(self.points, state, &self.stiffness);
         let part = terms.add_contact(self.stiffness.loss_factor);
         terms.add(part, Kind::Stiffness, own.stiffness);
         terms.add(part, Kind::Dashpots, own.dashpots);
+        terms.add(part, Kind::FrictionDashpots, own.friction);
         terms.add(part, Kind::Prestress, turned(self.points, self.turnings, state));
     }
 }

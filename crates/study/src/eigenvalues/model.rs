@@ -6,7 +6,7 @@ use crate::tangent_options;
 use frictionsim_case::{BodyKind, Case, CaseErrors, Cea, CeaMethod, refusal};
 use frictionsim_physics::cea::cyclic::{self, WaveSweep};
 use frictionsim_physics::cea::{CeaError, ModeLimit, SweepRequest, Unwatched};
-use frictionsim_physics::mesh::{SectorMesh, SolidSector};
+use frictionsim_physics::mesh::{SolidSector, Strip};
 use frictionsim_physics::prestress::{TangentOptions, WaveTangent};
 
 /// The eigenvalue solver that a body gets.
@@ -160,7 +160,7 @@ pub fn wave_tangent(
     let (sliding, materials) = (&case.contact.sliding, &case.body.materials);
     Ok(match &case.body.kind {
         BodyKind::Annulus(specification) => {
-            let sector = SectorMesh::generate(specification)?;
+            let sector = Strip::of_annulus(specification)?;
             Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
         }
         BodyKind::Revolution(specification) => {
