@@ -5,7 +5,6 @@ use super::sectors::{graded_radii, radius_at};
 use super::specification::validate;
 use super::{
     AnnulusMesh, AnnulusSpecification, Boundary, BoundaryCondition, ElementKind, Mesh, MeshError,
-    NodalFrames,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -95,12 +94,11 @@ impl SolidSector {
         Ok(mesh)
     }
 
-    /// The solid elements of the first `count` sectors, closed to a ring where those are all, in global frames; nodes sector by
+    /// The solid elements of the first `count` sectors, closed to a ring where those are all, in polar frames; nodes sector by
     /// sector, of an open one the last sheet behind them.
     pub fn part(&self, count: usize) -> Mesh {
         let mut mesh = revolved(&self.nodes, &self.elements, [count, self.sector_count()]);
         mesh.regions = self.specification.region_names();
-        mesh.frames = NodalFrames::global(3, mesh.node_count());
         mesh.congruent_to = (0..mesh.element_count() as u32).collect();
         mesh
     }
