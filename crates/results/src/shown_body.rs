@@ -51,7 +51,7 @@ impl<'a> ShownBody<'a> {
     /// Its nodes and elements.
     pub fn whole(&self) -> Cow<'a, Mesh> {
         match self.sector {
-            Some(sector) => Cow::Owned(sector.part(sector.sector_count())),
+            Some(sector) => Cow::Owned(sector.whole()),
             None => Cow::Borrowed(self.mesh),
         }
     }

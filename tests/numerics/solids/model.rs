@@ -55,11 +55,14 @@ pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMod
     model.modes(friction, MaxFrequency(limit_hz))
 }
 
-pub fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
+pub fn body<'a>(
+    model: &'a SolidModel,
+    (sector, mesh): (&'a SolidSector, &'a Mesh),
+) -> TransientModel<'a> {
     TransientModel {
         stiffness: model.options.contact,
         ..TransientModel::new(
-            SteppedBody::Revolution(sector),
+            SteppedBody::Revolution { sector, mesh },
             &model.material,
             model.options.damping,
             model.contact,

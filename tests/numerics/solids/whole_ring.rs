@@ -136,7 +136,8 @@ fn global(sector: &SolidSector, s: usize, node: usize, half: usize) -> usize {
 /// `M` and `K` column by column.
 fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     assert_eq!(model.options.mass, Lumped);
-    let body = body(model, sector);
+    let whole = sector.whole();
+    let body = body(model, (sector, &whole));
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let count = operator.dof_count();
     let masses = operator.masses();

@@ -336,18 +336,18 @@ impl<'a> Assembly<'a> {
         SlidingTangent::assemble(terms, &parts, joined.basis.clone(), dofs, options)
     }
 
-    /// Dofs that the contact edge of a plane body touches.
+    /// Dofs that the contact edge of a plane body touches; those of its own nodes come first in rows.
     fn edge_dofs(&self) -> ContactDofs {
-        let edge = ContactInterface::of(self.mesh);
-        let nodes = 0..edge.len();
-        let opposite = edge.opposite.iter().flat_map(|own| own.moves.iter().flatten());
-        let first = self.contacts().iter().find_map(|(_, surface)| surface.points.first());
+        let points = || self.contacts().iter().flat_map(|(_, surface)| &surface.points);
+        let others = points().flat_map(|point| [&point.normal, &point.slip]);
+        let normal: Vec<usize> = points().map(|point| point.normal[0].0).collect();
+        let angle = |dof: &usize| self.mesh.frame_angles()[dof / 2];
         ContactDofs {
-            tangential: nodes.clone().map(|i| edge.tangential_dof(i)).collect(),
-            normal: nodes.map(|i| edge.normal_dof(i)).collect(),
-            opposite: opposite.map(|share| share.0).collect(),
-            sliding_direction: first.map_or(1.0, |point| point.friction.drag.signum()),
-            angles: if self.mesh.is_cyclic { edge.angles } else { Vec::new() },
+            tangential: points().map(|point| point.slip[0].0).collect(),
+            opposite: others.flat_map(|row| &row[1..]).map(|share| share.0).collect(),
+            sliding_direction: points().next().map_or(1.0, |own| own.friction.drag.signum()),
+            angles: normal.iter().filter(|_| self.mesh.is_cyclic).map(angle).collect(),
+            normal,
         }
     }
 

@@ -48,6 +48,7 @@ pub use pressed_range::PressedRange;
 pub use pressed_state::Pressing;
 pub use sector::SectorSliding;
 pub use solid::SolidSliding;
+pub(crate) use solid::node_point;
 pub use tangent::{ContactDofs, ContactPart, SlidingTangent};
 pub use terms::{Kind, Part, PartForms, PartLaw, Term, Terms};
 pub use wave_harmonic::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};

@@ -191,14 +191,14 @@ impl<'a> OverRings<'a> {
     }
 }
 
-/// A node of the face as a contact point.
-pub(super) fn node_point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
+/// A node of the face, of any sector, as a contact point.
+pub(crate) fn node_point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
     let face = sector.specification.contact.face();
     Point {
         normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
         slip: vec![(3 * node + 1, 1.0)],
         across: vec![(3 * node + face.across_component(), 1.0)],
-        friction: friction(contact, sector.nodes[node].radius),
+        friction: friction(contact, sector.nodes[node % sector.node_count()].radius),
         ..Point::default()
     }
 }

@@ -21,6 +21,8 @@ pub struct SteppedMesh<'a> {
     /// Solid bodies of a mesh with their ties and contacts.
     pub assembly: Option<Assembly<'a>>,
     annulus: Option<AnnulusMesh>,
+    /// All of the body of revolution.
+    whole: Option<Mesh>,
 }
 
 impl<'a> SteppedMesh<'a> {
@@ -29,13 +31,15 @@ impl<'a> SteppedMesh<'a> {
     /// # Errors
     /// A mesh that cannot be built; surfaces that do not meet.
     pub fn of(case: &'a Case) -> Result<Self, StudyError> {
-        let (mut annulus, mut sector, mut assembly) = (None, None, None);
+        let (mut annulus, mut sector, mut whole, mut assembly) = (None, None, None, None);
         let mesh = match &case.body.kind {
             BodyKind::Annulus(specification) => {
                 Arc::new(annulus.insert(AnnulusMesh::generate(specification)?).mesh.clone())
             }
             BodyKind::Revolution(specification) => {
-                Arc::new(sector.insert(SolidSector::generate(specification)?).section()?)
+                let sector = sector.insert(SolidSector::generate(specification)?);
+                whole = Some(sector.whole());
+                Arc::new(sector.section()?)
             }
             BodyKind::Imported(imported) => Arc::clone(&imported.mesh),
             BodyKind::Assembly(body) => {
@@ -43,7 +47,7 @@ impl<'a> SteppedMesh<'a> {
                 Arc::clone(&body.mesh)
             }
         };
-        Ok(Self { mesh, sector, assembly, annulus })
+        Ok(Self { mesh, sector, assembly, annulus, whole })
     }
 
     /// The body of the case with its contact.
@@ -53,13 +57,13 @@ impl<'a> SteppedMesh<'a> {
 
     /// The same at another operating point.
     pub fn body_at<'b>(&'b self, case: &'b Case, point: &OperatingPoint) -> TransientModel<'b> {
-        let body = match (&self.assembly, self.sector.as_ref()) {
+        let body = match (&self.assembly, self.sector.as_ref().zip(self.whole.as_ref())) {
             (Some(assembly), _) => {
                 let axis = case.body.assembly().and_then(AssemblyBody::axis);
                 let axis = axis.unwrap_or([[0.0; 3], [0.0, 0.0, 1.0]]);
                 SteppedBody::Assembly { assembly, axis }
             }
-            (None, Some(sector)) => SteppedBody::Revolution(sector),
+            (None, Some((sector, mesh))) => SteppedBody::Revolution { sector, mesh },
             (None, None) => SteppedBody::Plane { mesh: &self.mesh, annulus: self.annulus.as_ref() },
         };
         let material = case.materials_in_time();
