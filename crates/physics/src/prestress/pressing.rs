@@ -3,10 +3,9 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
-use super::solid::{OverRings, node_point};
+use super::solid::{FaceRule, OverRings, face_points, node_point};
 use super::{SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
-use crate::fem::solid::{FaceRule, face_points};
 use crate::fem::{MassKind, MaterialField, Triplets};
 use crate::linalg::dense::difference;
 use crate::mesh::{ContactRing, SolidSector};
