@@ -8,8 +8,13 @@ pub type SolidModel<M = ElasticMaterial> = WaveModel<SolidSpecification, M>;
 pub fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let (material, options) = (&model.material, &model.options);
-    let base =
-        SolidSliding::solve(&sector, material, &model.contact, &options.contact, options.mass)?;
+    let base = SolidSliding::solve(
+        &sector,
+        &sector.strip.stiffness_alike(material),
+        &model.contact,
+        &options.contact,
+        options.mass,
+    )?;
     Ok((sector, base))
 }
 

@@ -32,12 +32,10 @@ pub(super) struct Meeting {
 /// places of both are their projections onto the common surface. A constant pressure passes exactly between straight
 /// edges. On the annulus nodes lie in pairs, `P` is the identity, and slopes are those of the nodal field.
 pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
-    let opposite = mesh.opposite?;
     if mesh.is_cyclic {
-        let all = &mesh.boundaries[opposite].nodes;
-        return Some(pairs(mesh, all, (1, &|node, _| node as usize)));
+        return pairs(mesh, (1, &|node, _| node as usize));
     }
-    let opposite = &mesh.boundaries[opposite];
+    let opposite = &mesh.boundaries[mesh.opposite?];
     let edges = Edge::of(mesh, mesh.contact_edge());
     let others = Edge::of(mesh, opposite);
     let heights = mesh.distances_from_counterface(opposite);
@@ -48,9 +46,9 @@ pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
 /// body in the next part (1) or the one before (-1).
 pub(super) fn pairs(
     mesh: &Mesh,
-    nodes: &[u32],
     (parts, ahead): (usize, &dyn Fn(u32, isize) -> usize),
-) -> Vec<Meeting> {
+) -> Option<Vec<Meeting>> {
+    let nodes = &mesh.boundaries[mesh.opposite?].nodes;
     let lengths = &mesh.contact_edge().tributary_lengths;
     let (count, curvature) = (nodes.len(), mesh.counterface.curvature());
     let is_quadratic = lengths.iter().any(|length| *length != lengths[0]);
@@ -68,7 +66,7 @@ pub(super) fn pairs(
         let moves = [vec![(dof, 1.0)], vec![(dof + 1, 1.0)]];
         Meeting { motion: OppositeMotion { moves, slopes }, covered: 1.0, height: 0.0 }
     };
-    (0..count).map(pair).collect()
+    Some((0..count).map(pair).collect())
 }
 
 /// Derivative along a closed curve at node `i`, of both elements' mean at a corner: how many nodes ahead, and the weight.

@@ -6,7 +6,7 @@ use super::full_sliding::FullSliding;
 use super::solid::{FaceRule, OverRings, face_points, node_point};
 use super::{SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
-use crate::fem::{MassKind, MaterialField, Triplets};
+use crate::fem::{MassKind, Triplets};
 use crate::linalg::dense::difference;
 use crate::mesh::{ContactRing, SolidSector};
 
@@ -20,20 +20,20 @@ const LEAST_APPROACH: f64 = 1e-9;
 const SETTLED: f64 = 1e-10;
 
 impl SolidSliding {
-    /// Solves the equilibrium of one sector under its face pressures, with springs between face and rotor where these carry the
-    /// base state: integrated over the face, at the nodes of linear elements with lumped mass, as in a time step.
+    /// Solves the equilibrium of one sector with its [`Strip::stiffness_alike`](crate::mesh::Strip::stiffness_alike) under its face
+    /// pressures, with springs between face and rotor where these carry the base state: integrated over the face, at the nodes of
+    /// linear elements with lumped mass, as in a time step.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where nothing holds the body, [`PrestressError::GapEverywhere`] where no ring is pressed,
     /// [`PrestressError::NoState`] where no set of pressed rings is found.
     pub fn solve(
         sector: &SolidSector,
-        material: &dyn MaterialField,
+        elastic: &Triplets,
         contact: &SlidingContact,
         stiffness: &ContactStiffness,
         mass: MassKind,
     ) -> Result<Self, PrestressError> {
-        let elastic = &sector.strip.stiffness_alike(material);
         let law = stiffness.base_law();
         let is_integrated = law.is_some() && mass == MassKind::Consistent;
         let rule = match sector.is_quadratic() || is_integrated {

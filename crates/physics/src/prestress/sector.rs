@@ -4,7 +4,7 @@ use super::PrestressError;
 use super::elimination::Elimination;
 use super::pressed_state::Pressing;
 use crate::contact::{ContactInterface, NormalLaw, Point, PressedState, SlidingContact};
-use crate::fem::MaterialField;
+use crate::fem::Triplets;
 use crate::mesh::Strip;
 
 /// The state of steady sliding of a body of equal sectors, the same in each.
@@ -20,21 +20,22 @@ pub struct SectorSliding {
 }
 
 impl SectorSliding {
-    /// Solves the equilibrium of one sector of an annulus, on contact that stiffens with pressure, if there is a `law`.
+    /// Solves the equilibrium of one sector of an annulus with its [`Strip::stiffness_alike`], on contact that stiffens with
+    /// pressure, if there is a `law`.
     ///
     /// # Errors
     /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a
     /// stiffness that is not positive definite.
     pub fn solve(
         strip: &Strip,
-        material: &dyn MaterialField,
+        stiffness: &Triplets,
         contact: &SlidingContact,
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
         let edge = ContactInterface::of_sector(strip);
         let points = edge.points(contact);
         let pressing = Pressing {
-            stiffness: &strip.stiffness_alike(material),
+            stiffness,
             load: vec![0.0; strip.dof_count()],
             elimination: Elimination::holding(strip.dof_count(), strip.held_dofs()),
             points: &points,

@@ -7,7 +7,7 @@ use super::{PrestressError, SectorSliding, SolidSliding, TangentOptions, WaveTan
 use crate::contact::{
     ContactInterface, Point, PressedState, SlidingContact, Turning, scaled, turned,
 };
-use crate::fem::MaterialField;
+use crate::fem::{MaterialField, Triplets};
 use crate::mesh::{SolidSector, Strip};
 
 impl WaveTangent {
@@ -21,7 +21,9 @@ impl WaveTangent {
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
-        let base = SectorSliding::solve(strip, material, contact, options.contact.law)?;
+        let terms = Terms::of_mesh((&strip.mesh, material), false, options);
+        let base =
+            SectorSliding::solve(strip, &alike(strip, &terms), contact, options.contact.law)?;
         let nodes = |point: &Point| point.normal.iter().map(|own| own.0 / 2).collect();
         let touching = Touching {
             turnings: ContactInterface::of_sector(strip).turnings(),
@@ -30,7 +32,7 @@ impl WaveTangent {
             law: (base.points.clone(), base.state.clone()),
             base,
         };
-        Ok(touching.tangent((strip, material), (options, contact)))
+        Ok(touching.tangent((strip, material), terms, (options, contact)))
     }
 
     /// Finds the steady sliding state of a body of revolution and linearises around it.
@@ -46,7 +48,10 @@ impl WaveTangent {
         if contact.rotation_speed == 0.0 {
             return Err(PrestressError::AtRest);
         }
-        let own = SolidSliding::solve(sector, material, contact, &options.contact, options.mass)?;
+        let strip = &sector.strip;
+        let terms = Terms::of_mesh((&strip.mesh, material), false, options);
+        let (elastic, stiffness) = (alike(strip, &terms), &options.contact);
+        let own = SolidSliding::solve(sector, &elastic, contact, stiffness, options.mass)?;
         // It turns about the axis on a cylinder, while on a face it is the sliding that does.
         let is_cylinder = sector.specification.contact.face().normal_component() == 0;
         let turning = |point: &Point| {
@@ -63,8 +68,14 @@ impl WaveTangent {
             is_pressed: own.is_pressed,
             base: own.sliding,
         };
-        Ok(touching.tangent((&sector.strip, material), (options, contact)))
+        Ok(touching.tangent((strip, material), terms, (options, contact)))
     }
+}
+
+/// [`Strip::stiffness_alike`] of regions and supports.
+fn alike(strip: &Strip, terms: &Terms<Triplets>) -> Triplets {
+    let elastic = terms.all.iter().filter(|term| term.kind == Kind::Stiffness);
+    strip.alike(elastic.map(|term| &term.matrix))
 }
 
 /// The contact of one sector in steady sliding.
@@ -83,9 +94,9 @@ impl Touching {
     fn tangent(
         self,
         (strip, material): (&Strip, &dyn MaterialField),
+        mut terms: Terms<Triplets>,
         (options, contact): (&TangentOptions, &SlidingContact),
     ) -> WaveTangent {
-        let mut terms = Terms::of_mesh((&strip.mesh, material), false, options);
         let (points, state) = &self.law;
         let stiffness = options.contact;
         let part =

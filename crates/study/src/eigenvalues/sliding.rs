@@ -39,12 +39,11 @@ fn sliding_sector(
         BodyKind::Annulus(specification) => {
             let mesh = AnnulusMesh::generate(specification)?.mesh;
             let sector = Strip::of_annulus(specification)?;
-            let materials = &case.body.materials;
-            let base = SectorSliding::solve(&sector, materials, sliding, options.contact.law)?;
-            let state = base.repeated(sector.count);
+            let elastic = sector.stiffness_alike(&case.body.materials);
+            let base = SectorSliding::solve(&sector, &elastic, sliding, options.contact.law)?;
             let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
             let contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);
-            (Arc::new(mesh), SteadyState::Mesh { contacts, state })
+            (Arc::new(mesh), SteadyState::Mesh { contacts, state: base.repeated(sector.count) })
         }
         BodyKind::Revolution(specification) => {
             let solid = solid::solved(case, specification)?;

@@ -31,15 +31,13 @@ impl<'a> SteppedMesh<'a> {
     /// # Errors
     /// A mesh that cannot be built; surfaces that do not meet.
     pub fn of(case: &'a Case) -> Result<Self, StudyError> {
-        let (mut annulus, mut sector, mut whole, mut assembly) = (None, None, None, None);
+        let (mut annulus, mut sector, mut assembly) = (None, None, None);
         let mesh = match &case.body.kind {
             BodyKind::Annulus(specification) => {
                 Arc::new(annulus.insert(AnnulusMesh::generate(specification)?).mesh.clone())
             }
             BodyKind::Revolution(specification) => {
-                let sector = sector.insert(SolidSector::generate(specification)?);
-                whole = Some(sector.whole());
-                Arc::new(sector.section()?)
+                Arc::new(sector.insert(SolidSector::generate(specification)?).section()?)
             }
             BodyKind::Imported(imported) => Arc::clone(&imported.mesh),
             BodyKind::Assembly(body) => {
@@ -47,6 +45,7 @@ impl<'a> SteppedMesh<'a> {
                 Arc::clone(&body.mesh)
             }
         };
+        let whole = sector.as_ref().map(SolidSector::whole);
         Ok(Self { mesh, sector, assembly, annulus, whole })
     }
 

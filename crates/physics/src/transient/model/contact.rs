@@ -83,8 +83,8 @@ impl TransientModel<'_> {
     }
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
-        let (contact, stiffness) = (&self.contact, &self.stiffness);
-        SolidSliding::solve(sector, self.material, contact, stiffness, MassKind::Lumped)
+        let (elastic, mass) = (sector.strip.stiffness_alike(self.material), MassKind::Lumped);
+        SolidSliding::solve(sector, &elastic, &self.contact, &self.stiffness, mass)
     }
 
     /// The contact points, all open; `interface` are their nodes.
