@@ -1,10 +1,7 @@
 //! The annulus and its shaft, sector by sector: nodes, elements and edges.
 
-use super::revolution::{SheetElement, SheetNode, Strip, elements_between, revolved};
-use super::specification::validate;
-use super::{
-    AnnulusSpecification, Boundary, BoundaryCondition, Counterface, ElementKind, Mesh, MeshError,
-};
+use super::revolution::{SheetElement, SheetNode, elements_between, revolved};
+use super::{AnnulusSpecification, Boundary, BoundaryCondition, Counterface, ElementKind, Mesh};
 use std::f64::consts::PI;
 
 /// The sheet of a sector: the shaft along a radius, if there is one, then the annulus.
@@ -48,30 +45,6 @@ impl AnnulusSheet {
         elements.iter_mut().flat_map(|own| &mut own.nodes).for_each(|node| node.0 += first);
         self.nodes.extend(nodes);
         self.elements.extend(elements);
-    }
-}
-
-impl Strip {
-    /// Sector 0 of an annulus, without the others: its nodes are those of [`super::AnnulusMesh`] to the last bit.
-    ///
-    /// Unknowns are in the order of nodes outwards, at one radius the corner-ray node, then the middle-ray node where there is
-    /// one; those of a shaft come before the annulus.
-    ///
-    /// # Errors
-    /// [`MeshError`] names the key whose value makes no mesh.
-    pub fn of_annulus(specification: &AnnulusSpecification) -> Result<Self, MeshError> {
-        validate(specification)?;
-        let sheet = AnnulusSheet::of(specification);
-        let mesh = build(specification, &sheet, 1);
-        let outwards = |&node: &usize| {
-            let own = &sheet.nodes[node];
-            (node >= sheet.first, own.place[0], own.half_step)
-        };
-        let mut order: Vec<usize> = (0..sheet.nodes.len()).collect();
-        order.sort_by_key(outwards);
-        let held: Vec<usize> = mesh.held_dofs().collect();
-        let count = specification.circumferential_elements;
-        Ok(Self::new(mesh, (&sheet.nodes, order), count, |dof| held.contains(&dof)))
     }
 }
 
@@ -172,57 +145,5 @@ fn tributary_length(spec: &AnnulusSpecification, node: &SheetNode) -> f64 {
         (true, 0) => 2.0 / 3.0 * node.radius * sin * (2.0 - cos),
         (true, _) => 4.0 / 3.0 * node.radius * sin,
         (false, _) => 2.0 * node.radius * sin * cos,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::{AnnulusMesh, ShaftSpecification};
-
-    #[test]
-    fn sector_is_the_beginning_of_the_full_mesh_bit_for_bit() {
-        for element in [ElementKind::Quad4, ElementKind::Quad8] {
-            let specification = AnnulusSpecification {
-                inner_radius: 0.0205,
-                outer_radius: 0.0905,
-                circumferential_elements: 24,
-                radial_elements: 5,
-                radial_grading: 1.1,
-                element,
-                outer: BoundaryCondition::Clamped,
-                shaft: None,
-            };
-            let full = AnnulusMesh::generate(&specification).unwrap().mesh;
-            let sector = Strip::of_annulus(&specification).unwrap();
-            let strip = &sector.mesh;
-            assert_eq!(strip.nodes, full.nodes[..strip.node_count()]);
-            let entries = strip.elements.len();
-            assert_eq!(entries, 5 * element.node_count());
-            assert_eq!(strip.elements, full.elements[..entries]);
-            let radius = |node: usize| full.nodes[node][0].hypot(full.nodes[node][1]);
-            let free: Vec<usize> = sector.free_dofs().map(|dof| dof / 2).collect();
-            for pair in free.windows(2) {
-                assert!(radius(pair[0]) < radius(pair[1]) + 1e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn a_clamped_bore_does_not_widen_the_bands() {
-        let width = |bore| {
-            let specification = AnnulusSpecification {
-                inner_radius: 0.0205,
-                outer_radius: 0.0905,
-                circumferential_elements: 24,
-                radial_elements: 5,
-                radial_grading: 1.0,
-                element: ElementKind::Quad8,
-                outer: BoundaryCondition::Clamped,
-                shaft: Some(ShaftSpecification { inner_radius: 0.006, radial_elements: 4, bore }),
-            };
-            Strip::of_annulus(&specification).unwrap().node_bandwidth()
-        };
-        assert_eq!(width(BoundaryCondition::Clamped), width(BoundaryCondition::Free));
     }
 }

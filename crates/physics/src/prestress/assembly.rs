@@ -6,8 +6,8 @@ use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
 use super::rotation::{Rotation, grounded};
-use super::tangent::{ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};
-use super::terms::{Kind, PartLaw, Terms};
+use super::tangent::{ContactDofs, ContactPart, SlidingTangent};
+use super::terms::{Kind, PartLaw, Terms, geometric_stiffness};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
     ContactInterface, ContactStiffness, ContactSurface, Motion, PairError, Point, PointKind,

@@ -7,12 +7,12 @@
 //!
 //! over regions `r`, supports `s` and contacts `c`, with their dashpots `D` and the stiffness `G` of the base state.
 
-use super::tangent::geometric_stiffness;
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
 use crate::contact::PressedState;
 use crate::fem::{
-    MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_patch_damping,
-    assemble_point_masses, assemble_support, region_mass, region_stiffnesses,
+    MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_geometric_stiffness,
+    assemble_patch_damping, assemble_point_masses, assemble_support, region_mass,
+    region_stiffnesses,
 };
 use crate::linalg::c64;
 use crate::mesh::Mesh;
@@ -344,4 +344,20 @@ impl Terms<Triplets> {
         own.add_other("modifications".into(), law, [masses, springs, (Kind::Dashpots, dashpots)]);
         own
     }
+}
+
+/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen
+/// below `a`.
+pub(super) fn geometric_stiffness(
+    (mesh, material): (&Mesh, &dyn MaterialField),
+    state: &PressedState,
+    region: usize,
+) -> Vec<Triplets> {
+    let powers = state.displacements.iter();
+    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, Some(region)));
+    let mut powers: Vec<Triplets> = powers.collect();
+    if state.frozen_below > 0.0 && powers.len() > 1 {
+        powers.insert(1, Triplets::default());
+    }
+    powers
 }
