@@ -11,9 +11,7 @@ use frictionsim::frf::{
     CyclicSystem, Direction, FrfSystem, Port, Terminal, cyclic_response, direct_response,
     reduced_response,
 };
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh,
-};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Strip};
 use frictionsim::prestress::{Assembly, DampingModel, TangentOptions, WaveTangent};
 
 fn specification() -> AnnulusSpecification {
@@ -64,14 +62,14 @@ fn options() -> TangentOptions {
 }
 
 fn cyclic_system(boundary: &str) -> CyclicSystem {
-    let sector = SectorMesh::generate(&specification()).expect("a valid mesh");
+    let sector = Strip::of_annulus(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
         let tangent = WaveTangent::of_annulus(&sector, &MATERIAL, &options(), &CONTACT)
             .expect("contact stays closed");
         return CyclicSystem::sliding(&tangent, CONTACT.friction_coefficient);
     }
     let mass = MassKind::Consistent;
-    CyclicSystem::body(&sector.strip, &MATERIAL, mass, DAMPING, boundary == "clamped")
+    CyclicSystem::body(&sector, &MATERIAL, mass, DAMPING, boundary == "clamped")
 }
 
 fn whole_system(boundary: &str) -> FrfSystem {

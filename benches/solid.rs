@@ -124,10 +124,11 @@ fn assembled(divisions: usize, threads: usize) {
 fn step(divisions: [usize; 3], level: SimdLevel, (batches, peak): (usize, f64)) {
     let model = model::disc(ElementKind::Quad4, divisions);
     let sector = SolidSector::generate(&model.specification).expect("a valid mesh");
+    let whole = sector.whole();
     let body = TransientModel {
         stiffness: model.options.contact,
         ..TransientModel::new(
-            SteppedBody::Revolution(&sector),
+            SteppedBody::Revolution { sector: &sector, mesh: &whole },
             &model.material,
             model.options.damping,
             model.contact,

@@ -78,7 +78,7 @@ fn bodies(level: SimdLevel, peak: f64) {
     let of = |annulus| TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(610.0));
     println!("\none body, nodes in pairs (cyclic, sparse), meshes that do not match");
     let each = |model: TransientModel<'_>, choice| {
-        report(model, choice, level, peak) / model.mesh().map_or(0, Mesh::element_count) as f64
+        report(model, choice, level, peak) / model.mesh().element_count() as f64
     };
     let [cyclic, sparse] = [OperatorChoice::Cyclic, OperatorChoice::Sparse];
     let alone = [cyclic, sparse].map(|choice| each(of(&one), choice));
@@ -143,7 +143,7 @@ fn of_mesh(mesh: &Mesh) -> TransientModel<'_> {
 
 /// Prints a row; returns the time of a step, s.
 fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, peak: f64) -> f64 {
-    let mesh = model.mesh().expect("a mesh");
+    let mesh = model.mesh();
     let operator = model.operator(choice, level).expect("an operator");
     let sample_interval = 2e-6;
     // Stick, slip and open nodes all occur before the clock starts; a trial needs none of them.

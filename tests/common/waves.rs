@@ -23,7 +23,7 @@ pub trait Sectors: Clone {
 impl Sectors for AnnulusSpecification {
     fn tangent<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError> {
         let WaveModel { specification, material, options, contact } = model;
-        let sector = SectorMesh::generate(specification)?;
+        let sector = Strip::of_annulus(specification)?;
         Ok(WaveTangent::of_annulus(&sector, material, options, contact)?)
     }
 }

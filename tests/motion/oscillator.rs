@@ -49,8 +49,8 @@ impl EventDriven {
         for (i, j, value) in assemble_stiffness(&mesh, case.materials()).entries {
             dense[i][j] += value;
         }
-        let n = |i: usize| interface.normal_dof(i);
-        let t = |i: usize| interface.tangential_dof(i);
+        let n = |i: usize| 2 * interface.nodes[i] as usize;
+        let t = |i: usize| n(i) + 1;
         let pushed = |i: usize| contact.interference - interface.gaps[i];
         let both = |of: &dyn Fn(usize) -> f64| [of(0), of(1)];
         let block = |row: &dyn Fn(usize) -> usize, column: &dyn Fn(usize) -> usize| {

@@ -117,7 +117,7 @@ fn pressed(
             (state.normal_forces(*friction), state.displacement(*friction));
         let total: f64 = forces.iter().sum();
         for (i, force) in forces.iter().enumerate() {
-            let gap = displacement[edge.normal_dof(i)] - interference;
+            let gap = displacement[2 * edge.nodes[i] as usize] - interference;
             assert!(*force >= -pulled * total && gap >= -deep, "{friction} {i} {force} {gap}");
             assert!(*force <= pulled * total || gap.abs() < deep, "{friction} {i} {force} {gap}");
         }

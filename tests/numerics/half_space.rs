@@ -42,7 +42,7 @@ fn annulus_speed(n: usize) -> c64 {
     let undamped = rayleigh_damping(0.0, 0.0);
     let options = TangentOptions { damping: undamped, ..TANGENT };
     let contact = sliding_at(FRICTION, 1e-6, 1.0);
-    let sector = SectorMesh::generate(&specification).unwrap();
+    let sector = Strip::of_annulus(&specification).unwrap();
     let tangent = WaveTangent::of_annulus(&sector, &material, &options, &contact).unwrap();
     let harmonic = tangent.harmonic(n);
     let dense = |terms: &[BandedMatrix]| {

@@ -3,9 +3,7 @@
 use super::body::solid_node_count;
 use super::reader::NodePlace;
 use super::{Body, BodyKind, Location, Section, caution, refuse_at};
-use frictionsim_physics::mesh::{
-    AnnulusSpecification, Counterface, SectorMesh, SolidSpecification,
-};
+use frictionsim_physics::mesh::{AnnulusSpecification, Counterface, SolidSpecification, Strip};
 use std::f64::consts::TAU;
 
 /// Share of the body's size beyond which the nearest node to a place is hardly what was meant.
@@ -159,10 +157,10 @@ fn nearest_in_sectors(
     annulus: &AnnulusSpecification,
     point: [f64; 2],
 ) -> Option<(usize, [f64; 2])> {
-    let sector = SectorMesh::generate(annulus).ok()?;
-    let (per_sector, sectors) = (sector.strip.node_count(), sector.strip.count);
+    let sector = Strip::of_annulus(annulus).ok()?;
+    let (per_sector, sectors) = (sector.node_count(), sector.count);
     let step = TAU / sectors as f64;
-    let candidates = sector.strip.mesh.nodes[..per_sector].iter().enumerate();
+    let candidates = sector.mesh.nodes[..per_sector].iter().enumerate();
     let around = candidates.map(|(position, &[x, y, _])| {
         let (radius, start) = (x.hypot(y), y.atan2(x));
         let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;

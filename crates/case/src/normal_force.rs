@@ -6,7 +6,7 @@
 use super::{BodyKind, Case, CaseErrors, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
 use frictionsim_physics::fem::MassKind;
-use frictionsim_physics::mesh::{SectorMesh, SolidSector};
+use frictionsim_physics::mesh::{SolidSector, Strip};
 use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
 
 /// Factor of the steps up to an interference that presses enough.
@@ -152,19 +152,19 @@ impl Case {
         let (materials, mass) = (&self.body.materials, self.mass());
         let pressed = match &self.body.kind {
             BodyKind::Annulus(annulus) => {
-                let mesh = SectorMesh::generate(annulus).map_err(in_words)?;
-                let base = SectorSliding::solve(&mesh, materials, &contact, law);
-                let whole = self.thickness * mesh.strip.count as f64;
+                let mesh = Strip::of_annulus(annulus).map_err(in_words)?;
+                let elastic = mesh.stiffness_alike(materials);
+                let base = SectorSliding::solve(&mesh, &elastic, &contact, law);
+                let whole = self.thickness * mesh.count as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
             BodyKind::Revolution(specification) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
+                let elastic = mesh.strip.stiffness_alike(materials);
                 let stiffness = &self.contact.stiffness;
-                let base = SolidSliding::solve(&mesh, materials, &contact, stiffness, mass);
+                let base = SolidSliding::solve(&mesh, &elastic, &contact, stiffness, mass);
                 let whole = mesh.sector_count() as f64;
-                base.map(|base| {
-                    vec![whole * base.sliding.state.normal_forces[0].iter().sum::<f64>()]
-                })
+                base.map(|base| vec![whole * base.normal_forces().map(|own| own.1).sum::<f64>()])
             }
             BodyKind::Imported(body) => {
                 let stiffness = self.contact.stiffness;

@@ -1,6 +1,6 @@
 //! A body as results show it.
 
-use super::vtu::{EncodedMesh, Field, solid_vectors};
+use super::vtu::{EncodedMesh, Field};
 use frictionsim_physics::fem::{
     MaterialField, NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
 };
@@ -51,7 +51,7 @@ impl<'a> ShownBody<'a> {
     /// Its nodes and elements.
     pub fn whole(&self) -> Cow<'a, Mesh> {
         match self.sector {
-            Some(sector) => Cow::Owned(sector.part(sector.sector_count())),
+            Some(sector) => Cow::Owned(sector.whole()),
             None => Cow::Borrowed(self.mesh),
         }
     }
@@ -63,10 +63,7 @@ impl<'a> ShownBody<'a> {
 
     /// Vectors at all nodes, given in their frames, along x, y and z.
     pub fn vectors(&self, name: &str, nodal: &[f64]) -> Field {
-        match self.sector {
-            Some(sector) => solid_vectors(name, sector, nodal),
-            None => Field::vectors(name, self.mesh, nodal),
-        }
+        Field::vectors(name, &self.whole(), nodal)
     }
 
     /// The stress of a displacement of all nodes in their frames, m; of a body of revolution one sector will do, which

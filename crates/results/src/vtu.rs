@@ -4,7 +4,7 @@ use flate2::{Compression, write::ZlibEncoder};
 use frictionsim_output::rounded;
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::fem::{NodalStress, SolidStress};
-use frictionsim_physics::mesh::{Mesh, SolidSector};
+use frictionsim_physics::mesh::Mesh;
 use nalgebra::Vector3;
 use std::io::{self, Write};
 use std::slice;
@@ -183,26 +183,10 @@ impl Field {
         Self::scalars(name, all)
     }
 
-    /// A plane vector of each node from its nodal frame, as Cartesian `(x, y, 0)`.
+    /// A vector of each node from its nodal frame, as Cartesian `(x, y, z)`.
     pub fn vectors(name: &str, mesh: &Mesh, nodal: &[f64]) -> Self {
         Self { components: 3, ..Self::scalars(name, cartesian_vectors(mesh, nodal)) }
     }
-}
-
-/// Turns nodal-frame vectors `(r, theta, z)` of a whole body of revolution into Cartesian `(x, y, z)` triples.
-pub fn solid_vectors(name: &str, sector: &SolidSector, nodal: &[f64]) -> Field {
-    let per_sector = sector.node_count();
-    let mut values = Vec::with_capacity(nodal.len());
-    for (j, own) in nodal.chunks_exact(3 * per_sector).enumerate() {
-        // Nodes at the first radius of a sector, and those half a sector on.
-        let mut frames: [Option<(f64, f64)>; 2] = [None; 2];
-        for (k, u) in own.chunks_exact(3).enumerate() {
-            let frame = &mut frames[sector.nodes[k].half_step];
-            let (sin, cos) = *frame.get_or_insert_with(|| sector.angle(k, j).sin_cos());
-            values.extend([u[0] * cos - u[1] * sin, u[0] * sin + u[1] * cos, u[2]]);
-        }
-    }
-    Field { components: 3, ..Field::scalars(name, values) }
 }
 
 /// Turns nodal-frame vectors (`dimension * node_count` values) into Cartesian `(x, y, z)` triples.

@@ -19,7 +19,7 @@ use frictionsim_physics::frf::{
     direct_response, reduced_response,
 };
 use frictionsim_physics::linalg::{GaussianNoise, c64};
-use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector, Strip};
+use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SolidSector, Strip};
 use frictionsim_physics::prestress::BaseChoice;
 use frictionsim_results::ResponseSummary;
 use std::f64::consts::TAU;
@@ -210,7 +210,7 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
             let waves = waves.expect("a body of equal sectors has waves");
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
-        (BodyKind::Annulus(own), _) => apart(case, frf, &SectorMesh::generate(own)?.strip),
+        (BodyKind::Annulus(own), _) => apart(case, frf, &Strip::of_annulus(own)?),
         (BodyKind::Revolution(own), _) => apart(case, frf, &SolidSector::generate(own)?.strip),
     };
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {

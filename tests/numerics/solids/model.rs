@@ -8,8 +8,13 @@ pub type SolidModel<M = ElasticMaterial> = WaveModel<SolidSpecification, M>;
 pub fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let (material, options) = (&model.material, &model.options);
-    let base =
-        SolidSliding::solve(&sector, material, &model.contact, &options.contact, options.mass)?;
+    let base = SolidSliding::solve(
+        &sector,
+        &sector.strip.stiffness_alike(material),
+        &model.contact,
+        &options.contact,
+        options.mass,
+    )?;
     Ok((sector, base))
 }
 
@@ -55,11 +60,14 @@ pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMod
     model.modes(friction, MaxFrequency(limit_hz))
 }
 
-pub fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
+pub fn body<'a>(
+    model: &'a SolidModel,
+    (sector, mesh): (&'a SolidSector, &'a Mesh),
+) -> TransientModel<'a> {
     TransientModel {
         stiffness: model.options.contact,
         ..TransientModel::new(
-            SteppedBody::Revolution(sector),
+            SteppedBody::Revolution { sector, mesh },
             &model.material,
             model.options.damping,
             model.contact,

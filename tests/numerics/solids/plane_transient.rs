@@ -19,7 +19,7 @@ fn courses([around, radial]: [usize; 2]) -> [Course; 2] {
     let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
     let damping = model.options.damping;
     let flat = TransientModel::of_annulus(&annulus, &material, damping, model.contact);
-    [course(body(&model, &sector), true), course(flat, false)]
+    [course(body(&model, (&sector, &sector.whole())), true), course(flat, false)]
 }
 
 /// Three periods of a wave strong enough that nodes stick and lift.

@@ -10,7 +10,7 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
     let mut model = guided(Quad8, [around, 5, 1]);
     model.options.geometric_stiffness = true;
     let solid = SolidSector::generate(&model.specification).unwrap();
-    let plane = SectorMesh::generate(&model.specification.annulus).unwrap();
+    let plane = Strip::of_annulus(&model.specification.annulus).unwrap();
     let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
     let options = &model.options;
     let (flat, thick) = if is_sliding {
@@ -18,7 +18,7 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
         let flat = CyclicSystem::sliding(&tangent.unwrap(), 0.3);
         (flat, sliding(&model, 0.3))
     } else {
-        let flat = CyclicSystem::body(&plane.strip, &material, options.mass, options.damping, true);
+        let flat = CyclicSystem::body(&plane, &material, options.mass, options.damping, true);
         (flat, body(&model, true))
     };
     let mut pairs = Vec::new();
@@ -26,7 +26,7 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
     for (turn, place, direction) in motions {
         // A ray has its nodes by rising radius in the plane.
         let s = turn * around / 16;
-        let plane_node = |s: usize, i: usize| s * plane.strip.node_count() + i;
+        let plane_node = |s: usize, i: usize| s * plane.node_count() + i;
         let terminal = |node, direction| Terminal { node, direction };
         let force = terminal(plane_node(0, 0), Tangential);
         let response = terminal(plane_node(s, place), direction);

@@ -5,7 +5,7 @@ use super::*;
 /// A run of a model, recorded.
 fn run(model: &SolidModel, settings: &TransientSettings) -> Recorder {
     let sector = SolidSector::generate(&model.specification).unwrap();
-    recorded(body(model, &sector), OperatorChoice::Auto, settings).0
+    recorded(body(model, (&sector, &sector.whole())), OperatorChoice::Auto, settings).0
 }
 
 fn seeded(harmonic: usize, velocity: f64, duration: f64) -> TransientSettings {
@@ -104,7 +104,8 @@ fn energy_is_balanced_through_stick_slip_and_separation() {
             model.specification.conditions[3] = Guide;
         }
         let sector = SolidSector::generate(&model.specification).unwrap();
-        let body = body(&model, &sector);
+        let whole = sector.whole();
+        let body = body(&model, (&sector, &whole));
         // Faster than the rotor, so that nodes stick and lift.
         let mut run = started(body, OperatorChoice::Auto, &seeded(2, 8.0, 1e-3));
         // Largest residual of the energy, and share of friction that acts across the sliding.
@@ -162,5 +163,5 @@ fn a_resumed_run_has_the_bits_of_one_that_was_never_stopped() {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let whole = seeded(2, 1.0, 4e-4);
     let half = TransientSettings { duration: 2e-4, ..whole.clone() };
-    goes_on(body(&model, &sector), OperatorChoice::Auto, [&half, &whole]);
+    goes_on(body(&model, (&sector, &sector.whole())), OperatorChoice::Auto, [&half, &whole]);
 }

@@ -38,7 +38,14 @@ impl WholeRing {
         let mut ring = Self::new(model, false);
         let sector = ring.sector.clone();
         let (material, contact, mass) = (&model.material, &model.contact, model.options.mass);
-        let base = SolidSliding::solve(&sector, material, contact, &RIGID, mass).unwrap();
+        let base = SolidSliding::solve(
+            &sector,
+            &sector.strip.stiffness_alike(material),
+            contact,
+            &RIGID,
+            mass,
+        )
+        .unwrap();
         let face = sector.specification.contact.face();
         let (normal, across) = (face.normal_component(), face.across_component());
         // T = mu N along +e_theta for a rotor that turns counter-clockwise.
@@ -136,7 +143,8 @@ fn global(sector: &SolidSector, s: usize, node: usize, half: usize) -> usize {
 /// `M` and `K` column by column.
 fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     assert_eq!(model.options.mass, Lumped);
-    let body = body(model, sector);
+    let whole = sector.whole();
+    let body = body(model, (sector, &whole));
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let count = operator.dof_count();
     let masses = operator.masses();

@@ -15,11 +15,9 @@ fn glue(mesh: &Mesh) -> Glue {
         let masters = difference.into_iter().filter(|&(dof, _)| dof != own);
         (own, masters.map(|(dof, part)| (dof, -part)).collect())
     };
-    let pairs = (0..interface.len()).flat_map(|i| {
-        let [n, t] = [interface.normal_dof(i), interface.tangential_dof(i)];
-        [others(n, interface.separation(i)), others(t, interface.slip(i))]
-    });
-    pairs.collect()
+    let points = interface.points(&contact(610.0)).into_iter();
+    let rows = points.flat_map(|point| [point.normal, point.slip]);
+    rows.map(|row| others(row[0].0, row)).collect()
 }
 
 /// `T^T A T` over all dofs.

@@ -1,8 +1,9 @@
 //! The contact edge of a mesh.
 
-use super::opposite::{OppositeMotion, meetings};
+use super::opposite::{Meeting, OppositeMotion, meetings, pairs};
 use super::{Point, Row, SlidingContact, SteadyFriction, scaled};
-use crate::mesh::{BoundaryCondition, Counterface, Mesh};
+use crate::mesh::{Boundary, BoundaryCondition, Counterface, Mesh, Strip};
+use std::collections::BTreeSet;
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
 #[derive(Clone, Debug, PartialEq)]
@@ -25,27 +26,35 @@ impl ContactInterface {
     /// The contact edge of `mesh`; nodes that a boundary condition clamps, or that have no other body before them, have no
     /// part in it.
     pub fn of(mesh: &Mesh) -> Self {
+        Self::meeting(mesh, meetings(mesh))
+    }
+
+    /// That of one sector of an annulus; slopes of the opposite body reach into the sectors beside it.
+    pub fn of_sector(strip: &Strip) -> Self {
+        let mesh = &strip.mesh;
+        let ahead = |node: u32, sectors| strip.node_ahead(node as usize, sectors);
+        Self::meeting(mesh, pairs(mesh, (strip.count, &ahead)))
+    }
+
+    /// With what its nodes meet, unless that is a rigid counterface.
+    fn meeting(mesh: &Mesh, mut meetings: Option<Vec<Meeting>>) -> Self {
         let edge = mesh.contact_edge();
-        let mut is_clamped = vec![false; mesh.node_count()];
-        for boundary in &mesh.boundaries {
-            if boundary.condition == BoundaryCondition::Clamped {
-                boundary.nodes.iter().for_each(|&node| is_clamped[node as usize] = true);
-            }
-        }
-        let mut meetings = meetings(mesh);
+        let is_clamped = |own: &&Boundary| own.condition == BoundaryCondition::Clamped;
+        let clamped = mesh.boundaries.iter().filter(is_clamped);
+        let clamped: BTreeSet<u32> = clamped.flat_map(|own| &own.nodes).copied().collect();
         let meets = |i: usize| meetings.as_ref().is_none_or(|all| all[i].covered > 0.0);
         let kept: Vec<usize> = (0..edge.nodes.len())
-            .filter(|&i| !is_clamped[edge.nodes[i] as usize] && meets(i))
+            .filter(|&i| !clamped.contains(&edge.nodes[i]) && meets(i))
             .collect();
         let nodes: Vec<u32> = kept.iter().map(|&i| edge.nodes[i]).collect();
-        let point = |node: &u32| mesh.plane_node(*node as usize);
         let counterface = mesh.counterface;
         let (angles, mut gaps) = if mesh.is_cyclic {
             // Exact as generated: a contact circle without gaps.
             let frames = nodes.iter().map(|&node| mesh.frame_angles()[node as usize]);
             (frames.collect(), vec![0.0; nodes.len()])
         } else {
-            let places = nodes.iter().map(|node| counterface.place(point(node)));
+            let places =
+                nodes.iter().map(|&node| counterface.place(mesh.plane_node(node as usize)));
             let distances = mesh.distances_from_counterface(edge);
             let gaps = nodes.iter().map(|node| distances[node]);
             (phases(&counterface, places.collect()), gaps.collect())
@@ -66,42 +75,25 @@ impl ContactInterface {
     pub fn points(&self, contact: &SlidingContact) -> Vec<Point> {
         let friction = self.steady_friction(contact);
         let speed = self.surface_speed(contact.rotation_speed).abs();
-        let point = |i: usize| Point {
-            weight: self.tributary_lengths[i],
-            gap: self.gaps[i],
-            normal: self.separation(i),
-            lift: vec![(self.normal_dof(i), 1.0)],
-            slip: self.slip(i),
-            across: Row::new(),
-            speed,
-            friction,
+        let point = |i: usize| {
+            // Displacements along the node's axes, and those of what it meets.
+            let own = |axis: usize| (2 * self.nodes[i] as usize + axis, 1.0);
+            let over = |axis: usize| -> Row {
+                let opposite = self.opposite.get(i).map_or(&[][..], |own| &own.moves[axis]);
+                std::iter::once(own(axis)).chain(scaled(opposite, -1.0)).collect()
+            };
+            Point {
+                weight: self.tributary_lengths[i],
+                gap: self.gaps[i],
+                normal: over(0),
+                lift: vec![own(0)],
+                slip: over(1),
+                across: Row::new(),
+                speed,
+                friction,
+            }
         };
         (0..self.len()).map(point).collect()
-    }
-
-    /// Slip of contact node `i` over what it touches, `u_t - sum P u`.
-    pub fn slip(&self, i: usize) -> Row {
-        self.relative(i, self.tangential_dof(i), 1)
-    }
-
-    /// Separation of contact node `i` from what it touches, `u_n - sum P u`.
-    pub fn separation(&self, i: usize) -> Row {
-        self.relative(i, self.normal_dof(i), 0)
-    }
-
-    fn relative(&self, i: usize, dof: usize, direction: usize) -> Row {
-        let opposite = self.opposite.get(i).map_or(&[][..], |own| &own.moves[direction]);
-        std::iter::once((dof, 1.0)).chain(scaled(opposite, -1.0)).collect()
-    }
-
-    /// Full dof of contact node `i`'s normal displacement.
-    pub fn normal_dof(&self, i: usize) -> usize {
-        2 * self.nodes[i] as usize
-    }
-
-    /// Full dof of contact node `i`'s tangential displacement.
-    pub fn tangential_dof(&self, i: usize) -> usize {
-        2 * self.nodes[i] as usize + 1
     }
 
     /// Number of contact nodes.

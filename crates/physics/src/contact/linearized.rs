@@ -30,8 +30,10 @@ pub struct PressedState {
 pub struct ContactTerms {
     /// Penalty and the friction that follows it; nothing for rigid contact.
     pub stiffness: Vec<Triplets>,
-    /// Dashpots of contact and friction.
+    /// Dashpots of the contact and the friction that follows them.
     pub dashpots: Vec<Triplets>,
+    /// Those of friction whose force the base state has: they come with its first power.
+    pub friction: Vec<Triplets>,
 }
 
 /// Linearises contact and friction at `points` around `state`, among whose points they begin at `first`, moved to the left-hand
@@ -83,7 +85,7 @@ pub fn linearized(
             let friction = point.friction;
             let mut add = |row: &Row, value: f64| {
                 for (term, factor) in following(p, frozen) {
-                    power(&mut terms.dashpots, term).push_product(factor * value, row, row);
+                    power(&mut terms.friction, term).push_product(factor * value, row, row);
                 }
             };
             if friction.slope != 0.0 {
@@ -93,7 +95,7 @@ pub fn linearized(
                 add(&point.across, friction.drag.abs() * force / point.speed);
             }
         }
-        merge_many(&mut terms.dashpots);
+        merge_many(&mut terms.friction);
     }
     merge_many(&mut terms.stiffness);
     terms

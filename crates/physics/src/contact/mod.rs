@@ -39,7 +39,7 @@ pub use law::{ContactStatus, CoulombFriction, Friction, FrictionDecay, Slipping,
 pub use linearized::{ContactTerms, PressedState, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
 pub use normal_law::NormalLaw;
-pub use opposite::{OppositeMotion, arc_stencil};
+pub use opposite::OppositeMotion;
 pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, row_along, scaled, summed};

@@ -32,39 +32,45 @@ pub(super) struct Meeting {
 /// places of both are their projections onto the common surface. A constant pressure passes exactly between straight
 /// edges. On the annulus nodes lie in pairs, `P` is the identity, and slopes are those of the nodal field.
 pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
-    let opposite = mesh.opposite?;
     if mesh.is_cyclic {
-        return Some(pairs(mesh, &mesh.boundaries[opposite].nodes));
+        return pairs(mesh, (1, &|node, _| node as usize));
     }
-    let opposite = &mesh.boundaries[opposite];
+    let opposite = &mesh.boundaries[mesh.opposite?];
     let edges = Edge::of(mesh, mesh.contact_edge());
     let others = Edge::of(mesh, opposite);
     let heights = mesh.distances_from_counterface(opposite);
     Some(mortar(mesh, &edges, (&others, &heights)))
 }
 
-fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
+/// Those of nodes in pairs, the first of so many equal parts of a circle; `ahead` is what stands for a node of the opposite
+/// body in the next part (1) or the one before (-1).
+pub(super) fn pairs(
+    mesh: &Mesh,
+    (parts, ahead): (usize, &dyn Fn(u32, isize) -> usize),
+) -> Option<Vec<Meeting>> {
+    let nodes = &mesh.boundaries[mesh.opposite?].nodes;
     let lengths = &mesh.contact_edge().tributary_lengths;
     let (count, curvature) = (nodes.len(), mesh.counterface.curvature());
-    let is_quadratic = lengths[0] != lengths[1];
-    let per_arc = count as f64 / std::f64::consts::TAU * curvature;
+    let is_quadratic = lengths.iter().any(|length| *length != lengths[0]);
+    let per_arc = (count * parts) as f64 / std::f64::consts::TAU * curvature;
     let pair = |i: usize| {
         let dof = 2 * nodes[i] as usize;
         let mut slopes = [vec![(dof + 1, -curvature)], vec![(dof, curvature)]];
         for &(offset, weight) in arc_stencil(is_quadratic, i) {
-            let other = (i + count).wrapping_add_signed(offset) % count;
-            let dof = 2 * nodes[other] as usize;
+            let (other, count) = (i as isize + offset, count as isize);
+            let node = nodes[other.rem_euclid(count) as usize];
+            let dof = 2 * ahead(node, other.div_euclid(count));
             slopes[0].push((dof, weight * per_arc));
             slopes[1].push((dof + 1, weight * per_arc));
         }
         let moves = [vec![(dof, 1.0)], vec![(dof + 1, 1.0)]];
         Meeting { motion: OppositeMotion { moves, slopes }, covered: 1.0, height: 0.0 }
     };
-    (0..count).map(pair).collect()
+    Some((0..count).map(pair).collect())
 }
 
 /// Derivative along a closed curve at node `i`, of both elements' mean at a corner: how many nodes ahead, and the weight.
-pub fn arc_stencil(is_quadratic: bool, i: usize) -> &'static [(isize, f64)] {
+fn arc_stencil(is_quadratic: bool, i: usize) -> &'static [(isize, f64)] {
     match (is_quadratic, i % 2) {
         (true, 0) => &[(-2, 0.25), (-1, -1.0), (1, 1.0), (2, -0.25)],
         _ => &[(-1, -0.5), (1, 0.5)],

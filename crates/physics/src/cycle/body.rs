@@ -8,7 +8,7 @@ use crate::fem::{
 };
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
-use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh};
+use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, Strip};
 use nalgebra::Matrix2;
 
 /// Receptance of the contact edge: `(u_r, u_theta) = R (f_r, f_theta)`, m for each N/m.
@@ -106,7 +106,7 @@ impl WaveBody {
         if specification.element != ElementKind::Quad4 {
             return Err(CycleError::Element);
         }
-        let SectorMesh { strip, .. } = SectorMesh::generate(specification)?;
+        let strip = Strip::of_annulus(specification)?;
         let stiffness = strip.folded(&assemble_stiffness(&strip.mesh, material));
         let dofs = strip.wave_dofs();
         let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 pub struct DofMap {
     /// Position of each full dof among the unknowns; `None` where it is prescribed.
     pub unknown_of: Vec<Option<usize>>,
-    /// Full dof of each unknown, ascending.
+    /// Full dof of each unknown.
     pub dofs: Vec<usize>,
 }
 
@@ -19,11 +19,15 @@ impl DofMap {
         free.filter(|&unknown| seen.insert(unknown)).collect()
     }
 
-    /// All dofs but the given ones, of `total`.
+    /// All dofs but the given ones, of `total`, ascending.
     pub fn excluding(total: usize, prescribed: impl IntoIterator<Item = usize>) -> Self {
         let mut free = vec![true; total];
         prescribed.into_iter().for_each(|dof| free[dof] = false);
-        let dofs: Vec<usize> = (0..total).filter(|&dof| free[dof]).collect();
+        Self::of(total, (0..total).filter(|&dof| free[dof]).collect())
+    }
+
+    /// Some dofs of `total` in this order.
+    pub fn of(total: usize, dofs: Vec<usize>) -> Self {
         let mut unknown_of = vec![None; total];
         for (unknown, &dof) in dofs.iter().enumerate() {
             unknown_of[dof] = Some(unknown);

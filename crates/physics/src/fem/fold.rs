@@ -23,11 +23,6 @@ const REACH: usize = 2;
 /// How many differences of them there are.
 const STEPS: usize = 2 * REACH + 1;
 
-/// What stands in a row for one of the `dofs` of a sector so many halves of a sector ahead of the row's place.
-pub fn dof_ahead(dof: usize, ahead: isize, dofs: usize) -> usize {
-    dof + dofs * ahead.rem_euclid(STEPS as isize) as usize
-}
-
 /// A matrix over the dofs of one sector, `d k + c` for component `c` of sector node `k`, `d` components a node, that couples
 /// them to dofs of sectors beside it too.
 ///
@@ -52,8 +47,7 @@ struct Entry {
 }
 
 impl SectorMatrix {
-    /// From entries `(row, column, halves of a sector from the row's node to the column's, value)`, which add up; halves count modulo
-    /// `STEPS`, see [`dof_ahead`].
+    /// From entries `(row, column, halves of a sector from the row's node to the column's, value)`, which add up.
     pub fn of_entries(
         components: usize,
         entries: impl IntoIterator<Item = (usize, usize, isize, f64)>,
@@ -61,8 +55,7 @@ impl SectorMatrix {
         // Columns are `STEPS` times those of the matrix, plus the difference of angles.
         let mut terms = Triplets::default();
         for (row, column, ahead, value) in entries.into_iter().filter(|entry| entry.3 != 0.0) {
-            let place = (REACH as isize + ahead).rem_euclid(STEPS as isize);
-            terms.push(row, STEPS * column + place as usize, value);
+            terms.push(row, STEPS * column + (REACH as isize + ahead) as usize, value);
         }
         if terms.entries.is_empty() {
             return Self::default();
@@ -102,20 +95,6 @@ impl SectorMatrix {
         Self::of_entries(self.components, entries)
     }
 
-    /// Over all dofs what motions that are the same in every sector see of a sum of terms of even parity: harmonic zero, whose
-    /// tangential part does not mix with the others.
-    pub fn alike_in_all(terms: &[&Self]) -> Triplets {
-        let entries = terms.iter().flat_map(|term| {
-            let is_tangential = |dof: usize| dof % term.components == 1;
-            let entries = term.entries().map(|(row, column, _, value)| (row, column, value));
-            entries.filter(move |&(row, column, _)| is_tangential(row) == is_tangential(column))
-        });
-        let mut sum = Triplets { entries: entries.collect() };
-        sum.merge();
-        sum.entries.retain(|entry| entry.2 != 0.0);
-        sum
-    }
-
     /// Whether it has no entry.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
@@ -136,16 +115,9 @@ pub struct WaveDofs {
 }
 
 impl WaveDofs {
-    /// All dofs but those that `is_held`.
-    pub fn new(
-        dofs: usize,
-        is_held: impl Fn(usize) -> bool,
-        half_bandwidth: usize,
-        sectors: usize,
-    ) -> Self {
-        let unknown_of = DofMap::excluding(dofs, (0..dofs).filter(|&dof| is_held(dof))).unknown_of;
-        let count = unknown_of.iter().flatten().count();
-        Self { unknown_of, count, half_bandwidth, sectors }
+    /// Some unknowns of a body with so many sectors.
+    pub fn new(unknowns: DofMap, half_bandwidth: usize, sectors: usize) -> Self {
+        Self { count: unknowns.len(), unknown_of: unknowns.unknown_of, half_bandwidth, sectors }
     }
 
     /// A matrix without entries.

@@ -19,7 +19,6 @@ mod orthotropy;
 mod recovery;
 mod rotation;
 pub mod sector;
-pub mod solid;
 mod stress;
 mod support;
 mod triplets;

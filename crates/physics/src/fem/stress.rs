@@ -105,21 +105,13 @@ pub fn revolved_stress(
         _ => given,
     };
     let mesh = sector.part(count);
-    let frames: Vec<Rotation3<f64>> = (0..mesh.node_count())
-        .map(|node| sector.angle(node % per_sector, node / per_sector))
-        .map(|angle| Rotation3::from_axis_angle(&Vector3::z_axis(), angle))
-        .collect();
-    let of_node = |node: usize| &displacement[3 * node % displacement.len()..][..3];
-    let cartesian = |(node, frame): (usize, &Rotation3<f64>)| -> [f64; 3] {
-        (frame * Vector3::from_column_slice(of_node(node))).into()
-    };
-    let cartesian: Vec<f64> = frames.iter().enumerate().flat_map(cartesian).collect();
-    let found = solid_stress(&mesh, material, &cartesian);
+    let all: Vec<f64> = displacement.iter().copied().cycle().take(mesh.dof_count()).collect();
+    let found = solid_stress(&mesh, material, &all);
     let shown = match given {
         1 => count / 2 * per_sector..(count / 2 + 1) * per_sector,
         _ => 0..given * per_sector,
     };
-    shown.map(|node| found[node].turned(frames[node].matrix())).collect()
+    shown.map(|node| found[node].turned(&mesh.frame(node))).collect()
 }
 
 /// Recovered stress at each node in global axes, of the first element's material where several meet; none of a node without elements.

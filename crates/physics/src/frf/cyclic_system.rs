@@ -71,7 +71,7 @@ impl CyclicSystem {
     /// # Errors
     /// [`FrfError::Node`], [`FrfError::NoAxes`].
     pub(super) fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
-        let per_sector = self.tangent.nodes.len();
+        let per_sector = self.tangent.halves.len();
         let count = per_sector * self.dofs.sectors;
         if terminal.node >= count {
             return Err(terminal.refused(key, NodeFault::Missing(count)));
@@ -82,12 +82,11 @@ impl CyclicSystem {
         if component >= self.tangent.components {
             return Err(terminal.refused(key, NodeFault::InPlane));
         }
-        let (sector, position) = (terminal.node / per_sector, terminal.node % per_sector);
-        let (sector_node, half_step) = self.tangent.nodes[position];
-        let unknown = self.dofs.unknown_of[self.tangent.components * sector_node + component];
+        let (sector, node) = (terminal.node / per_sector, terminal.node % per_sector);
+        let unknown = self.dofs.unknown_of[self.tangent.components * node + component];
         Ok(Place {
             unknown: unknown.ok_or_else(|| terminal.constrained(key))?,
-            half_steps: 2 * sector + half_step,
+            half_steps: 2 * sector + self.tangent.halves[node],
             is_tangential: terminal.direction == Direction::Tangential,
         })
     }

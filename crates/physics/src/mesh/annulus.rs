@@ -1,6 +1,7 @@
-//! The structured annulus mesh.
+//! The structured annulus mesh, and one sector of it.
 
 use super::Mesh;
+use super::revolution::Strip;
 use super::sectors::{AnnulusSheet, build};
 use super::specification::{AnnulusSpecification, MeshError, validate};
 
@@ -42,11 +43,35 @@ impl AnnulusMesh {
     }
 }
 
+impl Strip {
+    /// Sector 0 of an annulus, without the others: its nodes are those of [`AnnulusMesh`] to the last bit.
+    ///
+    /// Unknowns are in the order of nodes outwards, at one radius the corner-ray node, then the middle-ray node where there is
+    /// one; those of a shaft come before the annulus.
+    ///
+    /// # Errors
+    /// [`MeshError`] names the key whose value makes no mesh.
+    pub fn of_annulus(specification: &AnnulusSpecification) -> Result<Self, MeshError> {
+        validate(specification)?;
+        let sheet = AnnulusSheet::of(specification);
+        let mesh = build(specification, &sheet, 1);
+        let outwards = |&node: &usize| {
+            let own = &sheet.nodes[node];
+            (node >= sheet.first, own.place[0], own.half_step)
+        };
+        let mut order: Vec<usize> = (0..sheet.nodes.len()).collect();
+        order.sort_by_key(outwards);
+        let held: Vec<usize> = mesh.held_dofs().collect();
+        let count = specification.circumferential_elements;
+        Ok(Self::new(mesh, (&sheet.nodes, order), count, |dof| held.contains(&dof)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::sectors::graded_radii;
-    use crate::mesh::{BoundaryCondition, ElementKind};
+    use crate::mesh::{BoundaryCondition, ElementKind, ShaftSpecification};
     use std::f64::consts::TAU;
 
     fn paper(element: ElementKind) -> AnnulusSpecification {
@@ -102,5 +127,51 @@ mod tests {
         let mut spec = paper(ElementKind::Quad4);
         spec.radial_elements = 0;
         assert!(message(&spec).contains("radial_elements"));
+    }
+
+    #[test]
+    fn sector_is_the_beginning_of_the_full_mesh_bit_for_bit() {
+        for element in [ElementKind::Quad4, ElementKind::Quad8] {
+            let specification = AnnulusSpecification {
+                inner_radius: 0.0205,
+                outer_radius: 0.0905,
+                circumferential_elements: 24,
+                radial_elements: 5,
+                radial_grading: 1.1,
+                element,
+                outer: BoundaryCondition::Clamped,
+                shaft: None,
+            };
+            let full = AnnulusMesh::generate(&specification).unwrap().mesh;
+            let sector = Strip::of_annulus(&specification).unwrap();
+            let strip = &sector.mesh;
+            assert_eq!(strip.nodes, full.nodes[..strip.node_count()]);
+            let entries = strip.elements.len();
+            assert_eq!(entries, 5 * element.node_count());
+            assert_eq!(strip.elements, full.elements[..entries]);
+            let radius = |node: usize| full.nodes[node][0].hypot(full.nodes[node][1]);
+            let free: Vec<usize> = sector.free_dofs().map(|dof| dof / 2).collect();
+            for pair in free.windows(2) {
+                assert!(radius(pair[0]) < radius(pair[1]) + 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_clamped_bore_does_not_widen_the_bands() {
+        let width = |bore| {
+            let specification = AnnulusSpecification {
+                inner_radius: 0.0205,
+                outer_radius: 0.0905,
+                circumferential_elements: 24,
+                radial_elements: 5,
+                radial_grading: 1.0,
+                element: ElementKind::Quad8,
+                outer: BoundaryCondition::Clamped,
+                shaft: Some(ShaftSpecification { inner_radius: 0.006, radial_elements: 4, bore }),
+            };
+            Strip::of_annulus(&specification).unwrap().node_bandwidth()
+        };
+        assert_eq!(width(BoundaryCondition::Clamped), width(BoundaryCondition::Free));
     }
 }

@@ -18,7 +18,6 @@ mod refinement;
 mod repetition;
 mod revolution;
 mod rim;
-mod sector;
 mod sectors;
 mod solid;
 mod solid_body;
@@ -45,7 +44,6 @@ pub use quality::MeshQuality;
 pub use refinement::refined_file;
 pub use repetition::repeated_file;
 pub use revolution::{SheetElement, SheetNode, Strip};
-pub use sector::SectorMesh;
 pub use solid::{
     ContactRing, FaceElement, SolidContact, SolidFace, SolidPart, SolidSector, SolidSpecification,
     face_quadrature,

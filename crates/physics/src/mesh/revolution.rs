@@ -95,30 +95,27 @@ pub(super) fn revolved(
 pub struct Strip {
     /// The elements in polar frames; nodes of the sector and of the next one, in equal order.
     pub mesh: Mesh,
-    /// Sector node of each of its nodes, and its angle in halves of a sector, 0 to 3.
-    pub places: Vec<(usize, usize)>,
+    /// Angle of each node of the sector in halves of a sector, 0 or 1.
+    pub halves: Vec<usize>,
     /// Sectors of the body.
     pub count: usize,
-    /// Which dofs of the sector are held, `d k + c` for component `c` (radial, tangential, axial) of sector node `k`.
+    /// Which dofs of the sector are held, `d k + c` for component `c` (radial, tangential, axial) of node `k`.
     pub is_held: Vec<bool>,
+    /// The nodes of the sector in the order of the unknowns, which makes narrow bands.
+    order: Vec<usize>,
 }
 
 impl Strip {
-    /// Of sector 0 of `count`, whose sector nodes have their places among the nodes of its sheet; `is_held` asks for its dofs.
+    /// Of sector 0 of `count` with the nodes of its sheet; `is_held` asks for its dofs.
     pub(super) fn new(
         mesh: Mesh,
-        (nodes, numbering): (&[SheetNode], &[usize]),
+        (nodes, order): (&[SheetNode], Vec<usize>),
         count: usize,
         is_held: impl Fn(usize) -> bool,
     ) -> Self {
-        let mut position = vec![0; nodes.len()];
-        numbering.iter().enumerate().for_each(|(own, &node)| position[node] = own);
-        let places = (0..2).flat_map(|sector| {
-            let nodes = nodes.iter().zip(&position);
-            nodes.map(move |(node, &own)| (own, 2 * sector + node.half_step))
-        });
+        let halves = nodes.iter().map(|node| node.half_step).collect();
         let is_held = (0..mesh.dimension * nodes.len()).map(is_held).collect();
-        Self { places: places.collect(), mesh, count, is_held }
+        Self { mesh, halves, count, is_held, order }
     }
 
     /// The same with nothing that holds the sector.
@@ -128,7 +125,7 @@ impl Strip {
 
     /// Nodes of the sector, held ones included.
     pub fn node_count(&self) -> usize {
-        self.places.len() / 2
+        self.halves.len()
     }
 
     /// Dofs of the sector.
@@ -141,11 +138,35 @@ impl Strip {
         (0..self.is_held.len()).filter(|&dof| self.is_held[dof])
     }
 
-    /// Largest distance of two nodes of one element in the numbering of the sector.
+    /// Dofs of the sector that are not held, in the order of the unknowns.
+    pub fn free_dofs(&self) -> impl Iterator<Item = usize> {
+        let components = self.mesh.dimension;
+        let dofs = self
+            .order
+            .iter()
+            .flat_map(move |node| (0..components).map(move |c| components * node + c));
+        dofs.filter(|&dof| !self.is_held[dof])
+    }
+
+    /// What stands in rows for a node of the sector in the next one (1) or the one before (-1).
+    pub fn node_ahead(&self, node: usize, sectors: isize) -> usize {
+        node + self.node_count() * sectors.rem_euclid(3) as usize
+    }
+
+    /// Node of the sector that one of the strip, or what [`Self::node_ahead`] says, is an image of, and the angle there in halves
+    /// of a sector.
+    pub fn place(&self, node: usize) -> (usize, isize) {
+        let (own, ahead) = (node % self.node_count(), [0, 2, -2][node / self.node_count()]);
+        (own, ahead + self.halves[own] as isize)
+    }
+
+    /// Largest distance of two nodes of one element in the order of the unknowns.
     pub fn node_bandwidth(&self) -> usize {
+        let mut rank = vec![0; self.order.len()];
+        self.order.iter().enumerate().for_each(|(own, &node)| rank[node] = own);
         let spans = (0..self.mesh.element_count()).map(|element| {
             let own = self.mesh.element_nodes(element).iter();
-            let own = own.map(|&node| self.places[node as usize].0);
+            let own = own.map(|&node| rank[self.place(node as usize).0]);
             own.clone().max().unwrap_or(0) - own.min().unwrap_or(0)
         });
         spans.max().unwrap_or(0)

@@ -5,7 +5,6 @@ use super::sectors::{graded_radii, radius_at};
 use super::specification::validate;
 use super::{
     AnnulusMesh, AnnulusSpecification, Boundary, BoundaryCondition, ElementKind, Mesh, MeshError,
-    NodalFrames,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -65,11 +64,11 @@ impl SolidSector {
             (specification.element_kind(), specification.annulus.circumferential_elements);
         let region = |at| specification.region_at(&radii, at);
         let elements = elements_between(&nodes, kind, specification.divisions(), region);
-        let numbering: Vec<usize> = (0..nodes.len()).collect();
-        let mesh = specification.strip(&nodes, &elements);
+        let order = (0..nodes.len()).collect();
+        let mesh = specification.part((&nodes, &elements), 1);
         let is_held = |dof| specification.is_held(&nodes[dof / 3], dof % 3);
         let mut sector = Self {
-            strip: Strip::new(mesh, (&nodes, &numbering), count, is_held),
+            strip: Strip::new(mesh, (&nodes, order), count, is_held),
             specification: specification.clone(),
             elements,
             nodes,
@@ -95,14 +94,10 @@ impl SolidSector {
         Ok(mesh)
     }
 
-    /// The solid elements of the first `count` sectors, closed to a ring where those are all, in global frames; nodes sector by
+    /// The first `count` sectors as a mesh with its faces, closed to a ring where those are all, in polar frames; nodes sector by
     /// sector, of an open one the last sheet behind them.
     pub fn part(&self, count: usize) -> Mesh {
-        let mut mesh = revolved(&self.nodes, &self.elements, [count, self.sector_count()]);
-        mesh.regions = self.specification.region_names();
-        mesh.frames = NodalFrames::global(3, mesh.node_count());
-        mesh.congruent_to = (0..mesh.element_count() as u32).collect();
-        mesh
+        self.specification.part((&self.nodes, &self.elements), count)
     }
 
     /// Nodes of one sector.
@@ -227,9 +222,9 @@ impl SolidSpecification {
         own.map_or(0, |part| part + 1)
     }
 
-    /// The elements of sector 0 as a mesh with its faces.
-    fn strip(&self, nodes: &[SheetNode], elements: &[SheetElement]) -> Mesh {
-        let mut mesh = revolved(nodes, elements, [1, self.annulus.circumferential_elements]);
+    /// See [`SolidSector::part`].
+    fn part(&self, (nodes, elements): (&[SheetNode], &[SheetElement]), count: usize) -> Mesh {
+        let mut mesh = revolved(nodes, elements, [count, self.annulus.circumferential_elements]);
         mesh.regions = self.region_names();
         let outer = mesh.outer_faces();
         let boundaries =
@@ -240,12 +235,13 @@ impl SolidSpecification {
                 Boundary { condition: *condition, ..surface }
             });
         mesh.boundaries = boundaries.collect();
-        // Layers of one material are alike.
+        // Layers of one material are alike, as sectors are.
         let [radial, _] = self.divisions();
         for element in 0..mesh.element_count() {
-            let mut layers = (element % radial..element).step_by(radial);
+            let own = element % elements.len();
+            let mut layers = (own % radial..own).step_by(radial);
             let alike = layers.find(|own| mesh.region(*own) == mesh.region(element));
-            mesh.congruent_to[element] = alike.unwrap_or(element) as u32;
+            mesh.congruent_to[element] = alike.unwrap_or(own) as u32;
         }
         mesh
     }

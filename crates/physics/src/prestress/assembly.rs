@@ -2,13 +2,12 @@
 
 use super::cholesky::CholeskySolver;
 use super::elimination::Elimination;
-use super::full_sliding::{FullSliding, check_pressed};
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
 use super::rotation::{Rotation, grounded};
-use super::tangent::{ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};
-use super::terms::{Kind, Part, PartLaw, Terms};
+use super::tangent::{ContactDofs, ContactPart, SlidingTangent};
+use super::terms::{Kind, PartLaw, Terms, geometric_stiffness};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
     ContactInterface, ContactStiffness, ContactSurface, Motion, PairError, Point, PointKind,
@@ -232,36 +231,11 @@ impl<'a> Assembly<'a> {
             points: &points,
             known,
         };
-        match self.mesh.is_cyclic {
-            true => self.round(&pressing, friction_coefficients),
-            false => pressing.states(self.mesh, friction_coefficients),
+        if !self.mesh.is_cyclic {
+            return pressing.states(self.mesh, friction_coefficients);
         }
-    }
-
-    /// Those of an annulus, all of whose nodes must be pressed: then the normal forces of rigid contact do not depend on friction,
-    /// and `u(mu) = u_0 + mu u_1` exactly.
-    fn round(
-        &self,
-        pressing: &Pressing<'_>,
-        friction_coefficients: &[f64],
-    ) -> Result<PressedRange, PrestressError> {
-        let range = match pressing.laws.iter().any(Option::is_some) {
-            true => pressing.states(self.mesh, friction_coefficients)?,
-            false => {
-                let basis = self.joined.basis.clone();
-                let full = FullSliding::new(pressing.stiffness, basis, pressing.points)?;
-                let none = vec![0.0; self.mesh.dof_count()];
-                let state = full.state(&none, &pressing.pushed);
-                PressedRange::of_one(state, friction_coefficients)
-            }
-        };
-        let forces = range.states[0].normal_forces(friction_coefficients[0]);
-        let place = |i: usize| {
-            let edge = ContactInterface::of(self.mesh);
-            (edge.nodes[i] as usize + 1, edge.angles[i].to_degrees())
-        };
-        check_pressed(pressing.points, (&forces, 1), place)?;
-        Ok(range)
+        let state = pressing.pressed_all_round(&ContactInterface::of(self.mesh), 1)?;
+        Ok(PressedRange::of_one(state, friction_coefficients))
     }
 
     /// Bodies that are tied at most, under their loads.
@@ -332,11 +306,13 @@ impl<'a> Assembly<'a> {
         options: &TangentOptions,
     ) -> Result<SlidingTangent, PrestressError> {
         let (joined, mut terms) = (&self.joined, self.terms(options));
-        let stress = options.geometric_stiffness.then(|| self.stress(state)).flatten();
-        let none = || vec![Vec::new(); joined.contacts.len()];
-        let turnings = stress.as_ref().map_or_else(none, |_| self.turnings());
-        for (region, powers) in stress.into_iter().flatten().enumerate() {
-            terms.add(Part::Body(region), Kind::Prestress, powers);
+        let stressing = self.stressing(state).filter(|_| options.geometric_stiffness);
+        let turnings = match &stressing {
+            Some(_) => self.turnings(),
+            None => vec![Vec::new(); joined.contacts.len()],
+        };
+        if let Some(state) = &stressing {
+            terms.add_stress((self.mesh, self.materials), state);
         }
         // Each contact has its stretch of the state's points.
         let mut first = 0;
@@ -360,18 +336,18 @@ impl<'a> Assembly<'a> {
         SlidingTangent::assemble(terms, &parts, joined.basis.clone(), dofs, options)
     }
 
-    /// Dofs that the contact edge of a plane body touches.
+    /// Dofs that the contact edge of a plane body touches; those of its own nodes come first in rows.
     fn edge_dofs(&self) -> ContactDofs {
-        let edge = ContactInterface::of(self.mesh);
-        let nodes = 0..edge.len();
-        let opposite = edge.opposite.iter().flat_map(|own| own.moves.iter().flatten());
-        let first = self.contacts().iter().find_map(|(_, surface)| surface.points.first());
+        let points = || self.contacts().iter().flat_map(|(_, surface)| &surface.points);
+        let others = points().flat_map(|point| [&point.normal, &point.slip]);
+        let normal: Vec<usize> = points().map(|point| point.normal[0].0).collect();
+        let angle = |dof: &usize| self.mesh.frame_angles()[dof / 2];
         ContactDofs {
-            tangential: nodes.clone().map(|i| edge.tangential_dof(i)).collect(),
-            normal: nodes.map(|i| edge.normal_dof(i)).collect(),
-            opposite: opposite.map(|share| share.0).collect(),
-            sliding_direction: first.map_or(1.0, |point| point.friction.drag.signum()),
-            angles: if self.mesh.is_cyclic { edge.angles } else { Vec::new() },
+            tangential: points().map(|point| point.slip[0].0).collect(),
+            opposite: others.flat_map(|row| &row[1..]).map(|share| share.0).collect(),
+            sliding_direction: points().next().map_or(1.0, |own| own.friction.drag.signum()),
+            angles: normal.iter().filter(|_| self.mesh.is_cyclic).map(angle).collect(),
+            normal,
         }
     }
 

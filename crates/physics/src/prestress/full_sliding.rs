@@ -1,9 +1,11 @@
-//! Steady sliding of a body of revolution whose contact is pressed all around: its normal forces do not depend on friction.
+//! Steady sliding of a body whose contact is pressed all around: its normal forces do not depend on friction.
 
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
 use super::elimination::Elimination;
-use crate::contact::{Point, PressedState};
+use super::penalty::PenaltyContact;
+use super::pressed_state::{PressedBodies, Pressing};
+use crate::contact::{ContactInterface, Point, PressedState};
 use crate::fem::{DofMap, Triplets};
 
 /// A body with the separations of its contact points prescribed.
@@ -91,22 +93,39 @@ impl<'a> FullSliding<'a> {
     }
 }
 
-/// Refuses a ring of `copies` sectors of which a point is not pressed; `place` is number and angle of its node, degrees.
-pub(super) fn check_pressed(
-    points: &[Point],
-    (forces, copies): (&[f64], usize),
-    place: impl Fn(usize) -> (usize, f64),
-) -> Result<(), PrestressError> {
-    let open: Vec<usize> = (0..forces.len()).filter(|i: &usize| !(forces[*i] > 0.0)).collect();
-    let Some(&first) = open.first() else {
-        return Ok(());
-    };
-    let (node, angle_degrees) = place(first);
-    Err(PrestressError::Separation {
-        count: open.len() * copies,
-        total: forces.len() * copies,
-        node,
-        angle_degrees,
-        pressure: forces[first] / points[first].weight,
-    })
+impl Pressing<'_> {
+    /// The state of the contact `edge` of an annulus, or of one of its equal `sectors`, all of whose nodes must be pressed: then
+    /// `u(mu) = u_0 + mu u_1` exactly.
+    ///
+    /// # Errors
+    /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`].
+    pub(super) fn pressed_all_round(
+        &self,
+        edge: &ContactInterface,
+        sectors: usize,
+    ) -> Result<PressedState, PrestressError> {
+        // Without friction, on which the normal forces do not depend.
+        let all = vec![true; self.points.len()];
+        let (separations, springs) = match PenaltyContact::new(self)? {
+            Some(mut bodies) => {
+                let own = bodies.state_of(0.0, &all)?;
+                (own.separations, own.stiffnesses)
+            }
+            None => (self.pushed.clone(), None),
+        };
+        let full = FullSliding::new(self.stiffness, self.elimination.clone(), self.points)?;
+        let state = full.state(&self.load, &separations);
+        let forces = &state.normal_forces[0];
+        let is_open = |i: &usize| !(forces[*i] > 0.0);
+        match (0..forces.len()).find(is_open) {
+            None => Ok(PressedState { stiffnesses: springs.into_iter().collect(), ..state }),
+            Some(first) => Err(PrestressError::Separation {
+                count: (0..forces.len()).filter(is_open).count() * sectors,
+                total: forces.len() * sectors,
+                node: edge.nodes[first] as usize + 1,
+                angle_degrees: edge.angles[first].to_degrees(),
+                pressure: forces[first] / self.points[first].weight,
+            }),
+        }
+    }
 }

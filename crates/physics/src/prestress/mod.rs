@@ -35,7 +35,6 @@ mod tangent;
 mod terms;
 mod wave_harmonic;
 mod wave_tangent;
-mod wave_terms;
 
 pub use crate::contact::PressedState;
 pub use crate::fem::{LossGain, TabledGain};
@@ -48,7 +47,8 @@ pub use options::{DampingModel, TangentOptions};
 pub use pressed_range::PressedRange;
 pub use pressed_state::Pressing;
 pub use sector::SectorSliding;
-pub use solid::SolidSliding;
+pub(crate) use solid::node_point;
+pub use solid::{FaceRule, SolidSliding};
 pub use tangent::{ContactDofs, ContactPart, SlidingTangent};
 pub use terms::{Kind, Part, PartForms, PartLaw, Term, Terms};
 pub use wave_harmonic::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};

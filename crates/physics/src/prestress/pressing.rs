@@ -3,12 +3,11 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
-use super::solid::{OverRings, node_point};
+use super::solid::{FaceRule, OverRings, face_points, node_point};
 use super::{SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
-use crate::fem::fold::SectorMatrix;
-use crate::fem::solid::{FacePoint, FaceRule, face_points};
-use crate::fem::{MassKind, MaterialField, Triplets};
+use crate::fem::{MassKind, Triplets};
+use crate::linalg::dense::difference;
 use crate::mesh::{ContactRing, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
@@ -21,25 +20,14 @@ const LEAST_APPROACH: f64 = 1e-9;
 const SETTLED: f64 = 1e-10;
 
 impl SolidSliding {
-    /// Solves the equilibrium of one sector under its face pressures, with springs between face and rotor where these carry the
-    /// base state: integrated over the face, at the nodes of linear elements with lumped mass, as in a time step.
+    /// Solves the equilibrium of one sector with its [`Strip::stiffness_alike`](crate::mesh::Strip::stiffness_alike) under its face
+    /// pressures, with springs between face and rotor where these carry the base state: integrated over the face, at the nodes of
+    /// linear elements with lumped mass, as in a time step.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where nothing holds the body, [`PrestressError::GapEverywhere`] where no ring is pressed,
     /// [`PrestressError::NoState`] where no set of pressed rings is found.
     pub fn solve(
-        sector: &SolidSector,
-        material: &dyn MaterialField,
-        contact: &SlidingContact,
-        stiffness: &ContactStiffness,
-        mass: MassKind,
-    ) -> Result<Self, PrestressError> {
-        let elastic = sector.strip.stiffness_alike(material);
-        Self::of(sector, &elastic, contact, stiffness, mass)
-    }
-
-    /// [`Self::solve`] with the stiffness of a sector that moves like all others.
-    pub(super) fn of(
         sector: &SolidSector,
         elastic: &Triplets,
         contact: &SlidingContact,
@@ -138,23 +126,21 @@ fn press_on_springs(
     stiffness: &Triplets,
     (contact, law, rule): (&SlidingContact, NormalLaw, FaceRule),
 ) -> Result<SolidSliding, PrestressError> {
-    let face = sector.specification.contact.face();
-    let (inward, component) = (face.inward_sign(), face.normal_component());
-    let load = sector.strip.pressure_load();
-    let rings = sector.rings.len();
-    let of_rings = |values: &[f64]| field(&OverRings::approaches(sector, values, (contact, rule)));
-    let pushed = of_rings(&vec![contact.interference; rings]);
+    let (load, face) = (sector.strip.pressure_load(), sector.specification.contact.face());
+    let (dofs, rings) = (load.len(), sector.rings.len());
+    let pushed = vec![contact.interference; rings];
+    let pushed = field(&OverRings::approaches(sector, &pushed, (contact, rule)));
     let mut values = vec![contact.interference.max(LEAST_APPROACH).min(law.soft_approach()); rings];
     for _ in 0..SETS {
-        // The tangent at the approaches found last, and what it pushes with.
-        let springs =
-            Springs { law, approaches: OverRings::approaches(sector, &values, (contact, rule)) };
-        let (tangent, own) = (springs.tangent(), springs.push());
+        // The tangent at the approaches found last, and what it pushes with: the secant's forces are those of the pressure.
+        let over = OverRings::approaches(sector, &values, (contact, rule));
+        let at = field(&over);
+        let tangent = springs(&over, &|approach| law.stiffness(approach));
+        let own = springs(&over, &|approach| law.secant(approach)).multiply(dofs, &at);
         let mut pressed = stiffness.clone();
         pressed.entries.extend_from_slice(&tangent.entries);
         let body = FullSliding::new(&pressed, without_contact(sector), &[])?;
-        let known = distance(sector, &pushed, &of_rings(&values));
-        let known = tangent.multiply(own.len(), &known);
+        let known = tangent.multiply(dofs, &difference(&pushed, &at));
         let loads = load.iter().zip(&own).zip(&known);
         let loads: Vec<f64> = loads.map(|((a, b), c)| a + b + c).collect();
         let displacement = body.solve(&loads);
@@ -172,12 +158,12 @@ fn press_on_springs(
         // Settled: to round-off, as derivatives take differences of such states.
         let displacement = body.refined(&loads, displacement);
         let found = approaches(sector, contact.interference, &displacement);
-        let left = distance(sector, &pushed, &displacement);
-        let left = distance(sector, &left, &of_rings(&values));
-        let forces = own.iter().zip(tangent.multiply(own.len(), &left));
-        let forces: Vec<f64> = forces.map(|(own, more)| own + more).collect();
+        let left = tangent.multiply(dofs, &difference(&difference(&pushed, &displacement), &at));
         // Those of nodes that something else holds along the normal, too.
-        let force = |node: usize| inward * forces[3 * node + component];
+        let force = |node: usize| {
+            let normal = 3 * node + face.normal_component();
+            face.inward_sign() * (own[normal] + left[normal])
+        };
         let nodes = (0..sector.node_count()).filter(|&node| force(node) != 0.0);
         let points: Vec<Point> = nodes.clone().map(|n| node_point(sector, n, contact)).collect();
         let forces: Vec<f64> = nodes.map(force).collect();
@@ -217,64 +203,33 @@ fn sheared<'a>(
     Ok(body.refined(&drag, body.solve(&drag)))
 }
 
-/// The springs of the face where the rings' approaches are positive.
-struct Springs<'a> {
-    law: NormalLaw,
-    approaches: OverRings<'a>,
-}
-
-impl Springs<'_> {
-    /// `int k(g) n n^T dA`, N/m.
-    fn tangent(&self) -> Triplets {
-        self.matrix(&|approach| self.law.stiffness(approach))
-    }
-
-    /// `int s g n dA`, N, with the secant `s(g)`, whose force at the approaches is that of the pressure.
-    fn push(&self) -> Vec<f64> {
-        let secant = self.matrix(&|approach| self.law.secant(approach));
-        let pushed = field(&self.approaches);
-        secant.multiply(pushed.len(), &pushed)
-    }
-
-    /// A normal term with a weight that follows the approach.
-    fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> Triplets {
-        let OverRings { sector, rule, .. } = self.approaches;
-        let component = sector.specification.contact.face().normal_component();
-        let mut sum = Triplets::default();
-        for element in sector.contact_elements() {
-            let span = self.approaches.pressed_span(&element);
-            for FacePoint { area, along, rows, .. } in face_points(sector, &element, span, rule) {
-                let approach = self.approaches.along(&element, along).max(0.0);
-                let row = &rows[component];
-                sum.push_product(area * weight(approach), row, row);
-            }
+/// `int k n n^T dA` over the part of the face where approaches are positive, of a stiffness that follows them, N/m.
+fn springs(over: &OverRings<'_>, stiffness: &dyn Fn(f64) -> f64) -> Triplets {
+    let component = over.sector.specification.contact.face().normal_component();
+    let mut sum = Triplets::default();
+    for element in over.sector.contact_elements() {
+        let span = over.pressed_span(&element);
+        for point in face_points(over.sector, &element, span, over.rule) {
+            let approach = over.along(&element, point.along).max(0.0);
+            let row = &point.rows[component];
+            sum.push_product(point.area * stiffness(approach), row, row);
         }
-        SectorMatrix::alike_in_all(&[&sector.strip.at_places(&sum)])
     }
+    over.sector.strip.alike([&sum])
 }
 
 /// A normal displacement of the face, towards the body, that is the same all over each ring.
 fn field(over: &OverRings<'_>) -> Vec<f64> {
     let OverRings { sector, values, held, .. } = *over;
     let face = sector.specification.contact.face();
-    let normal = |node: usize| 3 * node + face.normal_component();
-    let mut field = vec![0.0; 3 * sector.node_count()];
-    for node in (0..sector.node_count()).filter(|&node| sector.is_on(node, face)) {
-        field[normal(node)] = face.inward_sign() * held;
-    }
+    let mut field = vec![0.0; sector.strip.dof_count()];
+    let mut push = |node: usize, value: f64| {
+        field[3 * node + face.normal_component()] = face.inward_sign() * value;
+    };
+    let on_face = (0..sector.node_count()).filter(|&node| sector.is_on(node, face));
+    on_face.for_each(|node| push(node, held));
     for (ring, value) in sector.rings.iter().zip(values) {
-        for &node in &ring.nodes {
-            field[normal(node)] = face.inward_sign() * value;
-        }
+        ring.nodes.iter().for_each(|&node| push(node, *value));
     }
     field
-}
-
-/// What is left to `pushed` along the normal.
-fn distance(sector: &SolidSector, pushed: &[f64], displacement: &[f64]) -> Vec<f64> {
-    let component = sector.specification.contact.face().normal_component();
-    let pairs = pushed.iter().zip(displacement).enumerate();
-    pairs
-        .map(|(dof, (pushed, u))| (pushed - u) * f64::from(u8::from(dof % 3 == component)))
-        .collect()
 }

@@ -1,9 +1,10 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
 use super::SectorSliding;
-use crate::contact::{NormalLaw, Point, PressedState, SlidingContact, SteadyFriction, scaled};
-use crate::fem::solid::{FacePoint, FaceRule, WHOLE_ELEMENT, face_points};
-use crate::mesh::{FaceElement, SolidSector};
+use crate::contact::{
+    NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction, row_along, scaled,
+};
+use crate::mesh::{FaceElement, SolidSector, face_quadrature};
 
 /// The state of steady sliding of a body of revolution, the same in every sector.
 ///
@@ -73,13 +74,13 @@ impl SolidSliding {
     }
 
     /// `delta - u_n` along an element of the face where it is pressed, m; else zero.
-    pub fn approach_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
+    fn approach_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
         self.approaches_over(sector).along(element, along).max(0.0)
     }
 
-    /// The part of an element of the face that is pressed, see [`face_points`](crate::fem::solid::face_points). Of quadratic elements in
+    /// The part of an element of the face that is pressed, see [`face_points`]. Of quadratic elements in
     /// rigid contact it is all.
-    pub fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
+    fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
         match self.law {
             None if self.rule == FaceRule::Integrated => WHOLE_ELEMENT,
             None => self.pressures_over(sector).pressed_span(element),
@@ -126,6 +127,74 @@ impl SolidSliding {
     fn approaches_over<'a>(&'a self, sector: &'a SolidSector) -> OverRings<'a> {
         OverRings::approaches(sector, &self.approaches, (&self.contact, self.rule))
     }
+}
+
+/// A place of a face at which contact acts.
+pub(super) struct FacePoint {
+    /// Its share of the face, m2.
+    pub area: f64,
+    /// Its radius, m.
+    pub radius: f64,
+    /// Its place along the element, -1 to 1.
+    pub along: f64,
+    /// Rows of the displacement there along `(e_r, e_theta, e_z)` over the dofs of the strip.
+    pub rows: [Row; 3],
+}
+
+/// How a linear element takes a term. Quadratic ones integrate it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FaceRule {
+    /// Consistent, over the plane face that its nodes span: what the whole mesh has.
+    Integrated,
+    /// Lumped at the nodes, with the weight there: what a time step has.
+    Nodal,
+}
+
+/// All of an element along the face.
+const WHOLE_ELEMENT: [f64; 2] = [-1.0, 1.0];
+
+/// The places that stand for a part of an element, from -1 to 1 along the face: of a lumped one the nodes at the ends in it.
+pub(super) fn face_points(
+    sector: &SolidSector,
+    face: &FaceElement,
+    span: [f64; 2],
+    rule: FaceRule,
+) -> Vec<FacePoint> {
+    let is_quadratic = sector.is_quadratic();
+    let nodes =
+        face.nodes.iter().map(|(node, half)| (node + half / 2 * sector.node_count()) as u32);
+    if !is_quadratic && rule == FaceRule::Nodal {
+        let mut areas = vec![0.0; face.nodes.len()];
+        for point in face_quadrature(is_quadratic) {
+            let (values, area) = face.values_at(sector, point);
+            areas.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
+        }
+        // Corners 0 and 1 lie at the beginning of the element.
+        let own = nodes.enumerate().filter(|(a, _)| span[a / 2].abs() == 1.0);
+        let point = |(a, node): (usize, u32)| FacePoint {
+            area: areas[a],
+            radius: face.radius_at(sector, [0.0, WHOLE_ELEMENT[a / 2]]),
+            along: WHOLE_ELEMENT[a / 2],
+            rows: [0, 1, 2].map(|component| vec![(3 * node as usize + component, 1.0)]),
+        };
+        return own.map(point).collect();
+    }
+    let nodes: Vec<u32> = nodes.collect();
+    let (middle, half) = (0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0]));
+    let point = |([x, y], share): ([f64; 2], f64)| {
+        let at = [x, middle + half * y];
+        let (values, area) = face.values_at(sector, (at, half * share));
+        let [share, radius, angle] = match is_quadratic {
+            true => [1.0, face.radius_at(sector, at), sector.half_angle() * x],
+            false => face.on_chord(sector, at),
+        };
+        let (sin, cos) = (sector.half_angle() + angle).sin_cos();
+        let shares: Vec<(u32, f64)> = nodes.iter().copied().zip(values).collect();
+        let rows = [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
+            .map(|direction| row_along(&sector.strip.mesh, &shares, direction, 1.0));
+        FacePoint { area: area * share, radius, along: at[1], rows }
+    };
+    face_quadrature(is_quadratic).map(point).collect()
 }
 
 /// What the rings of the contact have.
@@ -191,14 +260,14 @@ impl<'a> OverRings<'a> {
     }
 }
 
-/// A node of the face as a contact point.
-pub(super) fn node_point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
+/// A node of the face, of any sector, as a contact point.
+pub(crate) fn node_point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
     let face = sector.specification.contact.face();
     Point {
         normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
         slip: vec![(3 * node + 1, 1.0)],
         across: vec![(3 * node + face.across_component(), 1.0)],
-        friction: friction(contact, sector.nodes[node].radius),
+        friction: friction(contact, sector.nodes[node % sector.node_count()].radius),
         ..Point::default()
     }
 }

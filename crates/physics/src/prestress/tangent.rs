@@ -6,9 +6,8 @@ use super::{LossGain, PrestressError, TabledGain, TangentOptions};
 use crate::contact::{
     ContactStiffness, Point, PressedState, Row, Turning, linearized, scaled, turned,
 };
-use crate::fem::{DofMap, MaterialField, RayleighDamping, Triplets, assemble_geometric_stiffness};
+use crate::fem::{DofMap, RayleighDamping, Triplets};
 use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
-use crate::mesh::Mesh;
 use std::sync::Arc;
 
 /// Mass, damping and stiffness of small motions around steady sliding, polynomials in `mu`.
@@ -198,12 +197,13 @@ impl SlidingTangent {
 
 impl ContactPart<'_> {
     /// Adds what it does around its state.
-    fn add_to(&self, terms: &mut Terms<Triplets>) {
+    pub(super) fn add_to(&self, terms: &mut Terms<Triplets>) {
         let state = (self.state, self.first);
         let own = linearized(self.points, state, &self.stiffness);
         let part = terms.add_contact(self.stiffness.loss_factor);
         terms.add(part, Kind::Stiffness, own.stiffness);
         terms.add(part, Kind::Dashpots, own.dashpots);
+        terms.add(part, Kind::FrictionDashpots, own.friction);
         terms.add(part, Kind::Prestress, turned(self.points, self.turnings, state));
     }
 }
@@ -249,22 +249,6 @@ fn hold_rigid(
         }
     }
     Ok(friction)
-}
-
-/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen
-/// below `a`.
-pub(super) fn geometric_stiffness(
-    (mesh, material): (&Mesh, &dyn MaterialField),
-    state: &PressedState,
-    region: usize,
-) -> Vec<Triplets> {
-    let powers = state.displacements.iter();
-    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, Some(region)));
-    let mut powers: Vec<Triplets> = powers.collect();
-    if state.frozen_below > 0.0 && powers.len() > 1 {
-        powers.insert(1, Triplets::default());
-    }
-    powers
 }
 
 #[cfg(test)]

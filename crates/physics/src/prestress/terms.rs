@@ -8,9 +8,11 @@
 //! over regions `r`, supports `s` and contacts `c`, with their dashpots `D` and the stiffness `G` of the base state.
 
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
+use crate::contact::PressedState;
 use crate::fem::{
-    MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_patch_damping,
-    assemble_point_masses, assemble_support, region_mass, region_stiffnesses,
+    MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_geometric_stiffness,
+    assemble_patch_damping, assemble_point_masses, assemble_support, region_mass,
+    region_stiffnesses,
 };
 use crate::linalg::c64;
 use crate::mesh::Mesh;
@@ -40,11 +42,11 @@ pub enum Kind {
     Dashpots,
     /// Gyroscopic forces, whose matrix is skew.
     Gyroscopic,
-    /// Of waves, `p_0 / V` across the sliding, and `p_0 mu'(V) / mu` along it where friction falls with the speed.
+    /// `p_0 / V` across the sliding, and `p_0 mu'(V) / mu` along it where friction falls with the speed: a mirror leaves it as it is.
     FrictionDashpots,
 }
 
-/// One matrix: what comes with a power of the friction coefficient; of waves a mirror turns that of power one over.
+/// One matrix: what comes with a power of the friction coefficient.
 #[derive(Clone, Debug)]
 pub struct Term<M> {
     /// What it belongs to.
@@ -170,8 +172,7 @@ impl<M> Terms<M> {
             Kind::Stiffness => [reference, damping.stiffness_coefficient, *loss_factor],
             Kind::Prestress => [1.0, self.tangent_damping.stiffness_coefficient, 0.0],
             Kind::Transport => [1.0, 0.0, 0.0],
-            Kind::Dashpots | Kind::Gyroscopic => [0.0, 1.0, 0.0],
-            Kind::FrictionDashpots => [0.0; 3],
+            Kind::Dashpots | Kind::Gyroscopic | Kind::FrictionDashpots => [0.0, 1.0, 0.0],
         }
     }
 
@@ -303,6 +304,14 @@ impl Terms<Triplets> {
         Self::of_elastic((mesh, material), region_stiffnesses(mesh, material), is_free, options)
     }
 
+    /// Adds the stress of a base state in each region.
+    pub(super) fn add_stress(&mut self, bodies: (&Mesh, &dyn MaterialField), state: &PressedState) {
+        for region in 0..self.regions().len() {
+            let powers = geometric_stiffness(bodies, state, region);
+            self.add(Part::Body(region), Kind::Prestress, powers);
+        }
+    }
+
     /// [`Self::of_mesh`] with the stiffness of each region: regions, supports unless all of it is free, and modifications.
     pub(super) fn of_elastic(
         (mesh, material): (&Mesh, &dyn MaterialField),
@@ -335,4 +344,20 @@ impl Terms<Triplets> {
         own.add_other("modifications".into(), law, [masses, springs, (Kind::Dashpots, dashpots)]);
         own
     }
+}
+
+/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen
+/// below `a`.
+pub(super) fn geometric_stiffness(
+    (mesh, material): (&Mesh, &dyn MaterialField),
+    state: &PressedState,
+    region: usize,
+) -> Vec<Triplets> {
+    let powers = state.displacements.iter();
+    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, Some(region)));
+    let mut powers: Vec<Triplets> = powers.collect();
+    if state.frozen_below > 0.0 && powers.len() > 1 {
+        powers.insert(1, Triplets::default());
+    }
+    powers
 }

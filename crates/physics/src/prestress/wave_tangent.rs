@@ -1,10 +1,11 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
+use super::elimination::Elimination;
 use super::terms::{Kind, Part, Term, Terms, of_kind};
-use super::wave_terms::WaveTerms;
 use super::{FrictionPolynomial, HarmonicTangent, TabledGain, TangentOptions};
+use crate::contact::Row;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
+use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping, Triplets};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
 use crate::mesh::Strip;
@@ -35,8 +36,8 @@ use crate::mesh::Strip;
 pub struct WaveTangent {
     /// Components of a displacement: 2 in the plane, 3 in space.
     pub components: usize,
-    /// Sector node of each node of a sector, in the order of the mesh, and its angle in halves of a sector.
-    pub nodes: Vec<(usize, usize)>,
+    /// Angle of each node of a sector, in halves of a sector.
+    pub halves: Vec<usize>,
     /// Sense of the friction force, +1 or -1.
     pub sliding_direction: f64,
     /// Choices of the linearisation.
@@ -63,10 +64,10 @@ pub(super) struct WaveContact {
     pub is_pressed: Vec<bool>,
     /// Pressed nodes.
     pub pressed_nodes: Vec<usize>,
-    /// Normal dofs of the two nodes of each pair, whose distance is the unknown in place of the first; held dofs come after them.
-    pub pairs: Vec<[usize; 2]>,
+    /// Rows of the distances of two bodies, unknowns in place of the normal dofs of the first.
+    pub distances: Vec<Row>,
     /// In rigid contact: each normal dof, and the tangential ones whose equations it drives, with factors of `i mu`.
-    pub rigid: Vec<(usize, Vec<(usize, f64)>)>,
+    pub rigid: Vec<(usize, Row)>,
 }
 
 impl WaveTangent {
@@ -80,7 +81,7 @@ impl WaveTangent {
         is_held: bool,
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
-        let terms = WaveTerms::of_strip(strip, material, &options, !is_held);
+        let terms = Terms::of_mesh((&strip.mesh, material), !is_held, &options);
         let parts = (terms, WaveContact::default());
         match is_held {
             true => Self::new(strip, parts, &options, 1.0),
@@ -88,20 +89,28 @@ impl WaveTangent {
         }
     }
 
+    /// From the matrices over the dofs of the strip.
     pub(super) fn new(
         strip: &Strip,
-        (terms, mut contact): (WaveTerms, WaveContact),
+        (terms, mut contact): (Terms<Triplets>, WaveContact),
         options: &TangentOptions,
         sliding_direction: f64,
     ) -> Self {
-        // A node of the other body takes part in the motion of its pair.
+        // A node of the other body takes part in the motion of its pair, in the sectors beside as well.
         let mut dofs = strip.wave_dofs();
-        dofs.half_bandwidth += 2 * contact.pairs.len();
+        dofs.half_bandwidth += 2 * contact.distances.len();
+        let total = dofs.unknown_of.len();
+        let mut basis = Elimination::holding(3 * total, []);
+        for sector in 0..3 {
+            for row in &contact.distances {
+                let own = row.iter().map(|&(dof, along)| (dof + sector * total, along));
+                basis.take(&own.collect());
+            }
+        }
         let place = |dof: usize| dofs.unknown_of[dof];
         let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
-        let total = dofs.unknown_of.len();
-        let held = (0..total).filter(|&dof| place(dof).is_none() || is_still(dof));
-        let unknowns = DofMap::excluding(total, held);
+        let moving = strip.free_dofs().filter(|&dof| !is_still(dof));
+        let unknowns = DofMap::of(total, moving.collect());
         // Constraints by the places of free dofs.
         contact.rigid = contact
             .rigid
@@ -116,9 +125,9 @@ impl WaveTangent {
             options: *options,
             unknowns,
             components: strip.mesh.dimension,
-            nodes: strip.places[..strip.node_count()].to_vec(),
+            halves: strip.halves.clone(),
+            terms: terms.map(|_, own| strip.folded(&basis.congruent(&own))),
             dofs,
-            terms,
             contact,
             sliding_direction,
         }
@@ -157,7 +166,7 @@ impl WaveTangent {
         let mut dofs = self.dofs.clone();
         dofs.unknown_of.clone_from(&self.unknowns.unknown_of);
         dofs.count = self.unknowns.len();
-        self.contact.pairs.iter().for_each(|[distance, _]| dofs.unknown_of[*distance] = None);
+        self.contact.distances.iter().for_each(|row| dofs.unknown_of[row[0].0] = None);
         dofs
     }
 
@@ -165,9 +174,9 @@ impl WaveTangent {
     pub fn displacement(&self, x: &[c64]) -> Vec<c64> {
         let mut all = vec![c64::ZERO; self.unknowns.unknown_of.len()];
         self.unknowns.dofs.iter().zip(x).for_each(|(&dof, value)| all[dof] = *value);
-        for &[distance, opposite] in &self.contact.pairs {
-            let moved = all[opposite];
-            all[distance] += moved;
+        for row in &self.contact.distances {
+            let apart: c64 = row[1..].iter().map(|&(dof, along)| all[dof] * along).sum();
+            all[row[0].0] -= apart;
         }
         all
     }
@@ -255,16 +264,20 @@ impl WaveTangent {
 
     /// Matrices of harmonic `n`.
     pub fn harmonic(&self, n: usize) -> HarmonicTangent {
-        let of = |factor: usize| self.polynomial(n, |term| self.terms.factors(term)[factor]);
         let of_kind = |kind: Kind| self.polynomial(n, of_kind(kind));
+        // Dashpots of friction stand by themselves.
+        let damping = |term: &Term<_>| match term.kind {
+            Kind::FrictionDashpots => 0.0,
+            _ => self.terms.factors(term)[1],
+        };
         let mut kinds = self.terms.all.iter().map(|term| term.kind);
         let has_dashpots = kinds.any(|kind| kind == Kind::FrictionDashpots);
         HarmonicTangent {
             harmonic: n,
             is_standing: self.is_standing(n),
             mass: of_kind(Kind::Mass),
-            stiffness: of(0),
-            damping: (!self.is_proportional()).then(|| of(1)),
+            stiffness: self.polynomial(n, |term| self.terms.factors(term)[0]),
+            damping: (!self.is_proportional()).then(|| self.polynomial(n, damping)),
             friction_dashpots: has_dashpots.then(|| of_kind(Kind::FrictionDashpots)),
             losses: self.terms.losses(|factor| self.polynomial(n, factor)),
             shares: None,
@@ -295,7 +308,7 @@ impl WaveTangent {
         [sum(&of_kind(Kind::Mass)), sum(&|term| self.terms.factors(term)[0])]
     }
 
-    /// Harmonic `n` of the terms of a parity, each times its factor, with distances across the contact.
+    /// Harmonic `n` of the terms of a parity, each times its factor.
     fn sum(
         &self,
         n: usize,
@@ -303,18 +316,11 @@ impl WaveTangent {
         factor: &dyn Fn(&Term<SectorMatrix>) -> f64,
     ) -> BandedMatrix {
         let mut sum = self.dofs.zeros();
-        let terms = self.terms.all.iter().filter(|own| own.parity() == parity);
-        let terms = terms.map(|own| (own, factor(own))).filter(|(_, own)| *own != 0.0);
-        // The contact acts on distances already, but for its forces that turn.
-        let is_across =
-            |own: &Term<_>| matches!(own.part, Part::Contact(_)) && own.kind != Kind::Prestress;
-        let (across, bodies): (Vec<_>, Vec<_>) = terms.partition(|(own, _)| is_across(own));
-        for (own, factor) in bodies {
-            self.dofs.add(&mut sum, n, parity, (factor, &own.matrix));
-        }
-        to_distances(&mut sum, self.contact.pairs.iter().copied());
-        for (own, factor) in across {
-            self.dofs.add(&mut sum, n, parity, (factor, &own.matrix));
+        for own in self.terms.all.iter().filter(|own| own.parity() == parity) {
+            let factor = factor(own);
+            if factor != 0.0 {
+                self.dofs.add(&mut sum, n, parity, (factor, &own.matrix));
+            }
         }
         sum
     }
@@ -364,28 +370,39 @@ impl WaveTangent {
     }
 }
 
+impl Term<SectorMatrix> {
+    /// What a mirror does to it.
+    fn parity(&self) -> MirrorParity {
+        match (self.power, self.kind) {
+            (0, _) | (_, Kind::FrictionDashpots) => MirrorParity::Even,
+            _ => MirrorParity::Odd,
+        }
+    }
+}
+
+impl Terms<SectorMatrix> {
+    /// [`WaveTangent::less`] of every matrix; `None` where factors differ.
+    fn less(&self, other: &Self) -> Option<Self> {
+        if !self.laws().eq(other.laws()) {
+            return None;
+        }
+        let mut own = self.clone();
+        for term in &other.all {
+            let name = |own: &Term<_>| (own.part, own.kind, own.power);
+            match own.all.iter_mut().find(|own| name(own) == name(term)) {
+                Some(own) if own.matrix == term.matrix => own.matrix = SectorMatrix::default(),
+                Some(own) => own.matrix = own.matrix.plus(&term.matrix.scaled(-1.0)),
+                None => own.all.push(term.with(term.matrix.scaled(-1.0))),
+            }
+        }
+        own.all.retain(|term| !term.matrix.is_empty());
+        Some(own)
+    }
+}
+
 /// Drops powers of friction that vanish from behind the others.
 fn trim(powers: &mut Vec<BandedMatrix>) {
     while powers.len() > 1 && powers.last().is_some_and(BandedMatrix::is_zero) {
         powers.pop();
-    }
-}
-
-/// `T^T A T` with how far the nodes of each pair move apart in place of the first one's normal displacement.
-pub(super) fn to_distances(matrix: &mut BandedMatrix, pairs: impl IntoIterator<Item = [usize; 2]>) {
-    for [from, to] in pairs {
-        for other in matrix.columns(from) {
-            let value = matrix.get(from, other);
-            if value != 0.0 {
-                matrix.add(to, other, value);
-            }
-        }
-        // The row of the other body's node as well, which has just got what couples to the pair.
-        for other in matrix.columns(from) {
-            let value = matrix.get(other, from);
-            if value != 0.0 {
-                matrix.add(other, to, value);
-            }
-        }
     }
 }

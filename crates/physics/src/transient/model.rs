@@ -14,7 +14,7 @@ use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
     assemble_supports,
 };
-use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector, Strip};
+use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector};
 use crate::prestress::Assembly;
 use nalgebra::Vector3;
 
@@ -28,11 +28,16 @@ pub enum SteppedBody<'a> {
         /// What it was generated as.
         annulus: Option<&'a AnnulusMesh>,
     },
-    /// Of revolution, of bricks with 8 nodes, by one of its sectors.
+    /// Of revolution, of bricks with 8 nodes.
     ///
     /// Dofs over the whole body are `3 (s n + k) + c`: component `c` of `(u_r, u_theta, u_z)` at node `k` of sector `s`, `n` nodes
     /// to a sector.
-    Revolution(&'a SolidSector),
+    Revolution {
+        /// One of its sectors.
+        sector: &'a SolidSector,
+        /// All of it, [`SolidSector::whole`].
+        mesh: &'a Mesh,
+    },
     /// Solid bodies that are tied together and slide on each other.
     ///
     /// Dofs are those of the mesh, three a node in its frame; ties and held dofs are eliminated, what follows others moves with
@@ -90,11 +95,11 @@ impl<'a> TransientModel<'a> {
         if let SteppedBody::Plane { .. } = self.body { 2 } else { 3 }
     }
 
-    /// The mesh of all dofs; a body of revolution has none.
-    pub fn mesh(&self) -> Option<&'a Mesh> {
+    /// The mesh of all dofs.
+    pub fn mesh(&self) -> &'a Mesh {
         match self.body {
-            SteppedBody::Revolution(_) => None,
-            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => Some(self.own_mesh()),
+            SteppedBody::Plane { mesh, .. } | SteppedBody::Revolution { mesh, .. } => mesh,
+            SteppedBody::Assembly { assembly, .. } => assembly.mesh,
         }
     }
 
@@ -110,38 +115,12 @@ impl<'a> TransientModel<'a> {
         matrix
     }
 
-    /// The mesh that its matrices are made of: of a body of revolution that of a sector.
-    fn own_mesh(&self) -> &'a Mesh {
-        match self.body {
-            SteppedBody::Plane { mesh, .. } => mesh,
-            SteppedBody::Revolution(sector) => &sector.strip.mesh,
-            SteppedBody::Assembly { assembly, .. } => assembly.mesh,
-        }
-    }
-
-    /// A matrix of [`Self::own_mesh`] over all dofs, of a body of revolution in all its sectors.
-    fn everywhere(&self, matrix: Triplets) -> Triplets {
-        match self.body {
-            SteppedBody::Revolution(sector) => in_all_sectors(&sector.strip, &matrix),
-            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => matrix,
-        }
-    }
-
-    /// Springs (N/m) and dashpots (N s/m) of the supports over all dofs.
-    fn supports(&self) -> [Triplets; 2] {
-        assemble_supports(self.own_mesh()).map(|matrix| self.everywhere(matrix))
-    }
-
     /// Distance of a node from the axis, of a plane body from the origin (m), and its angle about it (rad).
     pub(super) fn place(&self, node: usize) -> [f64; 2] {
         match self.body {
-            SteppedBody::Plane { mesh, .. } => {
+            SteppedBody::Plane { mesh, .. } | SteppedBody::Revolution { mesh, .. } => {
                 let [x, y] = mesh.plane_node(node);
                 [x.hypot(y), mesh.frame_angles()[node]]
-            }
-            SteppedBody::Revolution(sector) => {
-                let (local, s) = (node % sector.node_count(), node / sector.node_count());
-                [sector.nodes[local].radius, sector.angle(local, s)]
             }
             SteppedBody::Assembly { assembly, axis } => {
                 let [center, axis] = axis.map(Vector3::from);
@@ -172,7 +151,7 @@ impl<'a> TransientModel<'a> {
             _ => vec![0; count],
         };
         let parts = part_of.iter().max().map_or(0, |last| last + 1);
-        let factor = self.mesh().map_or(1.0, |mesh| stiffening(mesh, self.material));
+        let factor = stiffening(self.mesh(), self.material);
         let rates = self.dashpot_rates(operator);
         let limits = (0..parts).map(|part| {
             let is_part = |dof: usize| part_of[dof / self.components()] == part;
@@ -188,7 +167,7 @@ impl<'a> TransientModel<'a> {
     /// (Gershgorin).
     fn dashpot_rates(&self, operator: &dyn StiffnessOperator) -> Vec<f64> {
         let mut rates = vec![0.0; operator.dof_count()];
-        let [_, dashpots] = self.supports();
+        let [_, dashpots] = assemble_supports(self.mesh());
         for (row, _, value) in self.bound(dashpots).entries {
             let mass = operator.masses()[operator.position(row)];
             if mass > 0.0 {
@@ -207,7 +186,7 @@ impl<'a> TransientModel<'a> {
             bound.stiffness_coefficient =
                 bound.stiffness_coefficient.max(own.stiffness_coefficient);
         };
-        let mesh = self.own_mesh();
+        let mesh = self.mesh();
         let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
         for e in (0..mesh.element_count()).filter(|&e| is_part(first_dof(e))) {
             cover(self.material.own_damping(mesh.region(e)).unwrap_or(self.damping));
@@ -224,14 +203,13 @@ impl<'a> TransientModel<'a> {
 
     /// Supports, pressures, and regions with a damping of their own.
     pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
-        let [springs, mut damping] = self.supports();
+        let (mesh, kind) = (self.mesh(), MassKind::Lumped);
+        let [springs, mut damping] = assemble_supports(mesh);
         let beta = self.damping.stiffness_coefficient;
         if beta != 0.0 {
             damping.entries.extend(springs.scaled(-beta).entries);
         }
-        let (mesh, kind) = (self.own_mesh(), MassKind::Lumped);
-        let own = assemble_extra_damping(mesh, self.material, kind, self.damping);
-        let [mut masses, own] = own.map(|part| self.everywhere(part));
+        let [mut masses, own] = assemble_extra_damping(mesh, self.material, kind, self.damping);
         damping.entries.extend(own.entries);
         // Lumped as the masses are.
         if let SteppedBody::Assembly { assembly, .. } = self.body {
@@ -239,30 +217,25 @@ impl<'a> TransientModel<'a> {
         }
         let mut damping = self.bound(damping);
         damping.entries.extend(masses.entries);
-        let pressure = match self.body {
-            SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
-            SteppedBody::Revolution(SolidSector { strip, .. }) => {
-                Some(strip.pressure_load().repeat(strip.count))
+        let pressure = assemble_pressures(mesh).map(|load| match self.body {
+            SteppedBody::Assembly { assembly, .. } => {
+                assembly.joined.basis.transposed_forces(&load)
             }
-            SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh)
-                .map(|load| assembly.joined.basis.transposed_forces(&load)),
-        };
+            _ => load,
+        });
         BoundaryForces::of(damping, &pressure.unwrap_or_default(), operator)
     }
 
     /// Maxwell elements of its regions.
     pub(super) fn relaxation(&self, operator: &dyn StiffnessOperator) -> Relaxation {
-        let mesh = self.mesh();
-        mesh.map_or_else(Relaxation::default, |mesh| {
-            Relaxation::new(mesh, self.material, operator, &|matrix| self.bound(matrix))
-        })
+        Relaxation::new(self.mesh(), self.material, operator, &|matrix| self.bound(matrix))
     }
 
     /// Highest circumferential harmonic that the contact nodes show.
     pub fn highest_harmonic(&self) -> usize {
         match self.body {
             SteppedBody::Plane { mesh, .. } => ContactInterface::of(mesh).len() / 2,
-            SteppedBody::Revolution(sector) => sector.sector_count() / 2,
+            SteppedBody::Revolution { sector, .. } => sector.sector_count() / 2,
             // Its contact nodes are no edge.
             SteppedBody::Assembly { .. } => 0,
         }
@@ -280,7 +253,7 @@ impl<'a> TransientModel<'a> {
     pub fn perturbed(&self, perturbation: &Perturbation) -> Result<Vec<f64>, TransientError> {
         perturbation.check_harmonics(match self.body {
             SteppedBody::Plane { annulus: Some(annulus), .. } => annulus.sector_count(),
-            SteppedBody::Revolution(sector) => sector.sector_count(),
+            SteppedBody::Revolution { sector, .. } => sector.sector_count(),
             _ => self.interface().len(),
         })?;
         let places = self.places();
@@ -293,7 +266,7 @@ impl<'a> TransientModel<'a> {
         // What is held or follows others does not move by itself.
         match self.body {
             SteppedBody::Plane { mesh, .. } => mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0),
-            SteppedBody::Revolution(sector) => {
+            SteppedBody::Revolution { sector, .. } => {
                 for own in velocity.chunks_exact_mut(sector.strip.dof_count()) {
                     sector.strip.held_dofs().for_each(|dof| own[dof] = 0.0);
                 }
@@ -311,7 +284,7 @@ impl<'a> TransientModel<'a> {
     fn places(&self) -> Vec<Place> {
         match self.body {
             SteppedBody::Plane { mesh, annulus } => places(mesh, annulus),
-            SteppedBody::Revolution(sector) => {
+            SteppedBody::Revolution { sector, .. } => {
                 let own = &sector.specification;
                 let (inner, outer) = (own.annulus.inner_radius, own.annulus.outer_radius);
                 let fades_inwards =
@@ -337,17 +310,4 @@ impl<'a> TransientModel<'a> {
             }
         }
     }
-}
-
-/// A matrix of bricks with 8 nodes, in all sectors.
-fn in_all_sectors(strip: &Strip, matrix: &Triplets) -> Triplets {
-    let (dofs, count, matrix) = (strip.dof_count(), strip.count, strip.folded(matrix));
-    let all = (0..count).flat_map(|s| {
-        let entries = matrix.entries();
-        entries.map(move |(i, j, halves_ahead, value)| {
-            let other = (s + count).wrapping_add_signed(halves_ahead / 2) % count;
-            (dofs * s + i, dofs * other + j, value)
-        })
-    });
-    Triplets { entries: all.collect() }
 }

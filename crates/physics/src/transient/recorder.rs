@@ -325,7 +325,7 @@ fn probe_turns(model: &TransientModel<'_>, probes: &[usize]) -> Vec<[[f64; 3]; 3
             let (sin, cos) = (mesh.frame_angles()[probe - 1] - reported).sin_cos();
             [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]
         }
-        SteppedBody::Revolution(_) => UNTURNED,
+        SteppedBody::Revolution { .. } => UNTURNED,
         SteppedBody::Assembly { assembly, .. } => assembly.mesh.frame(probe - 1).transpose().into(),
     };
     probes.iter().map(turn).collect()

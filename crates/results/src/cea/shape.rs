@@ -123,26 +123,7 @@ fn assembly_panel(view: &SolidView<'_>, values: &[c64]) -> Panel {
 
 /// The modes as motions to choose from: the unstable ones first, as many as a page carries.
 pub(super) fn moving(report: &CeaReport<'_>, shapes: &[ModeShape<'_>]) -> Motion {
-    match report.body.sector {
-        None => moving_mesh(report.body.mesh, shapes, |u, _| u),
-        Some(sector) => {
-            let whole = sector.part(sector.sector_count());
-            // Shapes have components along r, theta and z; the whole mesh has global frames.
-            moving_mesh(&whole, shapes, |[r, theta, z], node| {
-                let nodes = sector.node_count();
-                let (sin, cos) = sector.angle(node % nodes, node / nodes).sin_cos();
-                [cos * r - sin * theta, sin * r + cos * theta, z]
-            })
-        }
-    }
-}
-
-/// The modes of a mesh; `in_frame` brings the components of a node's displacement into its frame.
-fn moving_mesh(
-    mesh: &Mesh,
-    shapes: &[ModeShape<'_>],
-    in_frame: impl Fn([f64; 3], usize) -> [f64; 3],
-) -> Motion {
+    let mesh = &report.body.whole();
     let body = MovingBody::new(mesh);
     let (unstable, stable): (Vec<&ModeShape<'_>>, Vec<_>) =
         shapes.iter().partition(|s| s.mode.is_unstable());
@@ -154,7 +135,7 @@ fn moving_mesh(
                 let first = mesh.dimension * node;
                 let own = values.get(first..first + mesh.dimension).unwrap_or(&[]);
                 let component = |k: usize| own.get(k).map_or(0.0, of);
-                in_frame([0, 1, 2].map(component), node)
+                [0, 1, 2].map(component)
             })
         };
         let frequency_hz = shape.mode.frequency_hz();

@@ -203,7 +203,7 @@ pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(
         node if sector.rings.iter().any(|ring| ring.nodes.contains(&node)) => 1,
         node => 2 * i64::from((3 * node..3 * node + 3).any(|dof| sector.is_held(dof))),
     };
-    let mesh = sector.part(sector.sector_count());
+    let mesh = sector.whole();
     let edge = (0..mesh.node_count()).map(edge_of).collect();
     write_nodes(folder, &mesh, edge, &[])
 }

@@ -6,7 +6,7 @@ use crate::tangent_options;
 use frictionsim_case::{BodyKind, Case, CaseErrors, Cea, CeaMethod, refusal};
 use frictionsim_physics::cea::cyclic::{self, WaveSweep};
 use frictionsim_physics::cea::{CeaError, ModeLimit, SweepRequest, Unwatched};
-use frictionsim_physics::mesh::{SectorMesh, SolidSector};
+use frictionsim_physics::mesh::{SolidSector, Strip};
 use frictionsim_physics::prestress::{TangentOptions, WaveTangent};
 
 /// The eigenvalue solver that a body gets.
@@ -158,17 +158,15 @@ pub fn wave_tangent(
     options: &TangentOptions,
 ) -> Result<Option<WaveTangent>, CeaError> {
     let (sliding, materials) = (&case.contact.sliding, &case.body.materials);
-    Ok(match &case.body.kind {
-        BodyKind::Annulus(specification) => {
-            let sector = SectorMesh::generate(specification)?;
-            Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
+    Ok(Some(match &case.body.kind {
+        BodyKind::Annulus(own) => {
+            WaveTangent::of_annulus(&Strip::of_annulus(own)?, materials, options, sliding)?
         }
-        BodyKind::Revolution(specification) => {
-            let sector = SolidSector::generate(specification)?;
-            Some(WaveTangent::of_revolution(&sector, materials, options, sliding)?)
+        BodyKind::Revolution(own) => {
+            WaveTangent::of_revolution(&SolidSector::generate(own)?, materials, options, sliding)?
         }
-        BodyKind::Imported(_) | BodyKind::Assembly(_) => None,
-    })
+        BodyKind::Imported(_) | BodyKind::Assembly(_) => return Ok(None),
+    }))
 }
 
 /// What the reduction of the harmonics leaves out.

@@ -7,7 +7,7 @@ use super::solid;
 use crate::extent_of;
 use frictionsim_case::{AssemblyBody, BodyKind, Case, Cea, refusal};
 use frictionsim_physics::contact::{ContactInterface, ContactSurface};
-use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SectorMesh};
+use frictionsim_physics::mesh::{AnnulusMesh, Mesh, Strip};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SlidingSurfaces, TangentOptions};
 use frictionsim_results::ShownBody;
@@ -38,13 +38,12 @@ fn sliding_sector(
     Ok(match &case.body.kind {
         BodyKind::Annulus(specification) => {
             let mesh = AnnulusMesh::generate(specification)?.mesh;
-            let sector = SectorMesh::generate(specification)?;
-            let materials = &case.body.materials;
-            let base = SectorSliding::solve(&sector, materials, sliding, options.contact.law)?;
-            let state = base.repeated(&sector);
+            let sector = Strip::of_annulus(specification)?;
+            let elastic = sector.stiffness_alike(&case.body.materials);
+            let base = SectorSliding::solve(&sector, &elastic, sliding, options.contact.law)?;
             let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
             let contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);
-            (Arc::new(mesh), SteadyState::Mesh { contacts, state })
+            (Arc::new(mesh), SteadyState::Mesh { contacts, state: base.repeated(sector.count) })
         }
         BodyKind::Revolution(specification) => {
             let solid = solid::solved(case, specification)?;

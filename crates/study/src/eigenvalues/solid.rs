@@ -17,9 +17,9 @@ pub(super) fn solved(
     specification: &SolidSpecification,
 ) -> Result<SolidState, StudyError> {
     let sector = SolidSector::generate(specification)?;
-    let (materials, contact) = (case.materials(), &case.contact);
-    let (sliding, stiffness) = (&contact.sliding, &contact.stiffness);
-    let base = SolidSliding::solve(&sector, materials, sliding, stiffness, case.mass())?;
+    let elastic = sector.strip.stiffness_alike(case.materials());
+    let (sliding, stiffness) = (&case.contact.sliding, &case.contact.stiffness);
+    let base = SolidSliding::solve(&sector, &elastic, sliding, stiffness, case.mass())?;
     Ok(SolidState { sector, base })
 }
 

@@ -21,6 +21,8 @@ pub struct SteppedMesh<'a> {
     /// Solid bodies of a mesh with their ties and contacts.
     pub assembly: Option<Assembly<'a>>,
     annulus: Option<AnnulusMesh>,
+    /// All of the body of revolution.
+    whole: Option<Mesh>,
 }
 
 impl<'a> SteppedMesh<'a> {
@@ -43,7 +45,8 @@ impl<'a> SteppedMesh<'a> {
                 Arc::clone(&body.mesh)
             }
         };
-        Ok(Self { mesh, sector, assembly, annulus })
+        let whole = sector.as_ref().map(SolidSector::whole);
+        Ok(Self { mesh, sector, assembly, annulus, whole })
     }
 
     /// The body of the case with its contact.
@@ -53,13 +56,13 @@ impl<'a> SteppedMesh<'a> {
 
     /// The same at another operating point.
     pub fn body_at<'b>(&'b self, case: &'b Case, point: &OperatingPoint) -> TransientModel<'b> {
-        let body = match (&self.assembly, self.sector.as_ref()) {
+        let body = match (&self.assembly, self.sector.as_ref().zip(self.whole.as_ref())) {
             (Some(assembly), _) => {
                 let axis = case.body.assembly().and_then(AssemblyBody::axis);
                 let axis = axis.unwrap_or([[0.0; 3], [0.0, 0.0, 1.0]]);
                 SteppedBody::Assembly { assembly, axis }
             }
-            (None, Some(sector)) => SteppedBody::Revolution(sector),
+            (None, Some((sector, mesh))) => SteppedBody::Revolution { sector, mesh },
             (None, None) => SteppedBody::Plane { mesh: &self.mesh, annulus: self.annulus.as_ref() },
         };
         let material = case.materials_in_time();

@@ -99,11 +99,10 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
             *u = u.conj();
         }
     }
-    let own = |node: usize| &wave[components * node..components * (node + 1)];
+    let nodes = || wave.chunks_exact(components);
     let size = |u: &[c64]| u.iter().map(|v| v.norm_sqr()).sum::<f64>();
-    let nodes = tangent.nodes.iter().map(|(node, _)| own(*node));
     let larger = |best, u| if size(u) > size(best) { u } else { best };
-    let peak = nodes.fold(own(tangent.nodes[0].0), larger);
+    let peak = nodes().fold(&wave[..components], larger);
     let larger =
         peak.iter().fold(peak[0], |best, v| if v.norm() > best.norm() { *v } else { best });
     let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);
@@ -113,10 +112,10 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
         c64::new(angle.cos(), angle.sin()) * scale
     });
     let phases: Vec<c64> = phases.collect();
-    let nodes = (0..sectors).flat_map(|j| tangent.nodes.iter().map(move |place| (j, place)));
-    let shape = nodes.flat_map(|(j, (node, half))| {
+    let places = (0..sectors).flat_map(|j| nodes().zip(&tangent.halves).map(move |own| (j, own)));
+    let shape = places.flat_map(|(j, (own, half))| {
         let phase = phases[harmonic * (2 * j + half) % (2 * sectors)];
-        own(*node).iter().map(move |v| v * phase)
+        own.iter().map(move |v| v * phase)
     });
     shape.collect()
 }

@@ -10,7 +10,7 @@ use super::reduced;
 use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeLimit, SweepRequest};
 use crate::contact::SlidingContact;
 use crate::fem::{MaterialField, ModulusTable};
-use crate::mesh::{AnnulusSpecification, SectorMesh};
+use crate::mesh::{AnnulusSpecification, Strip};
 use crate::prestress::{TangentOptions, WaveTangent};
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ pub fn sweep(
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
 ) -> Result<WaveSweep, CeaError> {
-    let sector = SectorMesh::generate(specification)?;
+    let sector = Strip::of_annulus(specification)?;
     wave_sweep(WaveTangent::of_annulus(&sector, material, options, contact)?, request, &[])
 }
 
@@ -223,7 +223,7 @@ mod tests {
                 damping_model: DampingModel::WholeTangent,
                 contact: ContactStiffness { tangential_damping, ..ContactStiffness::default() },
             };
-            let sector = SectorMesh::generate(&specification).unwrap();
+            let sector = Strip::of_annulus(&specification).unwrap();
             let tangent = WaveTangent::of_annulus(&sector, &material, &options, &contact);
             let mut tangent = tangent.unwrap();
             let (found, _) = follow(&mut tangent, &wanted, MARGIN, None).unwrap();

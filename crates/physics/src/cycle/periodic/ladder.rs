@@ -49,15 +49,12 @@ impl GrowingMode<'_> {
 
     /// Slip of every contact node in its shape.
     pub fn slips(&self, map: &PeriodMap<'_>) -> Vec<c64> {
-        let (interface, law, operator) =
-            (map.run.interface(), map.run.contact(), map.run.operator());
+        let (law, operator) = (map.run.contact(), map.run.operator());
         let part = |of: fn(&c64) -> f64| -> Vec<f64> { self.shape.iter().map(of).collect() };
         let [real, imaginary] = [part(|u| u.re), part(|u| u.im)].map(|u| scatter(operator, &u));
-        let slip = |i: usize| match map.run.model().components() {
-            2 => interface.slip(i).iter().map(|&(dof, along)| self.shape[dof] * along).sum(),
-            _ => c64::new(law.slip(i, &real), law.slip(i, &imaginary)),
-        };
-        (0..interface.len()).map(slip).collect()
+        let slip = |field: &[f64], i: usize| law.relative(i, field)[1];
+        let nodes = 0..map.run.interface().len();
+        nodes.map(|i| c64::new(slip(&real, i), slip(&imaginary, i))).collect()
     }
 
     /// The amplitude at which the mode brings the first contact node to the speed of its counterface.

@@ -4,7 +4,7 @@ use super::kernel::{LineLayout, RowStencil};
 use super::sparse::free_masses;
 use super::stencil::{Blocks, StencilRows, sector_blocks};
 use super::{OperatorError, SectorStencil, SimdLevel};
-use crate::fem::{MaterialField, assemble_stiffness, assemble_supports};
+use crate::fem::MaterialField;
 use crate::mesh::{AnnulusMesh, BoundaryCondition};
 use std::collections::BTreeMap;
 
@@ -27,15 +27,7 @@ impl SectorStencil {
         }
         let node_masses = free_masses(&annulus.mesh, material)?;
         let per_sector = annulus.sector_node_count();
-        // What couples sector 1 to sectors 0, 1 and 2.
-        let [springs, _] = assemble_supports(&annulus.mesh);
-        let body = assemble_stiffness(&annulus.mesh, material).entries.into_iter();
-        let dofs = 2 * per_sector;
-        let entries = body.chain(springs.entries).filter(|(row, ..)| row / dofs == 1);
-        let entries = entries.map(|(row, column, value)| {
-            (row % dofs, column % dofs, 2 * (column / dofs) as isize - 2, value)
-        });
-        let blocks = sector_blocks(per_sector, entries)?;
+        let blocks = sector_blocks(&annulus.mesh, material, per_sector)?;
         let specification = &annulus.specification;
         let is_clamped = specification.outer == BoundaryCondition::Clamped;
         let bore = specification.shaft.map(|shaft| shaft.bore);

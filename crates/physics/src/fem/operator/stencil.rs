@@ -2,6 +2,8 @@
 
 use super::kernel::{self, LineLayout, RowStencil, solid::SheetCoupling};
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
+use crate::fem::{MaterialField, assemble_stiffness, assemble_supports};
+use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 
 /// `M^-1 K` of a body of equal sectors, without a matrix.
@@ -99,18 +101,25 @@ impl StiffnessOperator for SectorStencil {
 /// `[l][c][d]`: from component `d` of a node in sector `s + l - 1` to component `c` of one in sector `s`.
 pub(super) type Blocks<const D: usize> = [[[f64; D]; D]; 3];
 
-/// Blocks between each node of a sector and its neighbours, from `(row, column, halves of a sector ahead, value)` of each entry.
+/// Blocks between each of the `nodes` of a sector and its neighbours, springs of supports included, of a mesh of three equal sectors
+/// at least.
 ///
 /// # Errors
 /// [`OperatorError::NotCyclic`] where they are not their own mirror images, even or odd.
 pub(super) fn sector_blocks<const D: usize>(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
     nodes: usize,
-    entries: impl Iterator<Item = (usize, usize, isize, f64)>,
 ) -> Result<Vec<BTreeMap<usize, Blocks<D>>>, OperatorError> {
+    let dofs = D * nodes;
+    let [springs, _] = assemble_supports(mesh);
+    let entries = assemble_stiffness(mesh, material).entries.into_iter().chain(springs.entries);
     let mut blocks = vec![BTreeMap::<usize, Blocks<D>>::new(); nodes];
-    for (row, column, ahead, value) in entries {
-        let block = blocks[row / D].entry(column / D).or_insert([[[0.0; D]; D]; 3]);
-        block[(2 + ahead) as usize / 2][row % D][column % D] += value;
+    // What couples sector 1 to sectors 0, 1 and 2.
+    for (row, column, value) in entries.filter(|(row, ..)| row / dofs == 1) {
+        let neighbours = &mut blocks[row % dofs / D];
+        let block = neighbours.entry(column % dofs / D).or_insert([[[0.0; D]; D]; 3]);
+        block[column / dofs][row % D][column % D] += value;
     }
     let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
     for block in blocks.iter().flat_map(BTreeMap::values) {

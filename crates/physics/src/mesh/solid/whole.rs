@@ -1,20 +1,33 @@
 //! The whole mesh of a body of revolution.
 
 use super::SolidSector;
-use crate::mesh::{BoundaryFace, CyclicSymmetry, FileMesh, SolidContact, SolidFace};
+use crate::mesh::{Boundary, CyclicSymmetry, FileMesh, Mesh, SolidContact, SolidFace};
 use std::collections::BTreeMap;
 
 impl SolidSector {
+    /// All sectors, see [`Self::part`].
+    pub fn whole(&self) -> Mesh {
+        self.part(self.sector_count())
+    }
+
     /// The whole body as a mesh file would have it, made of equal sectors: surfaces `inner`, `outer`, `top` and `bottom`, and that
     /// under a ring on the top ([`Self::contact_surface`]).
     pub fn file(&self) -> FileMesh {
-        let mesh = self.part(self.sector_count());
-        let mut surfaces: BTreeMap<String, Vec<_>> = BTreeMap::new();
-        let faces = mesh.outer_faces();
-        for face in &faces {
-            for name in self.surfaces_of(face) {
-                surfaces.entry(name.to_owned()).or_default().push((face.kind, face.nodes.clone()));
-            }
+        let mut mesh = self.whole();
+        let faces = |of: &Boundary| -> Vec<_> {
+            of.faces.iter().map(|face| (face.kind, face.nodes.clone())).collect()
+        };
+        let boundaries = std::mem::take(&mut mesh.boundaries);
+        let mut surfaces: BTreeMap<String, Vec<_>> =
+            boundaries.iter().map(|own| (own.name.clone(), faces(own))).collect();
+        if self.specification.contact != SolidContact::Inner {
+            let touches = |&node: &u32| {
+                let own = &self.nodes[node as usize % self.node_count()];
+                self.specification.touches(own.radius)
+            };
+            let mut ring = faces(&boundaries[SolidFace::Top as usize]);
+            ring.retain(|(_, nodes)| nodes.iter().all(touches));
+            surfaces.insert(self.contact_surface().to_owned(), ring);
         }
         FileMesh {
             surfaces,
@@ -33,18 +46,5 @@ impl SolidSector {
             SolidContact::Inner => SolidFace::Inner.name(),
             SolidContact::Ring { .. } => "ring",
         }
-    }
-
-    /// The surfaces that a face on the outside belongs to.
-    fn surfaces_of(&self, face: &BoundaryFace) -> impl Iterator<Item = &'static str> {
-        let nodes: Vec<usize> =
-            face.nodes.iter().map(|&node| node as usize % self.node_count()).collect();
-        let lies_on = |own: SolidFace| nodes.iter().all(|&node| self.is_on(node, own));
-        let under_ring = self.specification.contact != SolidContact::Inner
-            && lies_on(SolidFace::Top)
-            && nodes.iter().all(|&node| self.specification.touches(self.nodes[node].radius));
-        let own = SolidFace::ALL.into_iter().filter(|own| lies_on(*own));
-        let names: Vec<&'static str> = own.map(SolidFace::name).collect();
-        names.into_iter().chain(under_ring.then(|| self.contact_surface()))
     }
 }

@@ -1,7 +1,9 @@
 use super::*;
 use crate::contact::SlidingContact;
-use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
-use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use crate::fem::{
+    ElasticMaterial, MassKind, PlaneFormulation, assemble_geometric_stiffness, assemble_stiffness,
+};
+use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh};
 use crate::prestress::{Assembly, DampingModel};
 
 fn turning(rotation_speed: f64) -> SlidingContact {

@@ -5,7 +5,7 @@ use crate::contact::{ContactInterface, ContactSurface, CoulombFriction, Point, R
 use crate::fem::MassKind;
 use crate::fem::operator::StiffnessOperator;
 use crate::mesh::{Counterface, SolidSector};
-use crate::prestress::{Assembly, PressedState, PrestressError, SolidSliding};
+use crate::prestress::{Assembly, PressedState, PrestressError, SolidSliding, node_point};
 use crate::transient::compliance::PressedPoint;
 use crate::transient::contact::ContactPart;
 use crate::transient::{LagrangeContact, TransientError};
@@ -21,7 +21,7 @@ impl TransientModel<'_> {
         let mut counterface = Counterface::Plane { point: [0.0; 2], direction: [1.0, 0.0] };
         match self.body {
             SteppedBody::Plane { mesh, .. } => return ContactInterface::of(mesh),
-            SteppedBody::Revolution(sector) => {
+            SteppedBody::Revolution { sector, .. } => {
                 let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
                 let moment: f64 = sector.rings.iter().map(|ring| ring.area * ring.radius).sum();
                 let radius = moment / area;
@@ -61,7 +61,7 @@ impl TransientModel<'_> {
     /// Where there is none.
     pub fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
         let (state, copies) = match self.body {
-            SteppedBody::Revolution(sector) => {
+            SteppedBody::Revolution { sector, .. } => {
                 (self.sliding_face(sector)?.sliding.state, sector.sector_count())
             }
             SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => (self.sliding_state()?, 1),
@@ -75,7 +75,7 @@ impl TransientModel<'_> {
         match self.body {
             SteppedBody::Assembly { assembly, .. } => assembly.state(friction),
             _ => {
-                let mesh = self.own_mesh();
+                let mesh = self.mesh();
                 let body = Assembly::of_edge(mesh, self.material, &self.contact, self.stiffness)?;
                 body.state(friction)
             }
@@ -83,8 +83,8 @@ impl TransientModel<'_> {
     }
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
-        let (contact, stiffness) = (&self.contact, &self.stiffness);
-        SolidSliding::solve(sector, self.material, contact, stiffness, MassKind::Lumped)
+        let (elastic, mass) = (sector.strip.stiffness_alike(self.material), MassKind::Lumped);
+        SolidSliding::solve(sector, &elastic, &self.contact, &self.stiffness, mass)
     }
 
     /// The contact points, all open; `interface` are their nodes.
@@ -95,7 +95,7 @@ impl TransientModel<'_> {
     ) -> Result<LagrangeContact, TransientError> {
         let mut parts = match self.body {
             SteppedBody::Plane { .. } => vec![self.single_part(self.edge_points(interface))],
-            SteppedBody::Revolution(sector) => {
+            SteppedBody::Revolution { sector, .. } => {
                 vec![self.single_part(self.face_points(sector, interface))]
             }
             SteppedBody::Assembly { assembly, .. } => self.paired_parts(assembly),
@@ -140,18 +140,11 @@ impl TransientModel<'_> {
     }
 
     fn face_points(&self, sector: &SolidSector, interface: &ContactInterface) -> Vec<Point> {
-        let face = sector.specification.contact.face();
         let pairs = interface.nodes.iter().zip(&interface.tributary_lengths);
         let points = pairs.map(|(&node, &weight)| {
-            let (first, local) = (3 * node as usize, node as usize % sector.node_count());
-            Point {
-                weight,
-                normal: vec![(first + face.normal_component(), face.inward_sign())],
-                slip: vec![(first + 1, 1.0)],
-                across: vec![(first + face.across_component(), 1.0)],
-                speed: self.contact.rotation_speed * sector.nodes[local].radius,
-                ..Point::default()
-            }
+            let [radius, _] = self.place(node as usize);
+            let speed = self.contact.rotation_speed * radius;
+            Point { weight, speed, ..node_point(sector, node as usize, &self.contact) }
         });
         points.collect()
     }
@@ -181,7 +174,7 @@ impl TransientModel<'_> {
         let spring = |spring: f64| PressedPoint { spring, ..PressedPoint::default() };
         let force = |force: f64| PressedPoint { force, ..PressedPoint::default() };
         match self.body {
-            SteppedBody::Revolution(sector) => {
+            SteppedBody::Revolution { sector, .. } => {
                 let base = self.sliding_face(sector)?;
                 let nodes = interface.nodes.iter().zip(&interface.tributary_lengths);
                 let point = nodes.map(|(&node, area)| {

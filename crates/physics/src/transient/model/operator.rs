@@ -31,10 +31,10 @@ impl TransientModel<'_> {
                 let annulus = annulus.ok_or(OperatorError::NoSymmetry)?;
                 Ok(Box::new(SectorStencil::of_annulus(annulus, self.material, simd)?))
             }
-            (SteppedBody::Revolution(_), OperatorChoice::Sparse) => {
+            (SteppedBody::Revolution { .. }, OperatorChoice::Sparse) => {
                 Err(OperatorError::NotPlane.into())
             }
-            (SteppedBody::Revolution(sector), _) => {
+            (SteppedBody::Revolution { sector, .. }, _) => {
                 Ok(Box::new(SectorStencil::of_revolution(sector, self.material, simd)?))
             }
             (SteppedBody::Assembly { .. }, OperatorChoice::Cyclic) => {

@@ -115,5 +115,5 @@ fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> P
     let lost = |(row, column, value): &_| (*row, *column, own.stiffness.loss_factor * value);
     let structural = stiffness.iter().map(lost).collect();
     stiffness.extend(at(&turned(point, own.turning.as_slice(), state)));
-    [stiffness, at(&found.dashpots), structural]
+    [stiffness, [at(&found.dashpots), at(&found.friction)].concat(), structural]
 }
