@@ -11,6 +11,8 @@ use crate::linalg::dense::{product, transpose_product};
 use crate::linalg::vectors::{dot, length};
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use crate::prestress::SlidingTangent;
+use std::ops::Deref;
+use std::sync::LazyLock;
 
 /// Modes that are corrected together: each is worked on by three vectors.
 const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
@@ -30,7 +32,8 @@ fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64
 /// E = Z^T T(lambda')^T Z,             lambda' beside lambda
 /// ```
 ///
-/// until the energy of what a further correction would be is negligible. Right vectors at several friction coefficients span what is global in a left one; what is missing is near the contact, where the normal force works on
+/// until the energy of what a further correction would be is negligible; scales them to `w^T (2 lambda M + C) x = 1`. Right vectors at
+/// several friction coefficients span what is global in a left one; what is missing is near the contact, where the normal force works on
 /// its slip, and follows the load as in statics. What that stirs up of the modes, which `P` weighs otherwise than `T`, `E` takes out.
 ///
 /// Source: S. C. Eisenstat, H. C. Elman and M. H. Schultz, SIAM J. Numer. Anal. 20 (1983), the generalized conjugate residual method;
@@ -42,18 +45,14 @@ pub fn correct_lefts(
     pairs: &mut [ModeVectors],
 ) {
     let problem = FullProblem::at(tangent, mu);
-    let modes = AmongModes::of(&problem, modes);
+    // Only where a left vector is open: not those of symmetric matrices, nor those at crossings, which the basis holds.
+    let modes = LazyLock::new(|| AmongModes::of(&problem, modes));
     crate::parallel::map(pairs.chunks_mut(PAIRS_AT_A_TIME), |group| {
         correct_group(&problem, (factors, &modes), group);
-    })
-}
-
-/// Scales left vectors over the unknowns to `w^T (2 lambda M + C) x = 1`.
-pub fn scale_lefts(tangent: &SlidingTangent, mu: f64, pairs: &mut [ModeVectors]) {
-    let problem = FullProblem::at(tangent, mu);
-    crate::parallel::map(pairs, |ModeVectors { eigenvalue, right, left, .. }| {
-        let scale = problem.slope(*eigenvalue, left, right);
-        left.iter_mut().for_each(|w| *w /= scale);
+        for ModeVectors { eigenvalue, right, left, .. } in group {
+            let scale = problem.slope(*eigenvalue, left, right);
+            left.iter_mut().for_each(|w| *w /= scale);
+        }
     })
 }
 
@@ -110,7 +109,7 @@ type Mapped = [Vec<c64>; 3];
 /// Corrects some modes together.
 fn correct_group(
     problem: &FullProblem<'_>,
-    (factors, modes): (&StiffnessFactors, &AmongModes),
+    (factors, modes): (&StiffnessFactors, &impl Deref<Target = AmongModes>),
     pairs: &mut [ModeVectors],
 ) {
     let eigenvalues: Vec<c64> = pairs.iter().map(|pair| pair.eigenvalue).collect();
@@ -127,11 +126,6 @@ fn correct_group(
         let all = vectors.into_iter().enumerate();
         all.map(|(k, [vector, image])| [vector, image, joined(&solved, k)]).collect()
     };
-    let among: Vec<ComplexDenseLu> = eigenvalues
-        .iter()
-        .map(|lambda| modes.small.pencil(lambda * (1.0 + BESIDE)))
-        .map(ComplexDenseLu::factorize)
-        .collect();
     let goals: Vec<f64> = pairs.iter().map(left_energy).collect();
     let mut open: Vec<usize> = (0..pairs.len()).collect();
     let starts: Vec<&[c64]> = pairs.iter().map(|pair| &pair.left[..]).collect();
@@ -139,10 +133,15 @@ fn correct_group(
     let mut lefts = mapped(starts.map(|(image, own)| [own.to_vec(), image]).collect());
     let energy = |[_, residual, correction]: &Mapped| dot(correction, residual).re.abs();
     let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
+    let mut among: Vec<ComplexDenseLu> = Vec::new();
     for _ in 0..MOST_STEPS {
         open.retain(|&k| energy(&lefts[k]) > HALF_THE_DIGITS * goals[k]);
         if open.is_empty() {
             break;
+        }
+        if among.is_empty() {
+            let beside = eigenvalues.iter().map(|lambda| lambda * (1.0 + BESIDE));
+            among = beside.map(|own| ComplexDenseLu::factorize(modes.small.pencil(own))).collect();
         }
         // Static corrections, and what these stir up of the modes.
         let statics: Vec<&[c64]> = open.iter().map(|&k| &lefts[k][2][..]).collect();
@@ -207,7 +206,7 @@ mod tests {
         let problem = FullProblem::at(&tangent, mu[0]);
         let modes = AmongModes::of(&problem, rest.vectors);
         let groups = pairs.chunks_mut(PAIRS_AT_A_TIME);
-        groups.for_each(|group| correct_group(&problem, (&rest.factors, &modes), group));
+        groups.for_each(|group| correct_group(&problem, (&rest.factors, &&modes), group));
         for (own, other) in pairs.iter().zip(&exact) {
             let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
             let cosine = dot(w, exact).norm() / (length(w) * length(exact));

@@ -1,7 +1,7 @@
 //! Modes at the friction coefficients of a sweep, each held to its residual in the full matrices, and their vectors.
 
 use super::SparseSweep;
-use crate::cea::sparse::left::{correct_lefts, scale_lefts};
+use crate::cea::sparse::left::correct_lefts;
 use crate::cea::sparse::mode::{ReducedMode, from_columns, to_columns};
 use crate::cea::sparse::packed::{PackedModes, PackedVector, joined, side_by_side};
 use crate::cea::sparse::point::{ModeCheck, SolvedPoint, normalize};
@@ -23,17 +23,6 @@ fn magnitude([stiff, damped, inert]: [f64; 3], lambda: c64) -> f64 {
 pub(super) fn uncertainty(norms: [f64; 3], mode: &ReducedMode) -> f64 {
     let lambda = mode.eigenvalue;
     f64::EPSILON * magnitude(norms, lambda) * length(&mode.left) / lambda.norm()
-}
-
-/// What is to be done about the left vectors of modes.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Lefts {
-    /// None are asked for.
-    Unneeded,
-    /// The basis holds them: those of symmetric matrices, which are the right ones, and those that were corrected.
-    Held,
-    /// The basis hardly holds them.
-    Coarse,
 }
 
 impl SparseSweep<'_> {
@@ -165,10 +154,10 @@ impl SparseSweep<'_> {
     /// corrected by the stiffness and the modes without friction.
     pub(super) fn vectors(
         &self,
-        (mu, lefts): (f64, Lefts),
+        (mu, with_lefts): (f64, bool),
         modes: &[ReducedMode],
     ) -> Vec<ModeVectors> {
-        let (model, with_lefts) = (&self.builder.model, lefts != Lefts::Unneeded);
+        let model = &self.builder.model;
         let expanded = |of: fn(&ReducedMode) -> &Vec<c64>| -> Vec<Vec<c64>> {
             let groups = modes.chunks(GROUP_WIDTH / 2).flat_map(|group| {
                 let coordinates: Vec<&Vec<c64>> = group.iter().map(of).collect();
@@ -179,7 +168,7 @@ impl SparseSweep<'_> {
         };
         let rights = expanded(|mode| &mode.right);
         let none = vec![Vec::new(); modes.len()];
-        let held = if with_lefts { expanded(|mode| &mode.left) } else { none };
+        let lefts = if with_lefts { expanded(|mode| &mode.left) } else { none };
         // Over the unknowns.
         let own = |((mode, right), left): ((&ReducedMode, _), _)| ModeVectors {
             eigenvalue: mode.eigenvalue,
@@ -187,14 +176,11 @@ impl SparseSweep<'_> {
             right,
             left,
         };
-        let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(held).map(own).collect();
-        if lefts == Lefts::Coarse {
+        let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(lefts).map(own).collect();
+        if with_lefts {
             let leading = self.builder.leading_count().min(model.dimension());
             let leading = model.expand(Mat::identity(leading, leading).as_ref());
             correct_lefts(self.tangent, (&self.builder.factors, leading), mu, &mut all);
-        }
-        if with_lefts {
-            scale_lefts(self.tangent, mu, &mut all);
         }
         // Over all nodal dofs.
         for ModeVectors { right, left, .. } in &mut all {

@@ -2,7 +2,6 @@
 
 use super::SparseSweep;
 use super::onset::{FoundInterval, doubt};
-use super::points::Lefts;
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
 use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, SETTLED};
@@ -51,8 +50,7 @@ impl SparseSweep<'_> {
         });
         let vectors = |own: &FoundInterval| {
             let ModeAt { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
-            let lefts = if self.builder.is_sampling { Lefts::Held } else { Lefts::Coarse };
-            self.vectors((*mu, lefts), std::slice::from_ref(mode)).pop()
+            self.vectors((*mu, true), std::slice::from_ref(mode)).pop()
         };
         let crossed = |own: &FoundInterval| UnstableInterval {
             crossing: vectors(own),
@@ -149,12 +147,7 @@ impl SparseSweep<'_> {
         let point = &self.points[k];
         let wanted = &point.modes[..point.wanted];
         let mu = point.friction_coefficient;
-        let lefts = match with_lefts {
-            false => Lefts::Unneeded,
-            true if mu == 0.0 && !self.tangent.is_gyroscopic => Lefts::Held,
-            true => Lefts::Coarse,
-        };
-        let vectors = if with_shapes { self.vectors((mu, lefts), wanted) } else { Vec::new() };
+        let vectors = if with_shapes { self.vectors((mu, with_lefts), wanted) } else { Vec::new() };
         let mut vectors = vectors.into_iter();
         let modes = point.modes.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
             let branch = branches.iter().find(|b| b.modes[k] == Some(i));
