@@ -190,6 +190,12 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     bytes[middle] ^= 1;
     fs::write(&figures, &bytes).unwrap();
     refuse(&[], "its figures.bin is damaged (its checksum");
+    // Of another version, which a comparison of its numbers says too.
+    bytes[8] = 1;
+    fs::write(&figures, &bytes).unwrap();
+    let format = "its figures.bin has format 1, this version reads format 2: run it again";
+    refuse(&[], format);
+    Run::new(&["compare", "out", "out"]).within(&folder).out("both").done().warns(&[format]);
     fs::write(&figures, whole).unwrap();
     let summary = folder.path().join("out/summary.json");
     let text = fs::read_to_string(&summary).unwrap();
