@@ -215,7 +215,10 @@ fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
     let answer = run(&folder, "mesh", "pad-on-disc.toml", &[]).done();
     let words =
         ">lining< ; >rim< ; >hub< ; pad:  ; counterface edge ; outward normal of the contact edge";
-    has(&answer.text("figures/mesh.svg"), &[words]);
+    let picture = answer.text("figures/mesh.svg");
+    has(&picture, &[words]);
+    // The contact edge lies over its counterface.
+    assert!(picture.rfind("#d55e00") > picture.rfind("#56b4e9"));
     let summary = answer.summary();
     let boundaries = summary["mesh"]["boundaries"].as_array().unwrap();
     let rim = boundaries.iter().find(|b| b["name"] == "rim").unwrap();

@@ -110,6 +110,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn dots_are_steps_without_length_each_place_once() {
+        let path = Path::dots([(1.0, 2.5), (1.0, 2.5), (1.5, 2.25)]);
+        assert_eq!(path.data, "m1 2.5h0m.5-.25h0");
+    }
+
+    #[test]
     fn a_row_of_lines_has_one_letter_and_no_more_spaces_than_needed() {
         let points = [(1.0, 2.5), (1.5, 3.25), (0.5, 3.25), (0.57, 4.0), (2.07, 4.5), (2.57, 3.5)];
         let path = Path::polyline(points, true);

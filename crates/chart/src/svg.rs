@@ -318,3 +318,20 @@ impl Svg {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_that_is_there_again_is_the_first_one_moved() {
+        let mut svg = Svg::new("name", 100.0, 50.0);
+        for (x, pixels) in [(0.0, b"one"), (10.0, b"one"), (20.0, b"two")] {
+            svg.image(&Rect::new(x, 5.0, 8.0, 8.0), pixels, false);
+        }
+        let text = svg.finish("", "");
+        assert_eq!(text.matches("data:image/png").count(), 2);
+        let again = "<use xlink:href=\"#figure-id-name-1\" x=\"10\" y=\"0\"/>";
+        assert_eq!(text.matches(again).count(), 1, "{text}");
+    }
+}
