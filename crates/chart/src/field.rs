@@ -149,10 +149,12 @@ impl Layer for Field {
     }
 
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
-        for outline in &self.mesh.outlines {
-            let path = Path::polyline(simplify(&self.curve(outline, frame), INVISIBLE), true);
-            svg.path(&path, &Stroke::solid(INK, 0.6));
+        let mut outlines = Path::new();
+        for outline in self.mesh.outlines.iter().filter(|outline| !outline.is_empty()) {
+            outlines.extend(simplify(&self.curve(outline, frame), INVISIBLE));
+            outlines.close();
         }
+        svg.path(&outlines, &Stroke::solid(INK, 0.6));
     }
 
     fn colours(&self) -> Option<&Colours> {
