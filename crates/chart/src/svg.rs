@@ -149,8 +149,8 @@ pub struct Svg {
     definitions: String,
     body: String,
     ids: usize,
-    /// Images by width, height, whether pixelated and bytes, with the id and the place of each.
-    images: HashMap<(String, String, bool, String), (String, f64, f64)>,
+    /// Images by their size, look and bytes, with the id and the place of each.
+    images: HashMap<String, (String, f64, f64)>,
 }
 
 impl Svg {
@@ -269,11 +269,10 @@ impl Svg {
     /// A PNG image stretched over a rectangle; `pixelated` keeps its pixels sharp. One that is there again is the first
     /// one moved.
     pub fn image(&mut self, rect: &Rect, png: &[u8], pixelated: bool) {
-        let rendering = if pixelated { r#" style="image-rendering:pixelated""# } else { "" };
+        let look = if pixelated { r#" style="image-rendering:pixelated""# } else { "" };
         let (place, own) = (rect.attributes(), BASE64_STANDARD.encode(png));
-        // Its own bytes tell it apart, with its size and its look.
-        let look = (number(rect.width), number(rect.height), pixelated, own);
-        if let Some((id, x, y)) = self.images.get(&look) {
+        let key = format!("{} {}{look}{own}", number(rect.width), number(rect.height));
+        if let Some((id, x, y)) = self.images.get(&key) {
             let (x, y) = (number(rect.x - x), number(rect.y - y));
             let _ = writeln!(self.body, r##"<use xlink:href="#{id}" x="{x}" y="{y}"/>"##);
             return;
@@ -281,10 +280,9 @@ impl Svg {
         let id = self.id();
         let _ = writeln!(
             self.body,
-            r#"<image id="{id}" {place} preserveAspectRatio="none"{rendering} xlink:href="data:image/png;base64,{}"/>"#,
-            look.3
+            r#"<image id="{id}" {place} preserveAspectRatio="none"{look} xlink:href="data:image/png;base64,{own}"/>"#
         );
-        self.images.insert(look, (id, rect.x, rect.y));
+        self.images.insert(key, (id, rect.x, rect.y));
     }
 
     /// Clips everything up to [`Svg::end_group`] to a rectangle.
