@@ -5,9 +5,7 @@ use crate::case::hash_of;
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
-use crate::results::{
-    Head, Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
-};
+use crate::results::{Head, Manifest, Page, read_manifest, read_record, read_summary, write_table};
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -28,7 +26,9 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     terminal::start_log(asked.output.quiet, asked.output.verbose);
     let names = names_of(&asked.folders);
     let runs = asked.folders.iter().zip(names).map(|(path, name)| {
-        let page = read_record::<Page>(path).ok();
+        let page = read_record::<Page>(path);
+        let page = page.inspect_err(|error| tracing::warn!("without figures of {name}: {error}"));
+        let page = page.ok();
         Ok(ComparedRun { name, manifest: read_manifest(path)?, summary: read_summary(path)?, page })
     });
     let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
@@ -39,13 +39,6 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
             "these runs ({}) share no number: compare runs of one command",
             commands.join(", ")
         )));
-    }
-    for run in runs.iter().filter(|run| run.page.is_none()) {
-        tracing::warn!(
-            "{} has no {}, so its figures are left out: run it again with figures",
-            run.name,
-            Page::FILE
-        );
     }
     let manifest = manifest_of(&asked.folders, &runs);
     let output = match asked.output.out {

@@ -49,7 +49,7 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
     ("crates/case", 10_972),
-    ("crates/chart", 4_727),
+    ("crates/chart", 4_840),
     ("crates/described", 107),
     ("crates/formats", 6_156),
     ("crates/linalg", 4_168),
@@ -65,7 +65,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 4_644),
     ("crates/physics/src/transient", 4_648),
-    ("crates/results", 18_172),
+    ("crates/results", 18_230),
     ("crates/signal", 6_052),
     ("crates/study", 10_647),
     ("src/app", 4_549),

@@ -285,5 +285,5 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
     // The page and the terminal show one document.
     let text = summary.document().to_text();
     has(&text, &["7432.13 ; 9433.12 ; 1.250e-6 ; 12.5 ; 12.50 ; 620.7 ; 7432.20"]);
-    has(&text, &["n = 1 and 2 together", "the branch ends at one end where one wave vanishes"]);
+    has(&text, &["n = 1 and 2 together", "its branch stops at one end where one wave vanishes"]);
 }

@@ -190,6 +190,12 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     bytes[middle] ^= 1;
     fs::write(&figures, &bytes).unwrap();
     refuse(&[], "its figures.bin is damaged (its checksum");
+    // Of another version, which a comparison of its numbers says too.
+    bytes[8] = 1;
+    fs::write(&figures, &bytes).unwrap();
+    let format = "its figures.bin has format 1, this version reads format 2: run it again";
+    refuse(&[], format);
+    Run::new(&["compare", "out", "out"]).within(&folder).out("both").done().warns(&[format]);
     fs::write(&figures, whole).unwrap();
     let summary = folder.path().join("out/summary.json");
     let text = fs::read_to_string(&summary).unwrap();
@@ -209,7 +215,10 @@ fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
     let answer = run(&folder, "mesh", "pad-on-disc.toml", &[]).done();
     let words =
         ">lining< ; >rim< ; >hub< ; pad:  ; counterface edge ; outward normal of the contact edge";
-    has(&answer.text("figures/mesh.svg"), &[words]);
+    let picture = answer.text("figures/mesh.svg");
+    has(&picture, &[words]);
+    // The contact edge lies over its counterface.
+    assert!(picture.rfind("#d55e00") > picture.rfind("#56b4e9"));
     let summary = answer.summary();
     let boundaries = summary["mesh"]["boundaries"].as_array().unwrap();
     let rim = boundaries.iter().find(|b| b["name"] == "rim").unwrap();

@@ -138,7 +138,7 @@ fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
         &["friction 0: stable up to 0.1 ; 9900.00 ; 0.138200 ; 0.900000 ; 9950.00 ; \
          2 modes (below 10000 Hz) at 3 friction values ; \
          12 contact nodes slipping, 0 sticking, 0 open ; \
-         pressure 2.8000 to 2.8300 MPa; torque 20.1500 N m ; harmonics above 6"],
+         pressure 2.8000 to 2.8300 MPa; torque 20.15 N m ; harmonics above 6"],
     );
     let short = document(&report(&mesh, &solution), View::Short).to_text();
     has(&short, &["friction 0.3: 2 modes, 1 unstable ; !stable up to"]);

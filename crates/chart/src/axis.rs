@@ -6,18 +6,19 @@ use super::scale::{Scale, extremes};
 use serde::{Deserialize, Serialize};
 
 /// How the ends of an axis follow from the data.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 enum Ends {
     /// Room at either end, as a fraction of the range.
     Room(f64),
     /// These.
     At(f64, f64),
     /// Equally far from zero.
+    #[default]
     Symmetric,
 }
 
 /// One axis of a panel: quantity, unit, scale, ends.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     quantity: String,
     unit: String,
@@ -36,12 +37,10 @@ impl Axis {
         Self {
             quantity: quantity.into(),
             unit: unit.into(),
-            scale: Scale::Linear,
             factor: Some(1.0),
             ends: Ends::Room(0.04),
-            includes: Vec::new(),
             decades: 300.0,
-            ticks: None,
+            ..Self::default()
         }
     }
 
@@ -71,34 +70,6 @@ impl Axis {
     /// The friction coefficient.
     pub fn friction() -> Self {
         Self::new("friction coefficient *μ*", "–")
-    }
-
-    /// The same, logarithmic.
-    pub fn logarithmic(self) -> Self {
-        self.scaled(Scale::Logarithmic)
-    }
-
-    /// The same, logarithmic over at most so many decades below the largest value.
-    pub fn decades(self, decades: f64) -> Self {
-        Self { decades, ..self.logarithmic() }
-    }
-
-    /// The same without room at the ends.
-    pub fn tight(self) -> Self {
-        self.room(0.0)
-    }
-
-    /// The same, long enough for one more value.
-    pub fn including(mut self, value: f64) -> Self {
-        self.includes.push(value);
-        self
-    }
-
-    /// The same with these ticks: value in the unit shown, label.
-    pub fn ticks(mut self, ticks: impl IntoIterator<Item = (f64, String)>) -> Self {
-        let ticks = ticks.into_iter().map(|(value, label)| Tick { value, label });
-        self.ticks = Some(ticks.collect());
-        self
     }
 
     /// Quantity and unit, as they are shown without a prefix.
@@ -156,6 +127,18 @@ impl Axis {
 }
 
 changed! { Axis:
+    /// The same, logarithmic.
+    logarithmic() => { scale: Scale::Logarithmic }
+    /// The same, logarithmic over at most so many decades below the largest value.
+    decades(decades: f64) => { decades: decades, scale: Scale::Logarithmic }
+    /// The same without room at the ends.
+    tight() => { ends: Ends::Room(0.0) }
+    /// The same, long enough for one more value.
+    including(value: f64) => [includes: [value]]
+    /// The same with these ticks: value in the unit shown, label.
+    ticks(ticks: impl IntoIterator<Item = (f64, String)>) => {
+        ticks: Some(ticks.into_iter().map(|(value, label)| Tick { value, label }).collect())
+    }
     /// The same for values that the unit shown is a multiple of: 1e-3 for kHz from Hz.
     times(factor: f64) => { factor: Some(factor) }
     /// The same with the unit's prefix chosen by the data.

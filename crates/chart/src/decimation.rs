@@ -5,6 +5,9 @@ use super::svg::POINTS_PER_MM;
 /// Columns for each point of width to which series are thinned (200 dots per inch, as the images have).
 pub(super) const COLUMNS_PER_POINT: f64 = 200.0 / 72.0;
 
+/// Deviation that no reader sees, points.
+pub(super) const INVISIBLE: f64 = 0.03;
+
 /// Width of the widest drawing, mm.
 pub const WIDEST: f64 = 420.0;
 

@@ -4,10 +4,11 @@ use super::axis::Axis;
 use super::colour::{ColourMap, INK};
 use super::colour_bar::Colours;
 use super::data::{Series, SeriesKind};
-use super::decimation::simplify;
+use super::decimation::{INVISIBLE, simplify};
 use super::frame::Frame;
 use super::image::{IndexedImage, Palette};
 use super::layer::Layer;
+use super::packed::{Levels, lists};
 use super::path::Path;
 use super::scale::extremes;
 use super::svg::{Stroke, Svg};
@@ -15,23 +16,19 @@ use super::text::plain;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The nodes around an element, with its mid-side nodes between its corners where it has any.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Cell {
-    /// Nodes in order around the element.
-    pub ring: Vec<u32>,
-    /// Whether every second node is one of a side.
-    pub is_quadratic: bool,
-}
-
 /// What a field is drawn over: elements and boundary curves, by the nodes they have.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mesh {
-    /// The elements.
-    pub cells: Vec<Cell>,
+    /// The nodes in order around each element, with mid-side nodes between its corners where it has any.
+    #[serde(with = "lists")]
+    pub rings: Vec<Vec<u32>>,
+    /// Whether every second node of a ring is one of a side.
+    pub are_quadratic: Vec<bool>,
     /// Curves drawn as outlines.
+    #[serde(with = "lists")]
     pub outlines: Vec<Vec<u32>>,
     /// Curves drawn as thin white lines that show the deformation.
+    #[serde(with = "lists")]
     pub lines: Vec<Vec<u32>>,
 }
 
@@ -39,7 +36,9 @@ pub struct Mesh {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Field {
     mesh: Arc<Mesh>,
+    #[serde(with = "Levels::<65_534>")]
     positions: Vec<[f64; 2]>,
+    #[serde(with = "Levels::<65_534>")]
     values: Vec<f64>,
     colours: Colours,
     levels: usize,
@@ -56,11 +55,6 @@ impl Field {
     ) -> Self {
         let colours = Colours::over(axis, map, &values);
         Self { mesh, positions, values, colours, levels: Palette::FINE }
-    }
-
-    /// The same with few colours, one of many.
-    pub fn coarse(self) -> Self {
-        Self { levels: Palette::COARSE, ..self }
     }
 
     /// The corners of the square around nodes, with `room` as a fraction of its size.
@@ -82,10 +76,10 @@ impl Field {
             [column, row, (value - low) * steepness]
         };
         let vertices: Vec<[f64; 3]> = self.positions.iter().zip(&self.values).map(vertex).collect();
-        for cell in &self.mesh.cells {
-            let ring = cell.ring.iter().map(|&node| vertices.get(node as usize).copied());
+        for (ring, is_quadratic) in self.mesh.rings.iter().zip(&self.mesh.are_quadratic) {
+            let ring = ring.iter().map(|&node| vertices.get(node as usize).copied());
             let Some(ring) = ring.collect::<Option<Vec<[f64; 3]>>>() else { continue };
-            let centre = centre(&ring, cell.is_quadratic);
+            let centre = centre(&ring, *is_quadratic);
             for (index, &corner) in ring.iter().enumerate() {
                 let next = ring[(index + 1) % ring.len()];
                 triangle(&mut image, [centre, corner, next], self.levels);
@@ -98,6 +92,11 @@ impl Field {
         let places = nodes.iter().filter_map(|&node| self.positions.get(node as usize));
         places.map(|&[x, y]| frame.at(x, y)).collect()
     }
+}
+
+changed! { Field:
+    /// The same with few colours, one of many.
+    coarse() => { levels: Palette::COARSE }
 }
 
 /// Value of the shape functions at the centre times the nodes: of quadratic elements on four sides -1/4 at corners and
@@ -141,16 +140,21 @@ impl Layer for Field {
         self.rasterize(frame, &palette).draw(svg, &frame.area, &palette, false);
         let mut lines = Path::new();
         for line in &self.mesh.lines {
-            lines.extend(simplify(&self.curve(line, frame), 0.12));
+            // A fine bright line needs no hundredths.
+            let tenths =
+                |(x, y): (f64, f64)| ((10.0 * x).round() / 10.0, (10.0 * y).round() / 10.0);
+            lines.extend(simplify(&self.curve(line, frame), 0.12).into_iter().map(tenths));
         }
         svg.path(&lines, &Stroke::solid("#ffffff", 0.3).with_opacity(0.45));
     }
 
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
-        for outline in &self.mesh.outlines {
-            let path = Path::polyline(self.curve(outline, frame), true);
-            svg.path(&path, &Stroke::solid(INK, 0.6));
+        let mut outlines = Path::new();
+        for outline in self.mesh.outlines.iter().filter(|outline| !outline.is_empty()) {
+            outlines.extend(simplify(&self.curve(outline, frame), INVISIBLE));
+            outlines.close();
         }
+        svg.path(&outlines, &Stroke::solid(INK, 0.6));
     }
 
     fn colours(&self) -> Option<&Colours> {
@@ -182,18 +186,19 @@ mod tests {
     fn annulus(around: u32) -> (Mesh, Vec<[f64; 2]>) {
         let count = 2 * around;
         let node = |ring: u32, step: u32| ring * count + step % count;
-        let cells = (0..around).map(|i| {
+        let rings = (0..around).map(|i| {
             let (a, b, c) = (2 * i, 2 * i + 1, 2 * i + 2);
             let ring = [(0, a), (0, b), (0, c), (1, c), (2, c), (2, b), (2, a), (1, a)];
-            Cell { ring: ring.map(|(r, s)| node(r, s)).to_vec(), is_quadratic: true }
+            ring.map(|(r, s)| node(r, s)).to_vec()
         });
+        let are_quadratic = vec![true; around as usize];
         let places = (0..3).flat_map(|ring| (0..count).map(move |step| (ring, step)));
         let places = places.map(|(ring, step)| {
             let (sin, cos) = (f64::from(step) / f64::from(count) * std::f64::consts::TAU).sin_cos();
             let radius = 0.5 + 0.25 * f64::from(ring);
             [radius * cos, radius * sin]
         });
-        (Mesh { cells: cells.collect(), ..Mesh::default() }, places.collect())
+        (Mesh { rings: rings.collect(), are_quadratic, ..Mesh::default() }, places.collect())
     }
 
     #[test]

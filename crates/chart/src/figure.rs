@@ -50,30 +50,6 @@ impl Figure {
         self
     }
 
-    /// The same with one more panel.
-    pub fn panel(mut self, panel: Panel) -> Self {
-        self.grid.cells.push(Some(panel));
-        self
-    }
-
-    /// The same with more panels.
-    pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
-        self.grid.cells.extend(panels.into_iter().map(Some));
-        self
-    }
-
-    /// The same with the panel, or with its place left free where there is none.
-    pub fn panel_or_gap(mut self, panel: Option<Panel>) -> Self {
-        self.grid.cells.push(panel);
-        self
-    }
-
-    /// The same with a line of remarks below, in mark-up.
-    pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.grid.notes.push(note.into());
-        self
-    }
-
     /// The same without the samples of long curves that no drawing shows; a signal to listen to keeps all.
     #[must_use]
     pub fn thinned(mut self) -> Self {
@@ -121,6 +97,14 @@ impl Figure {
 }
 
 changed! { Figure:
+    /// The same with one more panel.
+    panel(panel: Panel) => [grid.cells: [Some(panel)]]
+    /// The same with more panels.
+    panels(panels: impl IntoIterator<Item = Panel>) => [grid.cells: panels.into_iter().map(Some)]
+    /// The same with the panel, or with its place left free where there is none.
+    panel_or_gap(panel: Option<Panel>) => [grid.cells: [panel]]
+    /// The same with a line of remarks below, in mark-up.
+    note(note: impl Into<String>) => [grid.notes: [note.into()]]
     /// The same under another name.
     named(name: impl Into<String>) => { name: name.into() }
     /// The same for one column of a page.

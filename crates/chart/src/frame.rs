@@ -70,15 +70,16 @@ pub(super) fn vertical_count(height: f64) -> usize {
 }
 
 pub(super) fn draw_grid(svg: &mut Svg, frame: &Frame, [x, y]: &[Vec<Tick>; 2]) {
-    let (area, stroke) = (&frame.area, Stroke::solid(GRID, 0.4));
+    let (area, mut lines) = (&frame.area, Path::new());
     for tick in x {
         let x = area.x + area.width * frame.x.place(tick.value);
-        svg.line((x, area.y), (x, area.bottom()), &stroke);
+        lines.extend([(x, area.y), (x, area.bottom())]);
     }
     for tick in y {
         let y = area.bottom() - area.height * frame.y.place(tick.value);
-        svg.line((area.x, y), (area.right(), y), &stroke);
+        lines.extend([(area.x, y), (area.right(), y)]);
     }
+    svg.path(&lines, &Stroke::solid(GRID, 0.4));
 }
 
 /// Draws small ticks and those with labels, each as `mark` has it for a value in the unit shown and a length.

@@ -11,7 +11,7 @@ use super::svg::Svg;
 use serde::{Deserialize, Serialize};
 
 /// Values over a grid of equal cells, as colours.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Heat {
     x: (f64, f64),
     y: (f64, f64),
@@ -53,20 +53,14 @@ impl Heat {
         pixels: Vec<u8>,
         palette: Palette,
     ) -> Self {
-        Self {
-            x,
-            y,
-            image: IndexedImage { width, height, pixels },
-            palette,
-            colours: None,
-            names: Vec::new(),
-        }
+        let image = IndexedImage { width, height, pixels };
+        Self { x, y, image, palette, ..Self::default() }
     }
+}
 
+changed! { Heat:
     /// The same with entries in the legend.
-    pub fn names(self, names: Vec<(Key, String)>) -> Self {
-        Self { names, ..self }
-    }
+    names(names: Vec<(Key, String)>) => { names: names }
 }
 
 /// What each cell has, row by row from the top, as images have it.

@@ -6,7 +6,7 @@ use super::svg::{Rect, Svg};
 use serde::{Deserialize, Serialize};
 
 /// Colours of an image by index; one index more is transparent.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Palette(Vec<[u8; 4]>);
 
 impl Palette {
@@ -52,7 +52,7 @@ impl Palette {
 }
 
 /// An image of palette indices, row by row from the top.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct IndexedImage {
     pub width: usize,
     pub height: usize,
@@ -125,7 +125,8 @@ impl IndexedImage {
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::High);
-        encoder.set_filter(png::Filter::NoFilter);
+        // Neighbours in a row have neighbouring colours: their differences are the shortest to tell.
+        encoder.set_filter(png::Filter::Sub);
         let colours = palette.0.iter().flat_map(|c| [c[0], c[1], c[2]]);
         encoder.set_palette(colours.collect::<Vec<u8>>());
         encoder.set_trns(palette.0.iter().map(|c| c[3]).collect::<Vec<u8>>());

@@ -2,7 +2,7 @@
 
 use super::colour::{Colour, INK, SERIES};
 use super::data::{Series, SeriesKind};
-use super::decimation::{COLUMNS_PER_POINT, keep_extremes, lasting, simplify};
+use super::decimation::{COLUMNS_PER_POINT, INVISIBLE, keep_extremes, lasting, simplify};
 use super::frame::Frame;
 use super::layer::Layer;
 use super::legend::Key;
@@ -11,9 +11,6 @@ use super::path::Path;
 use super::svg::{Stroke, Svg};
 use super::text::plain;
 use serde::{Deserialize, Serialize};
-
-/// Deviation that no reader sees, points.
-const INVISIBLE: f64 = 0.03;
 
 /// A curve; one with rising abscissae is thinned with its extremes kept, values that are not finite break it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -39,11 +36,6 @@ impl Line {
         let (xs, ys) = points.into_iter().unzip();
         let stroke = Stroke::solid(SERIES[0], 1.1);
         Self { xs, ys, stroke, marker: None, arrows: 0, name: None, label: None, is_whole: false }
-    }
-
-    /// The same, full, in a colour and with a width in points.
-    pub fn solid(self, colour: impl Into<Colour>, width: f64) -> Self {
-        self.stroke(Stroke::solid(colour, width))
     }
 
     /// The same as the `index`-th of several series, with its colour and dashes.
@@ -81,6 +73,8 @@ impl Line {
 }
 
 changed! { Line:
+    /// The same, full, in a colour and with a width in points.
+    solid(colour: impl Into<Colour>, width: f64) => { stroke: Stroke::solid(colour, width) }
     /// The same with an entry in the legend.
     name(name: impl Into<String>) => { name: Some(name.into()) }
     /// The same with a stroke.
@@ -184,7 +178,7 @@ fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
 }
 
 /// Data points, whole even at the ends of an axis.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Points {
     points: Vec<(f64, f64)>,
     marker: Marker,
@@ -200,18 +194,8 @@ pub struct Points {
 impl Points {
     /// Discs at points.
     pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let points = points.into_iter().collect();
-        Self {
-            points,
-            marker: Marker::Disc,
-            radius: 2.0,
-            colour: SERIES[0].into(),
-            name: None,
-            label: None,
-            rows: Vec::new(),
-            tips: Vec::new(),
-            key: None,
-        }
+        let (points, colour) = (points.into_iter().collect(), SERIES[0].into());
+        Self { points, radius: 2.0, colour, ..Self::default() }
     }
 }
 

@@ -6,9 +6,10 @@ use super::svg::{Stroke, Svg};
 use serde::{Deserialize, Serialize};
 
 /// Shape of a data point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Marker {
     /// Filled disc.
+    #[default]
     Disc,
     /// Filled square.
     Square,
@@ -27,13 +28,11 @@ impl Marker {
 
     /// Adds the outline to a path.
     fn outline(self, path: &mut Path, (x, y): (f64, f64), radius: f64) {
-        let round = |count: u8| -> Vec<(f64, f64)> {
-            let angle = |i: u8| f64::from(i) * std::f64::consts::TAU / f64::from(count);
-            (0..count).map(|i| angle(i).sin_cos()).collect()
-        };
         let corners = match self {
-            Self::Disc if radius < 1.2 => round(8),
-            Self::Disc | Self::Circle => round(16),
+            Self::Disc | Self::Circle => {
+                let angle = |i: u8| f64::from(i) * std::f64::consts::TAU / 16.0;
+                (0..16).map(|i| angle(i).sin_cos()).collect()
+            }
             Self::Square => vec![(0.88, 0.88), (-0.88, 0.88), (-0.88, -0.88), (0.88, -0.88)],
             Self::Triangle => vec![(0.0, -1.2), (1.05, 0.75), (-1.05, 0.75)],
             Self::Diamond => vec![(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)],
@@ -50,6 +49,10 @@ impl Marker {
         radius: f64,
         colour: Colour,
     ) {
+        if self == Self::Disc {
+            svg.discs(&Path::dots(places), 2.0 * radius, colour);
+            return;
+        }
         let mut path = Path::new();
         for place in places {
             self.outline(&mut path, place, radius);

@@ -1,6 +1,7 @@
 //! A body in motion: what a page with scripts animates.
 
 use super::colour::Colour;
+use super::packed::{Levels, lists, whole};
 use serde::{Deserialize, Serialize};
 
 /// A body and what it shows: motions, or its parts.
@@ -9,12 +10,15 @@ pub struct Motion {
     /// 2 for a plane body, 3 for a solid one that the reader turns.
     pub dimension: usize,
     /// Places of the nodes at rest, m; the third coordinate of a plane body is zero.
+    #[serde(with = "Levels::<65_534>")]
     pub positions: Vec<[f64; 3]>,
     /// Nodes around each element of a plane body, around each face of the surface of a solid one.
+    #[serde(with = "lists")]
     pub cells: Vec<Vec<u32>>,
     /// Nodes of the contact edge, in order.
     pub edge: Vec<u32>,
     /// Edges of a solid body that are drawn, by their ends.
+    #[serde(with = "whole")]
     pub lines: Vec<[u32; 2]>,
     /// What there is to choose from.
     pub states: Vec<MotionState>,
@@ -37,13 +41,16 @@ pub enum MotionKind {
     /// `Re((real + i imaginary) exp(i omega t))` of every node, along x, y and z, to any scale.
     Harmonic {
         /// Real part.
+        #[serde(with = "Levels::<254>")]
         real: Vec<[f64; 3]>,
         /// Imaginary part.
+        #[serde(with = "Levels::<254>")]
         imaginary: Vec<[f64; 3]>,
     },
     /// A wave that turns about the origin without changing its shape.
     Turning {
         /// Displacement at time zero of every node, along x, y and z, m.
+        #[serde(with = "Levels::<65_534>")]
         displacement: Vec<[f64; 3]>,
         /// Turn in a period, rad, counter-clockwise.
         turn: f64,

@@ -16,7 +16,7 @@ use super::text::{self, Anchor, TextStyle, plain};
 use serde::{Deserialize, Serialize};
 
 /// A plot of a figure.
-#[derive(Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 pub struct Panel {
     pub(super) x: Axis,
     pub(super) y: Axis,
@@ -35,20 +35,7 @@ pub struct Panel {
 impl Panel {
     /// A plot over two axes.
     pub fn new(x: Axis, y: Axis) -> Self {
-        Self {
-            x,
-            y,
-            layers: Vec::new(),
-            caption: String::new(),
-            headings: Vec::new(),
-            height: 120.0,
-            is_plane: false,
-            is_bare: false,
-            has_grid: true,
-            has_legend: false,
-            bar: None,
-            span: 1,
-        }
+        Self { x, y, height: 120.0, has_grid: true, span: 1, ..Self::default() }
     }
 
     /// A picture of the plane between two corners, as wide as high in equal units, without axes.
@@ -58,26 +45,9 @@ impl Panel {
         Self { is_plane: true, is_bare: true, ..panel }
     }
 
-    /// The same with one more layer over those it has.
-    pub fn layer(mut self, layer: impl Into<Drawn>) -> Self {
-        self.layers.push(layer.into());
-        self
-    }
-
     /// The same with more layers.
     pub fn layers<L: Into<Drawn>>(self, layers: impl IntoIterator<Item = L>) -> Self {
         layers.into_iter().fold(self, Self::layer)
-    }
-
-    /// The same with a line of heading above its middle.
-    pub fn heading(self, line: impl Into<String>) -> Self {
-        self.heading_in(INK, line)
-    }
-
-    /// The same with a line of heading in a colour.
-    pub fn heading_in(mut self, colour: impl Into<Colour>, line: impl Into<String>) -> Self {
-        self.headings.push((line.into(), colour.into()));
-        self
     }
 
     pub(super) fn is_whole(&self) -> bool {
@@ -309,6 +279,14 @@ impl Panel {
 }
 
 changed! { Panel:
+    /// The same with one more layer over those it has.
+    layer(layer: impl Into<Drawn>) => [layers: [layer.into()]]
+    /// The same with a line of heading above its middle.
+    heading(line: impl Into<String>) => [headings: [(line.into(), INK.into())]]
+    /// The same with a line of heading in a colour.
+    heading_in(colour: impl Into<Colour>, line: impl Into<String>) => [
+        headings: [(line.into(), colour.into())]
+    ]
     /// The same with equal units on both axes, which must have given ends.
     equal() => { is_plane: true }
     /// The same with a caption above its left corner.

@@ -34,6 +34,22 @@ impl Path {
         }
     }
 
+    /// Single points, each as a line without length: a round end makes a disc of it.
+    pub fn dots(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (mut path, mut last) = (Self::new(), (0, 0));
+        for point in points.into_iter().map(hundredths) {
+            let step = (point.0 - last.0, point.1 - last.1);
+            if step != (0, 0) || path.is_empty() {
+                path.data.push('m');
+                push_hundredths(&mut path.data, step.0);
+                push_next(&mut path.data, step.1);
+                path.data.push_str("h0");
+            }
+            last = point;
+        }
+        path
+    }
+
     /// Closes the current piece.
     pub fn close(&mut self) {
         self.data.push('z');
@@ -92,6 +108,12 @@ fn push_hundredths(out: &mut String, value: i64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn dots_are_steps_without_length_each_place_once() {
+        let path = Path::dots([(1.0, 2.5), (1.0, 2.5), (1.5, 2.25)]);
+        assert_eq!(path.data, "m1 2.5h0m.5-.25h0");
+    }
 
     #[test]
     fn a_row_of_lines_has_one_letter_and_no_more_spaces_than_needed() {

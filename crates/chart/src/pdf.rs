@@ -7,9 +7,10 @@ use flate2::write::ZlibEncoder;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 use resvg::tiny_skia::{PathSegment, Transform};
-use resvg::usvg::{Color, Group, Image, ImageKind, Node, Paint, Path};
+use resvg::usvg::{Color, Group, Image, ImageKind, LineCap, Node, Paint, Path};
 use std::collections::BTreeMap;
 use std::io::Write;
+use std::sync::Arc;
 
 impl Drawing {
     /// The drawing as a PDF of one page of its own size.
@@ -24,7 +25,7 @@ impl Drawing {
         // From pixels at 96 for each inch, down from the top, to points up from the bottom.
         let (width, height) = (0.75 * tree.size().width(), 0.75 * tree.size().height());
         writer.content.transform([0.75, 0.0, 0.0, -0.75, 0.0, height]);
-        writer.group(tree.root())?;
+        writer.group(tree.root());
 
         let mut pdf = Pdf::new();
         pdf.catalog(catalog).pages(pages);
@@ -52,8 +53,8 @@ impl Drawing {
         states.finish();
         resources.finish();
         entry.finish();
-        for (index, pixels) in writer.images.iter().enumerate() {
-            write_image(&mut pdf, (image_at(index), image_at(index).get() + 1), pixels)?;
+        for (index, bytes) in writer.images.iter().enumerate() {
+            write_image(&mut pdf, (image_at(index), image_at(index).get() + 1), &decode(bytes)?)?;
         }
         let stream = deflated(&writer.content.finish())?;
         pdf.stream(contents, &stream).filter(Filter::FlateDecode);
@@ -64,7 +65,8 @@ impl Drawing {
 /// What the page consists of, as it is met in the tree.
 struct Writer {
     content: Content,
-    images: Vec<Pixels>,
+    /// Images as PNG, each once.
+    images: Vec<Arc<Vec<u8>>>,
     /// Names of the graphics states by opacity in hundredths.
     opacities: BTreeMap<u32, String>,
 }
@@ -77,7 +79,7 @@ struct Pixels {
 }
 
 impl Writer {
-    fn group(&mut self, group: &Group) -> Result<(), ChartError> {
+    fn group(&mut self, group: &Group) {
         self.content.save_state();
         self.transform(group.transform());
         if let Some(clip) = group.clip_path() {
@@ -90,14 +92,13 @@ impl Writer {
         }
         for node in group.children() {
             match node {
-                Node::Group(group) => self.group(group)?,
+                Node::Group(group) => self.group(group),
                 Node::Path(path) => self.path(path),
-                Node::Text(text) => self.group(text.flattened())?,
-                Node::Image(image) => self.image(image)?,
+                Node::Text(text) => self.group(text.flattened()),
+                Node::Image(image) => self.image(image),
             }
         }
         self.content.restore_state();
-        Ok(())
     }
 
     fn transform(&mut self, t: Transform) {
@@ -142,9 +143,11 @@ impl Writer {
             self.opacity(stroke.opacity().get());
             let [r, g, b] = colour(stroke.paint());
             self.content.set_stroke_rgb(r, g, b).set_line_width(stroke.width().get());
-            self.content
-                .set_line_join(LineJoinStyle::RoundJoin)
-                .set_line_cap(LineCapStyle::ButtCap);
+            let cap = match stroke.linecap() {
+                LineCap::Round => LineCapStyle::RoundCap,
+                _ => LineCapStyle::ButtCap,
+            };
+            self.content.set_line_join(LineJoinStyle::RoundJoin).set_line_cap(cap);
             self.content.set_dash_pattern(
                 stroke.dasharray().unwrap_or(&[]).iter().copied(),
                 stroke.dashoffset(),
@@ -170,19 +173,19 @@ impl Writer {
         }
     }
 
-    fn image(&mut self, image: &Image) -> Result<(), ChartError> {
-        let ImageKind::PNG(bytes) = image.kind() else {
-            return Ok(());
-        };
-        let pixels = decode(bytes)?;
+    fn image(&mut self, image: &Image) {
+        let ImageKind::PNG(bytes) = image.kind() else { return };
+        let known = self.images.iter().position(|image| image == bytes);
+        let index = known.unwrap_or_else(|| {
+            self.images.push(bytes.clone());
+            self.images.len() - 1
+        });
         // Images of a PDF stand on their feet in a unit square.
         let size = image.size();
-        let name = format!("I{}", self.images.len());
+        let name = format!("I{index}");
         self.content.save_state();
         self.content.transform([size.width(), 0.0, 0.0, -size.height(), 0.0, size.height()]);
         self.content.x_object(Name(name.as_bytes())).restore_state();
-        self.images.push(pixels);
-        Ok(())
     }
 }
 

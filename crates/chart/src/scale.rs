@@ -3,9 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 /// Linear or logarithmic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Equal steps.
+    #[default]
     Linear,
     /// Equal ratios; values that are not positive have no place.
     Logarithmic,

@@ -78,17 +78,13 @@ impl Shapes {
         let bands = bands.into_iter().map(|(from, to, colour)| (from, to, colour.into())).collect();
         Self { bands, ..Self::default() }
     }
+}
 
+changed! { Shapes:
     /// The same without entries in the legend.
-    pub fn unnamed(self) -> Self {
-        Self { names: Vec::new(), ..self }
-    }
-
+    unnamed() => { names: Vec::new() }
     /// The same with an entry in the legend.
-    pub fn name(mut self, key: Key, name: impl Into<String>) -> Self {
-        self.names.push((key, name.into()));
-        self
-    }
+    name(key: Key, name: impl Into<String>) => [names: [(key, name.into())]]
 }
 
 impl Layer for Shapes {

@@ -7,6 +7,7 @@ use super::frame::Frame;
 use super::image::{IndexedImage, Palette};
 use super::layer::Layer;
 use super::legend::Key;
+use super::packed::{Levels, whole};
 use super::scale::extremes;
 use super::svg::Svg;
 use serde::{Deserialize, Serialize};
@@ -27,8 +28,10 @@ const LIGHT: [f64; 3] = [-0.35, 0.5, 0.79];
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SurfaceMesh {
     /// Corners, the outside to the viewer where they run counter-clockwise.
+    #[serde(with = "whole")]
     pub triangles: Vec<[u32; 3]>,
     /// Edges drawn as lines.
+    #[serde(with = "whole")]
     pub edges: Vec<[u32; 2]>,
 }
 
@@ -36,6 +39,8 @@ pub struct SurfaceMesh {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Surface {
     mesh: Arc<SurfaceMesh>,
+    /// Light shows the direction of a face, which takes fine places.
+    #[serde(with = "Levels::<16_777_214>")]
     positions: Vec<[f64; 3]>,
     paint: Paint,
 }
@@ -44,7 +49,7 @@ pub struct Surface {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 enum Paint {
     /// Values at the nodes.
-    Values(Vec<f64>, Box<Colours>),
+    Values(#[serde(with = "Levels::<65_534>")] Vec<f64>, Box<Colours>),
     /// The part that each triangle belongs to; colour and name of each part, with "" for one that the legend leaves
     /// out.
     Parts(Vec<usize>, Vec<(Colour, String)>),

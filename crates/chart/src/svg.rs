@@ -8,6 +8,7 @@ use super::path::Path;
 use super::text::{Anchor, FONT_FAMILY, SCRIPT_SIZE, TextStyle, parse, plain};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 use std::fmt::{Display, Write};
 
 /// Points for each millimetre.
@@ -140,7 +141,7 @@ pub fn escape(text: &str) -> String {
 }
 
 /// An SVG document under construction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Svg {
     width: f64,
     pub(crate) height: f64,
@@ -148,6 +149,8 @@ pub struct Svg {
     definitions: String,
     body: String,
     ids: usize,
+    /// Images by their size, look and bytes, with the id and the place of each.
+    images: HashMap<String, (String, f64, f64)>,
 }
 
 impl Svg {
@@ -156,7 +159,7 @@ impl Svg {
     pub fn new(name: &str, width: f64, height: f64) -> Self {
         let prefix =
             name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-        Self { width, height, prefix, definitions: String::new(), body: String::new(), ids: 0 }
+        Self { width, height, prefix, ..Self::default() }
     }
 
     /// Its width, points.
@@ -176,10 +179,20 @@ impl Svg {
 
     /// A stroked path.
     pub fn path(&mut self, path: &Path, stroke: &Stroke) {
+        self.stroked(path, stroke, "");
+    }
+
+    /// Discs of a diameter at points.
+    pub fn discs(&mut self, path: &Path, diameter: f64, colour: Colour) {
+        let stroke = Stroke::solid(colour, diameter);
+        self.stroked(path, &stroke, r#" stroke-linecap="round""#);
+    }
+
+    fn stroked(&mut self, path: &Path, stroke: &Stroke, ends: &str) {
         if path.is_empty() {
             return;
         }
-        let _ = write!(self.body, r#"<path d="{}""#, path.data);
+        let _ = write!(self.body, r#"<path d="{}"{ends}"#, path.data);
         stroke.write(&mut self.body);
         self.body.push_str("/>\n");
     }
@@ -253,15 +266,23 @@ impl Svg {
         out.push_str("</text>\n");
     }
 
-    /// A PNG image stretched over a rectangle; `pixelated` keeps its pixels sharp.
+    /// A PNG image stretched over a rectangle; `pixelated` keeps its pixels sharp. One that is there again is the first
+    /// one moved.
     pub fn image(&mut self, rect: &Rect, png: &[u8], pixelated: bool) {
-        let rendering = if pixelated { r#" style="image-rendering:pixelated""# } else { "" };
+        let look = if pixelated { r#" style="image-rendering:pixelated""# } else { "" };
+        let (place, own) = (rect.attributes(), BASE64_STANDARD.encode(png));
+        let key = format!("{} {}{look}{own}", number(rect.width), number(rect.height));
+        if let Some((id, x, y)) = self.images.get(&key) {
+            let (x, y) = (number(rect.x - x), number(rect.y - y));
+            let _ = writeln!(self.body, r##"<use xlink:href="#{id}" x="{x}" y="{y}"/>"##);
+            return;
+        }
+        let id = self.id();
         let _ = writeln!(
             self.body,
-            r#"<image {} preserveAspectRatio="none"{rendering} xlink:href="data:image/png;base64,{}"/>"#,
-            rect.attributes(),
-            BASE64_STANDARD.encode(png)
+            r#"<image id="{id}" {place} preserveAspectRatio="none"{look} xlink:href="data:image/png;base64,{own}"/>"#
         );
+        self.images.insert(key, (id, rect.x, rect.y));
     }
 
     /// Clips everything up to [`Svg::end_group`] to a rectangle.
@@ -293,5 +314,22 @@ impl Svg {
             self.definitions,
             self.body
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_that_is_there_again_is_the_first_one_moved() {
+        let mut svg = Svg::new("name", 100.0, 50.0);
+        for (x, pixels) in [(0.0, b"one"), (10.0, b"one"), (20.0, b"two")] {
+            svg.image(&Rect::new(x, 5.0, 8.0, 8.0), pixels, false);
+        }
+        let text = svg.finish("", "");
+        assert_eq!(text.matches("data:image/png").count(), 2);
+        let again = "<use xlink:href=\"#figure-id-name-1\" x=\"10\" y=\"0\"/>";
+        assert_eq!(text.matches(again).count(), 1, "{text}");
     }
 }

@@ -1,7 +1,7 @@
 //! What a command found: its document and figures become the files of its folder.
 
 use super::drawing::{Declaration, DrawingError, DrawingOptions};
-use super::record::write_record;
+use super::record::{read_record, write_record};
 use super::report::Page;
 use super::{FolderError, OutputFolder};
 use frictionsim_chart::Figure;
@@ -56,5 +56,6 @@ pub fn write_page(
 ) -> Result<(), DrawingError> {
     let page = Page::new(document, figures, folder.manifest());
     write_record(folder, &page)?;
-    page.draw(folder, options)
+    // What is drawn is what was kept: drawn again, it is the same.
+    read_record::<Page>(folder.path())?.draw(folder, options)
 }

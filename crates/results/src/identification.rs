@@ -42,12 +42,12 @@ columns! {
     /// Rayleigh coefficients of an estimator.
     COEFFICIENTS: row as (&'static str, RayleighFit);
     estimator = row.0, Always "estimator" Plain;
-    mass_coefficient_per_s = row.1.mass_coefficient.value, Always "alpha_R" Scientific(4);
-    mass_coefficient_low = row.1.mass_coefficient.low, Always "from" Scientific(4);
-    mass_coefficient_high = row.1.mass_coefficient.high, Always "to" Scientific(4);
-    stiffness_coefficient_s = row.1.stiffness_coefficient.value, Always "beta_R" Scientific(4);
-    stiffness_coefficient_low = row.1.stiffness_coefficient.low, Always "from" Scientific(4);
-    stiffness_coefficient_high = row.1.stiffness_coefficient.high, Always "to" Scientific(4);
+    mass_coefficient_per_s = row.1.mass_coefficient.value, Always "alpha_R" Significant(5);
+    mass_coefficient_low = row.1.mass_coefficient.low, Always "from" Significant(5);
+    mass_coefficient_high = row.1.mass_coefficient.high, Always "to" Significant(5);
+    stiffness_coefficient_s = row.1.stiffness_coefficient.value, Always "beta_R" Significant(5);
+    stiffness_coefficient_low = row.1.stiffness_coefficient.low, Always "from" Significant(5);
+    stiffness_coefficient_high = row.1.stiffness_coefficient.high, Always "to" Significant(5);
 }
 
 /// Frequency of a line, response, fitted response.

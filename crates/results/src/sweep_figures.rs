@@ -217,9 +217,9 @@ impl Study {
                     .rows(rows)
                     .name("computed"),
             )
-            .layers(no_stick.map(|speed| {
-                Rule::vertical(speed).beside("*ω*^{+}").name("*ω*^{+}: no stick from here on")
-            }))
+            .layers(
+                no_stick.map(|speed| Rule::vertical(speed).name("*ω*^{+}: no stick from here on")),
+            )
         });
         let caption = format!(
             "Shares of sticking, slipping and open contact nodes over {}{}.",

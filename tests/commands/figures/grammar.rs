@@ -58,7 +58,7 @@ fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Fig
         .layer(Label::new((value, value), "label"));
     let nodes: Vec<[f64; 2]> = pairs().map(|(x, y)| [x, y]).collect();
     let ring = (0..nodes.len() as u32 + 1).collect();
-    let mesh = Mesh { cells: vec![Cell { ring, is_quadratic: false }], ..Mesh::default() };
+    let mesh = Mesh { rings: vec![ring], are_quadratic: vec![false], ..Mesh::default() };
     let window = Field::window(&nodes, 0.1);
     let (name, map) = (Axis::new("field", "Pa"), ColourMap::Diverging);
     let field = Field::new(Arc::new(mesh), nodes, zs.to_vec(), name, map);

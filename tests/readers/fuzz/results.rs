@@ -1,10 +1,12 @@
 //! What the program writes and reads again: manifests, summaries, records, points, checkpoints.
 
 use crate::prelude::*;
+use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
 use frictionsim::app::plot::redraw;
 use frictionsim::results::sweep::{Found, SweepFolder};
 use frictionsim::results::transient::{CHECKPOINT, read_checkpoint, write_checkpoint};
 use frictionsim::results::{DrawingOptions, Format, read_manifest, read_record};
+use std::io::{Read, Write};
 
 /// One finished folder of a command with the files that `plot` reads, of a run that takes moments.
 fn finished(folder: &Path, command: &str) -> PathBuf {
@@ -45,6 +47,17 @@ fn with_right_checksum(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
+/// The figures with changed contents, deflated as they were.
+fn figures_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
+    let deflated: Vec<u8> = postcard::from_bytes(&original[24..]).unwrap();
+    let mut bytes = Vec::new();
+    DeflateDecoder::new(&deflated[..]).read_to_end(&mut bytes).unwrap();
+    let mut deflated = DeflateEncoder::new(Vec::new(), Compression::fast());
+    deflated.write_all(&binary(random, &bytes)).unwrap();
+    let payload = postcard::to_stdvec(&deflated.finish().unwrap()).unwrap();
+    with_right_checksum([&original[..24], &payload].concat())
+}
+
 /// A changed record: header whole, and checksum right three times out of four.
 fn record_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
     let (header, payload) = original.split_at(24);
@@ -63,7 +76,10 @@ fn hold_figures(command: &str) {
     let folder = finished(scratch.path(), command);
     let original = fs::read(folder.join("figures.bin")).unwrap();
     assert!(plot(&folder), "{command}: the folder as it was written");
-    let make = |random: &mut Random| record_of(random, &original);
+    let make = |random: &mut Random| match random.below(4) {
+        0 => record_of(random, &original),
+        _ => figures_of(random, &original),
+    };
     hold(&format!("figures-{command}"), make, |bytes| {
         fs::write(folder.join("figures.bin"), bytes).unwrap();
         plot(&folder);

@@ -3,7 +3,7 @@
 use crate::extent::Extent;
 use crate::vtu::Field;
 use crate::{BodyStress, ShownBody};
-use frictionsim_output::{Described, Table, columns};
+use frictionsim_output::{Described, Table, columns, significant};
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::mesh::{Counterface, Mesh};
 use serde::Serialize;
@@ -40,8 +40,12 @@ impl BaseState {
     /// Torque or drag with its name and unit.
     pub(super) fn drive(&self) -> String {
         match (self.torque_n_m, self.drag_n) {
-            (Some(torque), _) => format!("torque {torque:.4} {}", self.extent.unit("N m")),
-            (None, Some(drag)) => format!("drag {drag:.4} {}", self.extent.unit("N")),
+            (Some(torque), _) => {
+                format!("torque {} {}", significant(torque, 6), self.extent.unit("N m"))
+            }
+            (None, Some(drag)) => {
+                format!("drag {} {}", significant(drag, 6), self.extent.unit("N"))
+            }
             (None, None) => String::new(),
         }
     }

@@ -158,7 +158,7 @@ fn pictures(mesh: &Mesh, field: &BaseField, modes: &[&ModeFeed], caption: String
         surfaces.iter().map(move |(contact, boundary)| {
             let axis = Axis::new("feed", "1/(s cm²)").times(1e-4).between(-largest, largest);
             let view = SolidView::of_boundary(mesh, *boundary);
-            view.panel(values.clone(), axis, ColourMap::Diverging, 0.05)
+            view.panel(&values, axis, ColourMap::Diverging, 0.05)
                 .height(140.0)
                 .caption(literal(contact))
                 .heading(name(own))

@@ -117,7 +117,7 @@ fn assembly_panel(view: &SolidView<'_>, values: &[c64]) -> Panel {
     let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let magnification = 0.5 * DEFLECTION * view.size() / largest;
     let axis = Axis::new("", "").between(0.0, largest);
-    let surface = view.surface(amplitude, (&real, magnification), axis, ColourMap::Viridis);
+    let surface = view.surface(&amplitude, (&real, magnification), axis, ColourMap::Viridis);
     Panel::plane(surface.window(0.04)).height(130.0).layer(surface)
 }
 

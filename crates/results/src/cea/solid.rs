@@ -1,6 +1,6 @@
 //! A body of revolution in three dimensions as a picture.
 
-use frictionsim_chart::{Axis, Cell, ColourMap, Field, Mesh, Panel};
+use frictionsim_chart::{Axis, ColourMap, Field, Mesh, Panel};
 use frictionsim_physics::linalg::c64;
 use frictionsim_physics::mesh::{SheetNode, SolidSector};
 use std::sync::Arc;
@@ -30,7 +30,7 @@ impl<'a> Picture<'a> {
             sector.nodes.iter().position(is_here).unwrap_or(0)
         };
         let mut points: Vec<(usize, usize, bool)> = Vec::new();
-        let (mut cells, mut outlines) = (Vec::new(), Vec::new());
+        let (mut rings, mut outlines) = (Vec::new(), Vec::new());
         let mut grid = |rows: &[Vec<(usize, usize, bool)>], is_closed: bool| {
             let first = points.len() as u32;
             let width = rows[0].len() as u32;
@@ -41,7 +41,7 @@ impl<'a> Picture<'a> {
                 for column in 0..width - 1 {
                     let corners = [(0, 0), (0, 1), (1, 1), (1, 0)];
                     let ring = corners.map(|(up, right)| at(row + up, column + right)).to_vec();
-                    cells.push(Cell { ring, is_quadratic: false });
+                    rings.push(ring);
                 }
             }
             if is_closed {
@@ -66,7 +66,9 @@ impl<'a> Picture<'a> {
                 .collect();
             grid(&section, false);
         }
-        Self { sector, shown: Arc::new(Mesh { cells, outlines, lines: Vec::new() }), points }
+        let are_quadratic = vec![false; rings.len()];
+        let shown = Mesh { rings, are_quadratic, outlines, lines: Vec::new() };
+        Self { sector, shown: Arc::new(shown), points }
     }
 
     /// The real part of a shape, scaled to its own largest displacement; amplitudes on `axis`.
@@ -100,6 +102,6 @@ impl<'a> Picture<'a> {
         let field =
             Field::new(self.shown.clone(), places.collect(), values, axis, ColourMap::Viridis);
         let room = 0.04 + 2.0 * DEFLECTION;
-        Panel::plane(Field::window(&at_rest, room)).layer(field)
+        Panel::plane(Field::window(&at_rest, room)).layer(field.coarse())
     }
 }

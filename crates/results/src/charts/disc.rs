@@ -1,6 +1,6 @@
 //! Fields over a body as layers.
 
-use frictionsim_chart::{self, Axis, Cell, ColourMap, Field, Panel};
+use frictionsim_chart::{self, Axis, ColourMap, Field, Panel};
 use frictionsim_physics::mesh::Mesh;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,12 +21,11 @@ impl<'a> Disc<'a> {
     /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a body
     /// that is no uniform annulus shows none.
     pub fn with_lattice(mesh: &'a Mesh, rays: usize) -> Self {
-        let cells = (0..mesh.element_count()).map(|element| Cell {
-            ring: mesh.element_outline(element),
-            is_quadratic: mesh.element_kind(element).is_quadratic(),
-        });
+        let elements = 0..mesh.element_count();
+        let is_quadratic = |element| mesh.element_kind(element).is_quadratic();
         let shown = frictionsim_chart::Mesh {
-            cells: cells.collect(),
+            rings: elements.clone().map(|element| mesh.element_outline(element)).collect(),
+            are_quadratic: elements.map(is_quadratic).collect(),
             outlines: outlines(mesh),
             lines: if rays > 0 && mesh.is_cyclic { lattice(mesh, rays) } else { Vec::new() },
         };

@@ -15,6 +15,8 @@ const SHARP: f64 = 0.75;
 pub struct SolidView<'a> {
     mesh: &'a Mesh,
     faces: Vec<BoundaryFace>,
+    /// Nodes of the faces, ascending: those that are shown.
+    nodes: Vec<u32>,
     shown: Arc<SurfaceMesh>,
     /// Unit vectors to the right, upwards and towards the viewer.
     axes: [Vector3<f64>; 3],
@@ -56,30 +58,38 @@ impl<'a> SolidView<'a> {
     ) -> Self {
         let towards = towards.normalize();
         let right = up.cross(&towards).normalize();
+        let mut nodes: Vec<u32> = faces.iter().flat_map(|face| face.nodes.clone()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let own = |triangle: [u32; 3]| triangle.map(|node| place_among(&nodes, node));
         let shown = SurfaceMesh {
-            triangles: faces.iter().flat_map(triangles).collect(),
-            edges: edges(mesh, &faces, false),
+            triangles: faces.iter().flat_map(triangles).map(own).collect(),
+            edges: edges(mesh, &faces, &nodes, false),
         };
-        Self { mesh, faces, shown: Arc::new(shown), axes: [right, towards.cross(&right), towards] }
+        let axes = [right, towards.cross(&right), towards];
+        Self { mesh, faces, nodes, shown: Arc::new(shown), axes }
     }
 
     /// Values at the nodes (NaN: none) on the bodies displaced by `displacement` (nodal frames, three values a node, m)
     /// times `magnification`.
     pub fn surface(
         &self,
-        values: Vec<f64>,
+        values: &[f64],
         (displacement, magnification): (&[f64], f64),
         axis: Axis,
         map: ColourMap,
     ) -> Surface {
-        let place = |(node, place): (usize, &[f64; 3])| {
-            let mut place = Vector3::from(*place);
+        let place = |&node: &u32| {
+            let node = node as usize;
+            let mut place = Vector3::from(self.mesh.nodes[node]);
             if let Some(u) = displacement.get(3 * node..3 * node + 3) {
                 place += self.mesh.frame(node) * Vector3::from_column_slice(u) * magnification;
             }
             self.axes.map(|axis| axis.dot(&place))
         };
-        let positions = self.mesh.nodes.iter().enumerate().map(place).collect();
+        let value = |&node: &u32| values.get(node as usize).copied().unwrap_or(f64::NAN);
+        let values = self.nodes.iter().map(value).collect();
+        let positions = self.nodes.iter().map(place).collect();
         Surface::new(Arc::clone(&self.shown), positions, values, axis, map)
     }
 
@@ -92,10 +102,13 @@ impl<'a> SolidView<'a> {
     ) -> Surface {
         let shown = SurfaceMesh {
             triangles: self.shown.triangles.clone(),
-            edges: edges(self.mesh, &self.faces, true),
+            edges: edges(self.mesh, &self.faces, &self.nodes, true),
         };
-        let place = |node: &[f64; 3]| self.axes.map(|axis| axis.dot(&Vector3::from(*node)));
-        let positions = self.mesh.nodes.iter().map(place).collect();
+        let place = |&node: &u32| {
+            let place = Vector3::from(self.mesh.nodes[node as usize]);
+            self.axes.map(|axis| axis.dot(&place))
+        };
+        let positions = self.nodes.iter().map(place).collect();
         let of_face = |face: &BoundaryFace| vec![part_of(face); triangles(face).len()];
         let part_of = self.faces.iter().flat_map(of_face).collect();
         let parts = parts.into_iter().map(|(colour, name)| (colour.into(), name)).collect();
@@ -103,7 +116,7 @@ impl<'a> SolidView<'a> {
     }
 
     /// A picture of values at the nodes (NaN: none) on the bodies as they are, with `room` around it.
-    pub fn panel(&self, values: Vec<f64>, axis: Axis, map: ColourMap, room: f64) -> Panel {
+    pub fn panel(&self, values: &[f64], axis: Axis, map: ColourMap, room: f64) -> Panel {
         let surface = self.surface(values, (&[], 0.0), axis, map);
         Panel::plane(surface.window(room)).height(150.0).layer(surface)
     }
@@ -146,7 +159,7 @@ pub fn contact_surfaces(
             let line = Line::through(ends.map(|end| view.at(end)));
             line.solid("black", 1.2).arrows(1)
         });
-        let panel = view.panel(values.to_vec(), axis(), ColourMap::Viridis, 0.05);
+        let panel = view.panel(values, axis(), ColourMap::Viridis, 0.05);
         panel.caption(literal(name)).layers(arrows)
     });
     let columns = surfaces.len().clamp(1, 3);
@@ -164,9 +177,9 @@ pub fn speeds_of_bodies<'a>(
     let view = SolidView::new(mesh);
     let panels = frames.map(|(heading, velocity)| {
         let speeds = velocity.chunks_exact(3);
-        let speeds = speeds.map(|v| v[0].hypot(v[1]).hypot(v[2])).collect();
+        let speeds: Vec<f64> = speeds.map(|v| v[0].hypot(v[1]).hypot(v[2])).collect();
         let axis = Axis::new("velocity |*v*|", "m/s");
-        let panel = view.panel(speeds, axis, ColourMap::Viridis, 0.04);
+        let panel = view.panel(&speeds, axis, ColourMap::Viridis, 0.04);
         panel.heading(heading).colour_bar(Side::Below)
     });
     let panels: Vec<Panel> = panels.collect();
@@ -186,11 +199,16 @@ fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
     parts.iter().map(|part| part.map(|node| face.nodes[node])).collect()
 }
 
-/// Edges drawn, in steps between their nodes.
-fn edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
+/// Place of a node among those shown, which are ascending and hold it.
+fn place_among(shown: &[u32], node: u32) -> u32 {
+    shown.partition_point(|&own| own < node) as u32
+}
+
+/// Edges drawn, in steps between their nodes by their places among those shown.
+fn edges(mesh: &Mesh, faces: &[BoundaryFace], shown: &[u32], all: bool) -> Vec<[u32; 2]> {
     let paths = edge_paths(mesh, faces, all);
     let steps = paths.iter().flat_map(|path| path.windows(2));
-    steps.map(|step| [step[0], step[1]]).collect()
+    steps.map(|step| [step[0], step[1]].map(|node| place_among(shown, node))).collect()
 }
 
 /// Nodes along each edge between faces that meet at an angle, between regions, and at the rim of open surfaces; or

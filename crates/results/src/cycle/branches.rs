@@ -16,7 +16,7 @@ use frictionsim_physics::cycle::TwoWaveMotion;
 /// Names and colours of the powers in the order of a branch's shares.
 const POWERS: [(&str, &str); 5] = [
     ("stick", STICK_POWER),
-    ("slide", SLIDE_POWER),
+    ("slip", SLIDE_POWER),
     ("dissipated in the contact", CONTACT_DISSIPATION),
     ("material damping", MATERIAL_DISSIPATION),
     ("normal contact", NORMAL_POWER),

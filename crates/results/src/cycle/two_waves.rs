@@ -183,7 +183,7 @@ impl TwoWaveSummary {
     pub(super) fn ends_text(&self) -> Option<String> {
         let [one, other] = self.ends.as_ref()?;
         Some(format!(
-            "{}: the branch ends at one end where {one}, at the other: {other}",
+            "{}: its branch stops at one end where {one}, at the other because {other}",
             self.name()
         ))
     }

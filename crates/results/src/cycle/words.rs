@@ -259,8 +259,12 @@ impl SoughtCycle {
                  into it. That is 2 pi f times the amplitude of the unstable cycle between both"
             )
         });
+        let ends = match first == last {
+            true => format!("at both ends because {first}"),
+            false => format!("at one end because {first}, at the other because {last}"),
+        };
         Some(format!(
-            "{name}: {} cycles over {key} from {} to {} (at one end {first}, at the other {last}){}{}",
+            "{name}: {} cycles over {key} from {} to {} (it stops {ends}){}{}",
             branch.cycles,
             significant(low, 5),
             significant(high, 5),

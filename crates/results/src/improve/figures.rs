@@ -31,10 +31,10 @@ fn target_figure(summary: &ImproveSummary, mesh: &Mesh, own: &TargetFields) -> F
     };
     let damped = patch * summary.sizes.patch_damping_s;
     let text =
-        |what: &str, size: f64, unit: &str| format!("{what}, {} {unit}", significant(size, 3));
-    let mass = text("mass", mass_kg, &unit("kg"));
-    let spring = text("spring to the ground", stiffness_n_per_m, &unit("N/m"));
-    let dashpot = text("dashpot to the ground", damping_n_s_per_m, &unit("N s/m"));
+        |what: &str, size: f64, unit: &str| format!("{what} {} {unit}", significant(size, 3));
+    let mass = text("mass of", mass_kg, &unit("kg"));
+    let spring = text("spring to the ground of", stiffness_n_per_m, &unit("N/m"));
+    let dashpot = text("dashpot to the ground of", damping_n_s_per_m, &unit("N s/m"));
     let (removal, damping) = (nodal(mesh, &own.removal), nodal(mesh, &own.damping));
     let panels = [
         ("mass", mass, mass_kg, &own.mass),
@@ -57,7 +57,7 @@ fn target_figure(summary: &ImproveSummary, mesh: &Mesh, own: &TargetFields) -> F
                     .then(|| Points::new(places).marker(Marker::Circle, 3.0, INK));
                 disc.panel(0.03).layer(field).layers(circles)
             }
-            _ => SolidView::new(mesh).panel(values, axis, ColourMap::Diverging, 0.04),
+            _ => SolidView::new(mesh).panel(&values, axis, ColourMap::Diverging, 0.04),
         };
         panel.caption(caption).height(150.0).colour_bar(Side::Right)
     });

@@ -47,7 +47,7 @@ fn candidates(summary: &ImproveSummary) -> Table {
     let all = || &summary.candidates;
     Table::new(
         "candidates.csv",
-        "Modifications, the best first; no critical friction: none up to that of the case",
+        "Modifications, the best first; no critical friction: not run again, or none up to the case's",
     )
     .columns(CANDIDATES, all())
     .column("", Some(("where", Format::Plain)), all().iter().map(Candidate::place))

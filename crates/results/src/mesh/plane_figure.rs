@@ -26,7 +26,9 @@ pub fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
     });
     let longest = mesh.quality().largest_edge_m;
     let boundaries = || mesh.boundaries.iter().enumerate();
-    let edges = boundaries().filter_map(|(b, boundary)| edge(mesh, (b, boundary), longest));
+    // The contact edge lies on its counterface: it is drawn last.
+    let (contact, others): (Vec<_>, Vec<_>) = boundaries().partition(|own| own.0 == mesh.contact);
+    let edges = others.into_iter().chain(contact).filter_map(|own| edge(mesh, own, longest));
     // Names are for the curves of a file; those of the annulus go without saying.
     let names = boundaries().filter(|_| !mesh.is_cyclic);
     let names = names.filter_map(|(_, boundary)| {

@@ -287,15 +287,22 @@ function equipFigure(figure) {
 }
 document.querySelectorAll("main section:not(#manifest) table").forEach(equipTable);
 (async () => {
-  const { arrays, figures } = JSON.parse(document.getElementById("data").textContent);
+  const { arrays, figures, library } = JSON.parse(document.getElementById("data").textContent);
   const numbers = await unpack(arrays, document.getElementById("block").textContent);
+  document.head.append(make("script", {}, numbers[library][0]));
   for (const figure of figures) {
     for (const { series } of figure.panels) for (const one of series) {
-      Object.assign(one, { xs: numbers[one.x], ys: numbers[one.y], values: numbers[one.value], heard: numbers[one.heard] });
+      Object.assign(one, { xs: numbers[one.x], ys: numbers[one.y], values: numbers[one.value], heard: numbers[one.heard], tips: numbers[one.tips] });
       one.isSorted = one.xs.every((v, i) => !i || one.xs[i - 1] <= v);
       one.isWhole = one.even || one.of === one.xs.length;
     }
-    const { motion } = figure;
+    const { motion, steps } = figure;
+    if (steps) {
+      const { counts, x, y, listed, names } = Object.fromEntries(["counts", "x", "y", "listed", "names"].map((key) => [key, numbers[steps[key]]]));
+      let at = 0, name = 0;
+      const mark = () => [x[at], y[at], listed[at] ? names[name++] : "", listed[at++] === 1];
+      steps.marks = Array.from(counts, (length) => Array.from({ length }, mark));
+    }
     if (motion) {
       for (const key of ["positions", "sizes", "cells", "edge", "lines"]) motion[key] = numbers[motion[key]];
       for (const state of motion.states) for (const key of ["real", "imaginary", "displacement", "status", "partOf"]) if (key in state) state[key] = numbers[state[key]];

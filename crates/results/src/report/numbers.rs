@@ -2,6 +2,7 @@
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::{Compression, write::DeflateEncoder};
+use frictionsim_chart::{levels, steps};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::io::Write;
@@ -20,38 +21,33 @@ impl Numbers {
     /// Values in single precision, or first value, step and count where they rise evenly; what is not finite is a gap.
     pub fn floats(&mut self, values: &[f64]) -> usize {
         match progression(values) {
-            Some((first, step)) => self.add(json!(["p", values.len(), first, step]), &[]),
+            Some((first, step)) => self.add(json!(["p", 0, values.len(), first, step]), &[]),
             None => {
-                let narrow: Vec<[u8; 4]> =
-                    values.iter().map(|&v| (v as f32).to_le_bytes()).collect();
-                self.add(json!(["f", values.len()]), &planes(&narrow))
+                let narrow = values.iter().map(|&v| (v as f32).to_le_bytes());
+                self.add(json!(["f", 4, values.len()]), &planes(4, narrow))
             }
         }
     }
 
-    /// Values as one of 65,535 levels between the smallest and the largest; what is not finite is the level beyond.
-    pub fn levels(&mut self, values: &[f64]) -> usize {
-        let (low, high) = frictionsim_chart::extremes(values.iter().copied());
-        let scale = f64::from(u16::MAX - 1) / (high - low).max(f64::MIN_POSITIVE);
-        let level = |v: f64| match v.is_finite() {
-            true => ((v - low) * scale).round() as u16,
-            false => u16::MAX,
-        };
-        let narrow: Vec<[u8; 2]> = values.iter().map(|&v| level(v).to_le_bytes()).collect();
-        self.add(json!(["l", values.len(), low, high]), &planes(&narrow))
+    /// Values as levels up to a last one, so many of each place.
+    pub fn levels(&mut self, values: &[f64], last: u32, components: usize) -> usize {
+        let ((low, high), levels) = levels(values, last);
+        let width = 4 - last.leading_zeros() as usize / 8;
+        let bytes = planes(width, steps(&levels, components).into_iter().map(i32::to_le_bytes));
+        self.add(json!(["l", width, levels.len(), components, low, high]), &bytes)
     }
 
-    /// Values as one of 255 parts of the largest, for motion that is only looked at.
-    pub fn parts(&mut self, values: &[f64], largest: f64) -> usize {
-        let part = |v: f64| ((127.0 * v / largest).round() as i8).to_le_bytes();
-        let narrow: Vec<[u8; 1]> = values.iter().map(|&v| part(v)).collect();
-        self.add(json!(["b", values.len(), largest]), &planes(&narrow))
+    /// Whole numbers, so many of each thing.
+    pub fn indices(&mut self, values: impl IntoIterator<Item = u32>, components: usize) -> usize {
+        let values: Vec<u32> = values.into_iter().collect();
+        let bytes = planes(4, steps(&values, components).into_iter().map(i32::to_le_bytes));
+        self.add(json!(["i", 4, values.len(), components]), &bytes)
     }
 
-    /// Whole numbers.
-    pub fn indices(&mut self, values: impl IntoIterator<Item = u32>) -> usize {
-        let narrow: Vec<[u8; 4]> = values.into_iter().map(u32::to_le_bytes).collect();
-        self.add(json!(["i", narrow.len()]), &planes(&narrow))
+    /// A list of texts.
+    pub fn texts<'a>(&mut self, texts: impl IntoIterator<Item = &'a str>) -> usize {
+        let list = Value::from_iter(texts).to_string();
+        self.add(json!(["t", 1, list.len()]), list.as_bytes())
     }
 
     fn add(&mut self, entry: Value, bytes: &[u8]) -> usize {
@@ -83,9 +79,9 @@ fn progression(values: &[f64]) -> Option<(f64, f64)> {
     values.iter().enumerate().all(is_near).then_some((first, step))
 }
 
-/// All first bytes, all second bytes, and so on: neighbours are alike, which compresses well.
-fn planes<const N: usize>(values: &[[u8; N]]) -> Vec<u8> {
-    (0..N).flat_map(|plane| values.iter().map(move |value| value[plane])).collect()
+/// So many bytes of each value, all first ones before all second ones: neighbours are alike, which compresses well.
+fn planes(width: usize, values: impl Iterator<Item = [u8; 4]> + Clone) -> Vec<u8> {
+    (0..width).flat_map(|plane| values.clone().map(move |value| value[plane])).collect()
 }
 
 #[cfg(test)]
@@ -94,40 +90,14 @@ mod tests {
     use flate2::read::DeflateDecoder;
     use std::io::Read;
 
-    /// The arrays again, from what [`Numbers::finish`] gave; nothing where they do not fit together.
-    fn read(entries: &[Value], block: &str) -> Option<Vec<Vec<f64>>> {
-        let deflated = BASE64_STANDARD.decode(block).ok()?;
+    /// The bytes of the arrays again, from what [`Numbers::finish`] gave, as their entries share them.
+    fn read(entries: &[Value], block: &str) -> Vec<Vec<u8>> {
+        let deflated = BASE64_STANDARD.decode(block).unwrap();
         let mut bytes = Vec::new();
-        DeflateDecoder::new(deflated.as_slice()).read_to_end(&mut bytes).ok()?;
-        let mut start = 0_usize;
-        let mut array = |entry: &Value| {
-            let (kind, count) = (entry[0].as_str()?, entry[1].as_u64()? as usize);
-            let width = match kind {
-                "p" => 0,
-                "b" => 1,
-                "l" => 2,
-                _ => 4,
-            };
-            let planes = bytes.get(start..start.checked_add(count.checked_mul(width)?)?)?;
-            start += planes.len();
-            let word = |i: usize| {
-                (0..width).fold(0, |word, plane| {
-                    word | u32::from(planes[plane * count + i]) << (8 * plane)
-                })
-            };
-            let [first, second] = [2, 3].map(|at| entry[at].as_f64().unwrap_or(f64::NAN));
-            let value = |i: usize| match kind {
-                "p" => first + i as f64 * second,
-                "b" => f64::from(word(i) as u8 as i8) / 127.0 * first,
-                "l" if word(i) == u32::from(u16::MAX) => f64::NAN,
-                "l" => first + f64::from(word(i)) / f64::from(u16::MAX - 1) * (second - first),
-                "i" => f64::from(word(i)),
-                _ => f64::from(f32::from_bits(word(i))),
-            };
-            // An edited page must not ask for more than it holds.
-            (count <= 1 << 28).then(|| (0..count).map(value).collect())
-        };
-        entries.iter().map(&mut array).collect()
+        DeflateDecoder::new(deflated.as_slice()).read_to_end(&mut bytes).unwrap();
+        let size =
+            |entry: &Value| (entry[1].as_u64().unwrap() * entry[2].as_u64().unwrap()) as usize;
+        entries.iter().map(|entry| bytes.drain(..size(entry)).collect()).collect()
     }
 
     #[test]
@@ -135,27 +105,24 @@ mod tests {
         let mut numbers = Numbers::default();
         let times: Vec<f64> = (0..100).map(|i| 2e-6 * f64::from(i)).collect();
         let wave: Vec<f64> = times.iter().map(|t| 3e5 * (6e4 * t).sin()).collect();
-        let gaps = [1.5, f64::NAN, -2.0];
         let indices = [
             numbers.floats(&times),
             numbers.floats(&wave),
-            numbers.levels(&gaps),
-            numbers.parts(&[-1.0, 0.5], 2.0),
-            numbers.indices([7, 70_000]),
+            numbers.levels(&[1.5, f64::NAN, -2.0], 65_534, 1),
+            numbers.indices([7, 70_000, 3], 1),
+            numbers.texts(["<é"]),
         ];
         assert_eq!(numbers.floats(&wave), indices[1], "each array is kept once");
         let (entries, block) = numbers.finish();
-        let back = read(entries.as_array().unwrap(), &block).unwrap();
-        let near = |own: &[f64], other: &[f64], tolerance: f64| {
-            own.len() == other.len()
-                && own.iter().zip(other).all(|(a, b)| (a - b).abs() <= tolerance)
-        };
-        assert!(near(&back[0], &times, 1e-17));
-        // Single precision.
-        assert!(near(&back[1], &wave, 3e5 * 6e-8));
-        assert!(back[2][1].is_nan() && near(&[back[2][0], back[2][2]], &[1.5, -2.0], 1e-12));
-        assert!(near(&back[3], &[-1.0, 0.5], 1.0 / 127.0));
-        assert_eq!(back[4], [7.0, 70_000.0]);
-        assert_eq!(read(entries.as_array().unwrap(), &block[..8]), None);
+        let entries = entries.as_array().unwrap();
+        let back = read(entries, &block);
+        assert_eq!(entries[0], json!(["p", 0, 100, 0.0, 2e-6]));
+        let wave_at = |i: usize| f32::from_le_bytes([0, 1, 2, 3].map(|k| back[1][100 * k + i]));
+        assert!((0..100).all(|i| wave_at(i) == wave[i] as f32));
+        // Levels 65534, 65535 and 0 as twice their differences.
+        assert_eq!(entries[2], json!(["l", 2, 3, 1, -2.0, 1.5]));
+        assert_eq!(back[2], [0xfe, 0x03, 0x00, 0xff, 0x00, 0x00].map(|byte: u8| byte));
+        assert_eq!(back[3].len(), 12);
+        assert_eq!(back[4], "[\"<é\"]".as_bytes());
     }
 }

@@ -12,26 +12,25 @@ const make = (tag, attributes = {}, ...children) => {
 const button = (text, onclick, more = {}) => make("button", { type: "button", onclick, ...more }, text);
 const digits = (value, count = 5) => (Number.isFinite(value) ? String(Number(value.toPrecision(count))) : "–");
 
-// Numbers: each array is its entry's share of one deflated block, byte planes one after the other.
-const widths = { p: 0, f: 4, l: 2, b: 1, i: 4 };
+// Numbers: each array is its entry's share of one deflated block, all first bytes before all second ones. Whole numbers
+// and levels are there component by component, as twice the difference from the one before.
 async function unpack(entries, block) {
   const packed = Uint8Array.from(atob(block), (character) => character.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
   const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
   let start = 0;
-  return entries.map(([kind, count, first, second]) => {
-    const width = widths[kind];
-    if (kind === "p") return Float64Array.from({ length: count }, (_, i) => first + i * second);
-    const view = new DataView(new ArrayBuffer(width * count));
-    for (let plane = 0; plane < width; plane++)
-      for (let i = 0; i < count; i++) view.setUint8(width * i + plane, bytes[start + plane * count + i]);
-    start += width * count;
-    return Float64Array.from({ length: count }, (_, i) => {
-      if (kind === "f") return view.getFloat32(4 * i, true);
-      if (kind === "i") return view.getUint32(4 * i, true);
-      if (kind === "b") return (view.getInt8(i) / 127) * first;
-      const level = view.getUint16(2 * i, true);
-      return level === 65535 ? NaN : first + (level / 65534) * (second - first);
+  return entries.map(([kind, width, count, ...how]) => {
+    if (kind === "p") return Float64Array.from({ length: count }, (_, i) => how[0] + i * how[1]);
+    const own = bytes.subarray(start, (start += width * count));
+    if (kind === "t") return JSON.parse(new TextDecoder().decode(own));
+    const words = new Uint32Array(count);
+    own.forEach((byte, i) => (words[i % count] |= byte << (8 * Math.floor(i / count))));
+    if (kind === "f") return Float64Array.from(new Float32Array(words.buffer));
+    for (let pass = 0; pass < 2; pass++) for (let i = 1; i < count; i++) words[i] += words[i - 1];
+    const [components, low, high] = how, beyond = 256 ** width - 1;
+    return Float64Array.from(words, (_, i) => {
+      const word = (words[(i % components) * (count / components) + Math.floor(i / components)] & beyond) >>> 0;
+      return kind === "i" ? word : word === beyond ? NaN : low + (word / (beyond - 1)) * (high - low);
     });
   });
 }

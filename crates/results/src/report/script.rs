@@ -3,7 +3,7 @@
 use super::numbers::Numbers;
 use frictionsim_chart::{
     Figure, Mark, Motion, MotionKind, PanelData, Ruler, Scale, Series, SeriesKind, Steps,
-    keep_extremes, plain,
+    common_length, keep_extremes, plain,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -19,6 +19,11 @@ const COLUMNS: usize = 400;
 /// Most points of any other curve.
 const MOST_POINTS: usize = 4000;
 
+/// The last level of what is read ...
+const FINE: u32 = u16::MAX as u32 - 1;
+/// ... and of motion that is only looked at.
+const COARSE: u32 = u8::MAX as u32 - 1;
+
 /// Most samples of a signal that can be heard, every second, third ... of a longer one: a page is to be mailed.
 const LONGEST_SIGNAL: usize = 1 << 14;
 /// Longest signal that is kept for the ear.
@@ -28,15 +33,16 @@ const LONGEST_HEARD: usize = 1 << 16;
 pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a Figure>) {
     let mut numbers = Numbers::default();
     let figures: Vec<Value> = figures.map(|figure| of_figure(figure, &mut numbers)).collect();
+    let library = numbers.texts([LIBRARY]);
     let (arrays, block) = numbers.finish();
-    let data = json!({ "arrays": arrays, "figures": figures });
+    let data = json!({ "arrays": arrays, "figures": figures, "library": library });
     // No text of a user ends the element.
     let data = data.to_string().replace('<', "\\u003c");
     let _ = write!(
         out,
         "<script type=\"application/json\" id=\"data\">{data}</script>\n\
          <script type=\"text/plain\" id=\"block\">{block}</script>\n\
-         <style>{LIBRARY_STYLE}</style>\n<script>{LIBRARY}</script>\n<script>\n\"use strict\";\n"
+         <style>{LIBRARY_STYLE}</style>\n<script>\n\"use strict\";\n"
     );
     SCRIPTS.iter().for_each(|script| out.push_str(script));
     out.push_str("</script>\n");
@@ -50,7 +56,7 @@ fn of_figure(figure: &Figure, numbers: &mut Numbers) -> Value {
         "name": figure.name,
         "panels": panels,
         "motion": figure.motion.as_ref().map(|motion| of_motion(motion, numbers)),
-        "steps": steps.map(|(steps, panel)| of_steps(steps, &panel.axes)),
+        "steps": steps.map(|(steps, panel)| of_steps(steps, &panel.axes, numbers)),
     })
 }
 
@@ -78,8 +84,8 @@ fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
 
 fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
     if let Some((name, values)) = &series.values {
-        let [x, y] = [&series.xs, &series.ys].map(|places| numbers.levels(places));
-        let values = numbers.levels(values);
+        let [x, y, values] =
+            [&series.xs, &series.ys, values].map(|values| numbers.levels(values, FINE, 1));
         return json!({ "name": name, "kind": series.kind, "x": x, "y": y, "value": values });
     }
     let ((xs, ys), is_even) = thinned(series);
@@ -103,7 +109,7 @@ fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
         out["rows"] = series.rows.clone().into();
     }
     if !series.tips.is_empty() {
-        out["tips"] = series.tips.clone().into();
+        out["tips"] = numbers.texts(series.tips.iter().map(String::as_str)).into();
     }
     out
 }
@@ -128,43 +134,48 @@ fn thinned(series: &Series) -> ((Vec<f64>, Vec<f64>), bool) {
     (strided(count.div_ceil(MOST_POINTS)), false)
 }
 
-fn of_steps(steps: &Steps, [x, y]: &[Ruler; 2]) -> Value {
-    let of = |mark: &Mark| {
-        let place = [x.shown(mark.place.0), y.shown(mark.place.1)];
-        json!([place[0], place[1], mark.name, mark.is_listed])
-    };
-    let marks: Vec<Vec<Value>> =
-        steps.marks.iter().map(|marks| marks.iter().map(of).collect()).collect();
-    json!({ "quantity": steps.quantity, "values": steps.values, "marks": marks })
+fn of_steps(steps: &Steps, [x, y]: &[Ruler; 2], numbers: &mut Numbers) -> Value {
+    let marks: Vec<&Mark> = steps.marks.iter().flatten().collect();
+    let floats = |of: &dyn Fn(&Mark) -> f64| -> Vec<f64> { marks.iter().map(|m| of(m)).collect() };
+    let listed = marks.iter().filter(|mark| mark.is_listed);
+    json!({
+        "quantity": steps.quantity,
+        "values": steps.values,
+        "counts": numbers.indices(steps.marks.iter().map(|marks| marks.len() as u32), 1),
+        "x": numbers.floats(&floats(&|mark| x.shown(mark.place.0))),
+        "y": numbers.floats(&floats(&|mark| y.shown(mark.place.1))),
+        "listed": numbers.indices(marks.iter().map(|mark| u32::from(mark.is_listed)), 1),
+        "names": numbers.texts(listed.map(|mark| mark.name.as_str())),
+    })
 }
 
 fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
-    let flat = |places: &[[f64; 3]]| -> Vec<f64> {
-        let places = places.iter();
-        places.flat_map(|place| &place[..motion.dimension]).copied().collect()
+    let dimension = motion.dimension.clamp(1, 3);
+    let levels = |places: &[[f64; 3]], last: u32, numbers: &mut Numbers| {
+        let flat = places.iter().flat_map(|place| &place[..dimension]).copied();
+        numbers.levels(&flat.collect::<Vec<f64>>(), last, dimension)
     };
-    let sizes = motion.cells.iter().map(|cell| cell.len() as u32);
-    let sizes = numbers.indices(sizes);
-    let cells = numbers.indices(motion.cells.iter().flatten().copied());
-    let edge = numbers.indices(motion.edge.iter().copied());
-    let positions = numbers.levels(&flat(&motion.positions));
+    let sizes: Vec<usize> = motion.cells.iter().map(Vec::len).collect();
+    let cells = motion.cells.iter().flatten().copied();
+    let cells = numbers.indices(cells, common_length(&sizes));
+    let sizes = numbers.indices(sizes.into_iter().map(|size| size as u32), 1);
+    let edge = numbers.indices(motion.edge.iter().copied(), 1);
+    let positions = levels(&motion.positions, FINE, numbers);
     let states = motion.states.iter().map(|state| {
         let mut out = json!({ "name": state.name, "hz": state.frequency_hz });
         match &state.kind {
             MotionKind::Harmonic { real, imaginary } => {
-                let (real, imaginary) = (flat(real), flat(imaginary));
-                let all = real.iter().chain(&imaginary);
-                let largest = all.fold(f64::MIN_POSITIVE, |most, v| most.max(v.abs()));
-                out["real"] = numbers.parts(&real, largest).into();
-                out["imaginary"] = numbers.parts(&imaginary, largest).into();
+                out["real"] = levels(real, COARSE, numbers).into();
+                out["imaginary"] = levels(imaginary, COARSE, numbers).into();
             }
             MotionKind::Turning { displacement, turn, status } => {
-                out["displacement"] = numbers.levels(&flat(displacement)).into();
+                out["displacement"] = levels(displacement, FINE, numbers).into();
                 out["turn"] = (*turn).into();
-                out["status"] = numbers.indices(status.iter().map(|&code| u32::from(code))).into();
+                let status = status.iter().map(|&code| u32::from(code));
+                out["status"] = numbers.indices(status, 1).into();
             }
             MotionKind::Parts { part_of, parts } => {
-                out["partOf"] = numbers.indices(part_of.iter().copied()).into();
+                out["partOf"] = numbers.indices(part_of.iter().copied(), 1).into();
                 out["parts"] =
                     parts.iter().map(|part| json!([part.0.to_string(), part.1])).collect();
             }
@@ -172,9 +183,9 @@ fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
         out
     });
     let states: Vec<Value> = states.collect();
-    let lines = numbers.indices(motion.lines.as_flattened().iter().copied());
+    let lines = numbers.indices(motion.lines.as_flattened().iter().copied(), 2);
     json!({
-        "dimension": motion.dimension,
+        "dimension": dimension,
         "positions": positions,
         "sizes": sizes,
         "cells": cells,

@@ -4,8 +4,10 @@ use super::error::FolderError;
 use super::folder::OutputFolder;
 use super::framed::{self, Defect};
 use super::reopening::read_existing;
+use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 /// Data that a command keeps bit by bit.
@@ -22,16 +24,31 @@ pub trait Record: Serialize + DeserializeOwned {
     fn inconsistency(&self) -> Option<&'static str>;
 }
 
-/// Writes the record of a run.
+/// Writes the record of a run, deflated.
 pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), FolderError> {
-    folder.write_bulk(T::FILE, |out| framed::write(out, T::MAGIC, T::VERSION, record))
+    folder.write_bulk(T::FILE, |out| {
+        let mut deflated = DeflateEncoder::new(Vec::new(), Compression::default());
+        deflated.write_all(&postcard::to_stdvec(record).map_err(io::Error::other)?)?;
+        framed::write(out, T::MAGIC, T::VERSION, &deflated.finish()?)
+    })
 }
 
-/// The record that the bytes of its file hold.
+/// The record that the bytes of a file hold as they are.
 pub fn decoded<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
-    let payload = framed::read(bytes, T::MAGIC, T::VERSION)?;
-    let record: T = postcard::from_bytes(payload).map_err(Defect::damage)?;
+    whole(framed::read(bytes, T::MAGIC, T::VERSION)?)
+}
+
+fn whole<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
+    let record: T = postcard::from_bytes(bytes).map_err(Defect::damage)?;
     record.inconsistency().map_or(Ok(record), |what| Err(Defect::damage(what)))
+}
+
+fn inflated<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
+    let payload = framed::read(bytes, T::MAGIC, T::VERSION)?;
+    let deflated: Vec<u8> = postcard::from_bytes(payload).map_err(Defect::damage)?;
+    let mut bytes = Vec::new();
+    DeflateDecoder::new(&deflated[..]).read_to_end(&mut bytes).map_err(Defect::damage)?;
+    whole(&bytes)
 }
 
 /// Reads the record of a folder.
@@ -43,7 +60,7 @@ pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
     let unusable = |reason: String| FolderError::no_results(folder, reason);
     let bytes = read_existing(&folder.join(T::FILE))?;
     let bytes = bytes.ok_or_else(|| unusable(format!("it has no {}: run it again", T::FILE)))?;
-    decoded(&bytes).map_err(|defect| {
+    inflated(&bytes).map_err(|defect| {
         let (file, wanted) = (T::FILE, T::VERSION);
         unusable(match defect {
             Defect::Version(found) => format!(

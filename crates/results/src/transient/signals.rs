@@ -7,7 +7,8 @@ use crate::charts::{
     with_stages,
 };
 use frictionsim_chart::{
-    Axis, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke, extremes, look, significant,
+    Axis, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke, extremes, look, prefixed,
+    significant,
 };
 use frictionsim_signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
 use std::collections::BTreeMap;
@@ -94,7 +95,10 @@ impl RecordedRun<'_> {
         let codes: Vec<u8> = codes.collect();
         let nodes = codes.len() / times.len().max(1);
         let (map, apart) = status_map(&times, nodes, &codes, range)?;
-        let apart = apart.map(|s| format!(" at instants {} ms apart", significant(s * 1e3, 3)));
+        let apart = apart.map(|interval| {
+            let (factor, unit) = prefixed(interval, "s");
+            format!(" at instants {} {unit} apart", significant(factor * interval, 3))
+        });
         let panel = Panel::new(time, place_axis(body.mesh.has_round_contact())).plain();
         let caption = format!("{caption}{}", apart.unwrap_or_default());
         Some(panel.height(92.0).caption(caption).layer(map))

@@ -78,7 +78,7 @@ fn ending(summary: &TransientSummary, state: EndState) -> String {
     };
     match (summary.settled_from_s, &summary.unsettled_because) {
         (Some(from), _) => format!("{end}, settled from {from:.6} s on"),
-        (None, Some(reason)) => format!("{end}: {reason}"),
+        (None, Some(reason)) => format!("{end}; {reason}"),
         (None, None) => end,
     }
 }
@@ -89,7 +89,7 @@ fn course(summary: &TransientSummary) -> String {
         Some(time) => {
             format!("the first contact node sticks or opens at {} ms", fixed(1e3 * time, 3))
         }
-        None => "no vibration grows until a contact node sticks or opens".into(),
+        None => "no contact node sticks or opens".into(),
     };
     format!(
         "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy \
