@@ -135,15 +135,14 @@ fn axis(body: &Body) -> [f64; 2] {
 fn nearest(body: &Body, point: [f64; 2], z: Option<f64>) -> Option<(usize, [f64; 3])> {
     let [x, y] = point;
     match &body.kind {
-        BodyKind::Annulus(annulus) => {
-            let (node, [x, y]) = nearest_in_sectors(annulus, point)?;
-            Some((node, [x, y, 0.0]))
-        }
+        BodyKind::Annulus(annulus) => nearest_in_sectors(annulus, point),
         BodyKind::Revolution(solid) => nearest_corner(solid, point, z),
         BodyKind::Assembly(assembly) => {
-            let asked = [x, y, z.unwrap_or(0.0)];
+            // Without a height the highest of those above one another, as on a body of revolution.
+            let same = 1e-9 * body.size();
+            let away = |at: [f64; 3]| (distance(at, [x, y, z.unwrap_or(at[2])]) / same).round();
             let nodes = assembly.mesh.nodes.iter().copied().enumerate();
-            nodes.min_by(|a, b| distance(a.1, asked).total_cmp(&distance(b.1, asked)))
+            nodes.min_by(|a, b| away(a.1).total_cmp(&away(b.1)).then(b.1[2].total_cmp(&a.1[2])))
         }
         BodyKind::Imported(imported) => {
             let (node, _) = imported.mesh.nearest_node(point)?;
@@ -156,7 +155,7 @@ fn nearest(body: &Body, point: [f64; 2], z: Option<f64>) -> Option<(usize, [f64;
 fn nearest_in_sectors(
     annulus: &AnnulusSpecification,
     point: [f64; 2],
-) -> Option<(usize, [f64; 2])> {
+) -> Option<(usize, [f64; 3])> {
     let sector = Strip::of_annulus(annulus).ok()?;
     let (per_sector, sectors) = (sector.node_count(), sector.count);
     let step = TAU / sectors as f64;
@@ -166,7 +165,7 @@ fn nearest_in_sectors(
         let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;
         let turned = turns.rem_euclid(sectors as i64) as usize;
         let angle = start + step * turned as f64;
-        let at = [radius * angle.cos(), radius * angle.sin()];
+        let at = [radius * angle.cos(), radius * angle.sin(), 0.0];
         let distance = (at[0] - point[0]).hypot(at[1] - point[1]);
         (distance, turned * per_sector + position, at)
     });
