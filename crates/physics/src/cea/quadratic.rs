@@ -71,16 +71,16 @@ pub fn quadratic_modes(
     let first = if ratio.is_finite() && ratio > 0.0 { 0.7 * ratio } else { 1.0 };
     let mut values = Vec::new();
     let [below, above] = problem.window(first, &mut values)?;
-    for (direction, mut left) in [(-1, below), (1, above)] {
-        let mut step = 0;
+    for (direction, mut left, mut step) in [(-1, below, 0), (1, above, 0)] {
         while left > 0 && step < MOST_WINDOWS {
             step += 1;
             let shift = first * WINDOW.powi(direction * step);
-            // Singular to working precision: what is left is zero or infinite.
-            let Ok([below, above]) = problem.window(shift, &mut values) else {
-                break;
+            left = match problem.window(shift, &mut values) {
+                Ok(beyond) => beyond[usize::from(direction > 0)],
+                // Singular to working precision: what is left is zero or infinite.
+                Err(CeaError::Failed(_)) => break,
+                Err(error) => return Err(error),
             };
-            left = if direction < 0 { below } else { above };
         }
     }
     values.retain(|value| value.im >= 0.0);
