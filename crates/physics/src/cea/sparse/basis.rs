@@ -29,9 +29,9 @@ use std::borrow::Cow;
 const CHEBYSHEV_POINTS: usize = 5;
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
-/// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
-/// for both.
-const START_WIDTH: usize = 2;
+/// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and matrices and factors are
+/// read once for all. With eight a half more vectors are needed, which costs as much as is won.
+const START_WIDTH: usize = 4;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
 
