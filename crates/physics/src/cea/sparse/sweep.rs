@@ -220,11 +220,10 @@ impl<'a> SparseSweep<'a> {
             if middles.is_empty() {
                 return Ok(());
             }
-            for (&k, point) in middles.iter().zip(self.solve_points(&middles)?) {
-                if point.open_modes(self.goal()).next().is_some() {
-                    self.builder.improve_at(self.grid[k])?;
-                }
-            }
+            let points = middles.iter().zip(self.solve_points(&middles)?);
+            let open = points.filter(|(_, own)| own.open_modes(self.goal()).next().is_some());
+            let open: Vec<f64> = open.map(|(&k, _)| self.grid[k]).collect();
+            self.builder.sample(&open)?;
             seen.extend(middles);
         }
     }

@@ -125,7 +125,7 @@ impl SparseSweep<'_> {
             let mut has_grown = false;
             // By turns: factors beside a mode leave little, which those at rest then show to be little.
             for state in open {
-                let is_at_rest = !searches && round % 2 == 1;
+                let is_at_rest = !searches && round % 3 != 2;
                 has_grown |= self.builder.correct_both(&state, is_at_rest);
             }
             if !has_grown {
