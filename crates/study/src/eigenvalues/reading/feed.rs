@@ -36,7 +36,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
     let pressed = whole.contact_points(case);
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
-    let mut sums = Sums::new(shapes.modes.len(), Some(whole.mesh.dof_count()));
+    let mut sums = Sums::new(&shapes, true);
     parts.of_bodies(&shapes, &mut sums);
     // Forces and springs at the friction coefficient are the only power of it.
     let state = whole.state();
