@@ -56,11 +56,12 @@ impl SparseSweep<'_> {
             crossing: vectors(own),
             ..own.interval.clone()
         };
-        let found = found.iter().map(crossed).chain(self.divergence(branches)?);
+        let mut found: Vec<UnstableInterval> = crate::parallel::map(&found, crossed);
+        found.extend(self.divergence(branches)?);
         Ok(FrictionSweep {
             unconverged: self.unconverged.clone(),
             rigid_motions: self.builder.rigid,
-            ..FrictionSweep::joined(points, found.collect(), self.ended(branches))
+            ..FrictionSweep::joined(points, found, self.ended(branches))
         })
     }
 
