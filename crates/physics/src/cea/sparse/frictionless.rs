@@ -3,14 +3,13 @@
 use super::basis::scale_to_unit_length;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
-use super::structure::StiffnessFactors;
 use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS, NEAR};
 use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
 use crate::linalg::{
     LanczosPairs, LanczosSettings, LdlAnalysis, LinalgError, Mat, MatRef, MatrixPolynomial,
-    SparseLdl, SymmetricPencil, block_lanczos,
+    RealFactors, SparseLdl, SymmetricPencil, block_lanczos,
 };
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
@@ -34,7 +33,7 @@ pub struct FrictionlessModes {
     /// Where the eigenproblems with friction are centred.
     pub centre: Centre,
     /// Factors of `K(0) - sigma M(0)`, `sigma` amid the modes where it can be.
-    pub factors: StiffnessFactors,
+    pub factors: RealFactors,
 }
 
 impl FrictionlessModes {
@@ -351,12 +350,11 @@ impl<'a> Inertia<'a> {
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes, else those of `K + shift M`.
-    fn factors(&self, frequencies: &[f64], shift: f64) -> Result<StiffnessFactors, LinalgError> {
-        let factorize = |shift: f64| SparseLdl::factorize(&self.analysis, &self.shifted(shift));
+    fn factors(&self, frequencies: &[f64], shift: f64) -> Result<RealFactors, LinalgError> {
+        let factorize = |shift: f64| RealFactors::symmetric(&self.analysis, &self.shifted(shift));
         // There may be no such gap, or no such factors.
         let amid = frequency_amid(frequencies).and_then(|amid| factorize(amid.powi(2)).ok());
-        let ldl = amid.map_or_else(|| factorize(-shift), Ok)?;
-        Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
+        amid.map_or_else(|| factorize(-shift), Ok)
     }
 
     /// Values of `K - shift M`.

@@ -35,7 +35,6 @@ mod open_residuals;
 mod own_frequency;
 mod packed;
 mod pairs;
-mod pencil;
 mod point;
 mod projected;
 mod reduced;
@@ -57,7 +56,7 @@ pub use linearization::{Centre, Linearization};
 pub use nodal_diameters::sweep_by_diameters;
 pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, SolvedPoint};
-pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
+pub use structure::{ShiftInverted, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range

@@ -8,7 +8,6 @@ use super::basis::turn_to_real;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::side_by_side;
-use super::pencil::Pencil;
 use super::projected::{ProjectedMatrices, summed};
 use super::term::Term;
 use super::{MULTIPLE, NEAR, ROUND_OFF};
@@ -19,7 +18,7 @@ use crate::linalg::gram::complement;
 use crate::linalg::vectors::length;
 use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::SlidingTangent;
+use crate::prestress::{MotionMatrices, SlidingTangent};
 pub(super) use parts::inside;
 use parts::{BasisPart, BasisParts};
 
@@ -88,7 +87,7 @@ fn pair_lefts(modes: &mut [ReducedMode], overlaps: &Mat<c64>) {
 pub struct ReducedModel {
     linearization: Linearization,
     /// Coefficients of each matrix by power of `mu`; of `C` only where it is not proportional.
-    terms: Pencil<Vec<Term>>,
+    terms: MotionMatrices<Vec<Term>>,
     /// What they weigh.
     weights: FrictionWeights,
     /// `V`, `unknowns x m`.
@@ -113,13 +112,12 @@ impl ReducedModel {
             Linearization::Reduced(..) => Vec::new(),
             Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
         };
-        let tabled = tangent.tabled();
-        let terms = Pencil {
+        let losses = tangent.losses.iter();
+        let terms = MotionMatrices {
             stiffness: terms(&tangent.stiffness, true),
             damping,
             mass: terms(&tangent.mass, true),
-            structural: tangent.structural().map(|p| terms(p, true)),
-            tabled: tabled.map(|(gain, own)| (gain.clone(), terms(own, true))).collect(),
+            losses: losses.map(|(gain, own)| (gain.clone(), terms(own, true))).collect(),
         };
         Self {
             linearization,

@@ -345,9 +345,9 @@ impl<'a> SparseSweep<'a> {
 mod tests {
     use super::*;
     use crate::cea::Unwatched;
-    use crate::cea::sparse::StiffnessFactors;
     use crate::cea::sparse::fixtures::string_on_belt;
     use crate::cea::sparse::linearization::Centre;
+    use crate::linalg::{LdlAnalysis, RealFactors};
 
     /// Consistency check: a mode taken away from one point is missed by the tracking and found again, with proportional
     /// and with general damping.
@@ -389,7 +389,8 @@ mod tests {
         let before = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
         let after = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
-        let factors = StiffnessFactors::frictionless(&tangent.stiffness).unwrap();
+        let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).unwrap();
+        let factors = RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
         complete.cover(&[0.2]).unwrap();
