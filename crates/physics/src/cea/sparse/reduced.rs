@@ -148,13 +148,6 @@ impl ReducedModel {
         new
     }
 
-    /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
-    pub fn compress(&mut self, columns: &Mat<f64>) {
-        self.terms.each_mut().flatten().for_each(|term| term.compress(columns));
-        self.basis.combine(columns.as_ref());
-        self.parts = BasisParts::default();
-    }
-
     /// The projected matrices at `mu`.
     pub fn at(&self, mu: f64) -> ProjectedMatrices {
         self.combine(|terms| summed(terms, self.weights, mu, false))
@@ -295,7 +288,9 @@ impl ReducedModel {
         for (_, held) in &mut self.samples {
             *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref());
         }
-        self.compress(&columns);
+        self.terms.each_mut().flatten().for_each(|term| term.compress(&columns));
+        self.basis.combine(columns.as_ref());
+        self.parts = BasisParts::default();
         columns
     }
 
