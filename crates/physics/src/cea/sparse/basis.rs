@@ -103,12 +103,12 @@ impl<'a> BasisBuilder<'a> {
     ) -> Result<Mat<f64>, E> {
         let name = format!("basis-{:04}-at-{mu:?}", self.steps);
         let unknowns = self.tangent.stiffness.dimension();
-        let kept = self.watch.recall(&name);
+        let kept = self.watch.recalled::<Vec<_>>(&name);
         let columns = match kept.and_then(|columns| from_columns(&columns, unknowns)) {
             Some(columns) => columns,
             None => {
                 let columns = find(self)?;
-                self.watch.keep(&name, &columns_of(&columns));
+                self.watch.keep_value(&name, &columns_of(&columns));
                 columns
             }
         };

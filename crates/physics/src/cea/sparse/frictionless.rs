@@ -59,16 +59,17 @@ impl FrictionlessModes {
         const NAME: &str = "frictionless";
         let inertia = Inertia::new(tangent)?;
         let unknowns = tangent.stiffness.dimension();
-        if let Some((vectors, frequencies, centre)) = recalled(watch.recall(NAME), unknowns) {
+        if let Some((columns, frequencies, centre)) =
+            watch.recalled::<(Vec<_>, Vec<f64>, Centre)>(NAME)
+            && let Some(vectors) = from_columns(&columns, unknowns)
+        {
             let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
             let rigid = vectors.ncols() - frequencies.len();
             return Ok(Self { vectors, rigid, frequencies, centre, factors });
         }
         let found = Self::found_by(tangent, &inertia, limit)?;
-        let mut columns = columns_of(&found.vectors);
-        columns.push(found.frequencies.clone());
-        columns.push(vec![found.centre.shift, found.centre.rigid]);
-        watch.keep(NAME, &columns);
+        let vectors = columns_of(&found.vectors);
+        watch.keep_value(NAME, &(vectors, &found.frequencies, found.centre));
         Ok(found)
     }
 
@@ -213,18 +214,6 @@ impl SymmetricPencil for ShiftedPencil<'_> {
     fn solve_in_place(&self, x: &mut Mat<f64>) {
         self.factors.solve_in_place(x.as_mut());
     }
-}
-
-/// Vectors, frequencies and centre that were kept, if they are some.
-fn recalled(kept: Option<Vec<Vec<f64>>>, unknowns: usize) -> Option<(Mat<f64>, Vec<f64>, Centre)> {
-    let mut columns = kept?;
-    let &[shift, rigid] = &columns.pop()?[..] else {
-        return None;
-    };
-    let frequencies = columns.pop()?;
-    let is_whole = frequencies.len() <= columns.len() && !columns.is_empty();
-    let vectors = from_columns(&columns, unknowns)?;
-    is_whole.then_some((vectors, frequencies, Centre { shift, rigid }))
 }
 
 /// Number of leading frequencies before the widest relative gap at or after `wanted`.
