@@ -5,11 +5,11 @@
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::is_measured;
 use divan::Bencher;
-use frictionsim::cea::sparse::{SparseSweep, StiffnessFactors, sweep};
+use frictionsim::cea::sparse::{SparseSweep, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest, Unwatched};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::MassKind;
-use frictionsim::linalg::LuAnalysis;
+use frictionsim::linalg::{LdlAnalysis, LuAnalysis, RealFactors};
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{Assembly, DampingModel, SlidingTangent, TangentOptions};
 
@@ -51,7 +51,10 @@ fn phase_1_mesh_base_state_and_assembly() -> SlidingTangent {
 #[divan::bench(sample_count = 5)]
 fn phase_2_symmetric_factorization(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
-    bencher.bench_local(|| StiffnessFactors::frictionless(&tangent.stiffness).expect("definite"));
+    let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).expect("small enough");
+    bencher.bench_local(|| {
+        RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).expect("definite")
+    });
 }
 
 #[divan::bench(sample_count = 5)]
@@ -59,7 +62,7 @@ fn phase_2_factors_with_friction_one_value(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     let analysis = LuAnalysis::new(tangent.stiffness.pattern()).expect("small enough");
     bencher.bench_local(|| {
-        StiffnessFactors::general(&tangent.stiffness, &analysis, 0.5).expect("regular")
+        RealFactors::general(&analysis, tangent.stiffness.evaluate(0.5)).expect("regular")
     });
 }
 

@@ -7,9 +7,9 @@ use std::sync::Mutex;
 #[derive(Default)]
 pub struct Kept {
     /// What an earlier search has left.
-    pub earlier: BTreeMap<String, Vec<Vec<f64>>>,
+    pub earlier: BTreeMap<String, Vec<u8>>,
     /// Every step kept, in its order.
-    pub steps: Mutex<Vec<(String, Vec<Vec<f64>>)>>,
+    pub steps: Mutex<Vec<(String, Vec<u8>)>>,
 }
 
 impl Kept {
@@ -27,12 +27,12 @@ impl Kept {
 impl SweepWatch for Kept {
     fn reached(&self, _progress: SweepProgress) {}
 
-    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+    fn recall(&self, name: &str) -> Option<Vec<u8>> {
         self.earlier.get(name).cloned()
     }
 
-    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
-        let step = (name.to_owned(), columns.to_vec());
+    fn keep(&self, name: &str, bytes: Vec<u8>) {
+        let step = (name.to_owned(), bytes);
         self.steps.lock().unwrap().push(step);
     }
 }

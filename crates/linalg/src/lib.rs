@@ -18,6 +18,7 @@ mod krylov_schur;
 mod lanczos;
 mod pattern;
 mod polynomial;
+mod real_factors;
 mod sparse_cholesky;
 mod sparse_ldl;
 mod sparse_lu;
@@ -36,6 +37,7 @@ pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_sch
 pub use lanczos::{LanczosPairs, LanczosSettings, SymmetricPencil, block_lanczos};
 pub use pattern::SparsityPattern;
 pub use polynomial::{FrictionWeights, MatrixPolynomial};
+pub use real_factors::RealFactors;
 pub use sparse_cholesky::SparseCholesky;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};

@@ -1,7 +1,7 @@
 //! Results of a complex eigenvalue analysis, the same for every solver.
 
-use super::ModeCount;
 use super::accuracy::{RESIDUAL_BOUND, ROUNDING_ERRORS};
+use super::{ModeCount, ModeLimit};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
@@ -122,6 +122,20 @@ pub struct FrictionPoint {
 }
 
 impl FrictionPoint {
+    /// Of modes in order of frequency: those within a limit are listed, the others known beside.
+    pub(super) fn within(
+        limit: ModeLimit,
+        friction_coefficient: f64,
+        mut modes: Vec<ComplexMode>,
+    ) -> Self {
+        let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
+        let above = modes.split_off(match limit {
+            ModeLimit::Lowest(count) => keeping_ties(frequencies, count),
+            ModeLimit::MaxFrequency(hz) => frequencies.take_while(|own| *own <= TAU * hz).count(),
+        });
+        Self { friction_coefficient, modes, above }
+    }
+
     /// All of them.
     pub fn known(&self) -> impl Iterator<Item = &ComplexMode> {
         self.modes.iter().chain(&self.above)

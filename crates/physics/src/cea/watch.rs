@@ -1,6 +1,8 @@
 //! Whoever watches a sweep: hears how far it has come, and keeps what took long to find.
 
 use super::SweepProgress;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// Hears of the progress of a sweep, and may keep its steps for a run that goes on after an interruption.
 ///
@@ -11,13 +13,27 @@ pub trait SweepWatch: Sync {
     /// The sweep has come so far. Called from several threads.
     fn reached(&self, progress: SweepProgress);
 
-    /// The columns that an earlier run of the same sweep kept under a name.
-    fn recall(&self, _name: &str) -> Option<Vec<Vec<f64>>> {
+    /// The bytes that an earlier run of the same sweep kept under a name.
+    fn recall(&self, _name: &str) -> Option<Vec<u8>> {
         None
     }
 
-    /// Keeps columns under a name. Called from several threads.
-    fn keep(&self, _name: &str, _columns: &[Vec<f64>]) {}
+    /// Keeps bytes under a name. Called from several threads.
+    fn keep(&self, _name: &str, _bytes: Vec<u8>) {}
+}
+
+impl dyn SweepWatch + '_ {
+    /// The value that an earlier run of the same sweep kept under a name, bit by bit; none where it is of another kind.
+    pub fn recalled<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
+        postcard::from_bytes(&self.recall(name)?).ok()
+    }
+
+    /// Keeps a value under a name.
+    pub fn keep_value(&self, name: &str, value: &impl Serialize) {
+        if let Ok(bytes) = postcard::to_stdvec(value) {
+            self.keep(name, bytes);
+        }
+    }
 }
 
 impl<F: Fn(SweepProgress) + Sync> SweepWatch for F {
@@ -50,11 +66,11 @@ impl SweepWatch for PartWatch<'_> {
         }
     }
 
-    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+    fn recall(&self, name: &str) -> Option<Vec<u8>> {
         self.whole.recall(&format!("{}{name}", self.prefix))
     }
 
-    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
-        self.whole.keep(&format!("{}{name}", self.prefix), columns);
+    fn keep(&self, name: &str, bytes: Vec<u8>) {
+        self.whole.keep(&format!("{}{name}", self.prefix), bytes);
     }
 }

@@ -5,9 +5,11 @@
 //! point is corrected from a guess, and how far the next guess dares to go.
 
 use crate::cea::SweepWatch;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 /// Why a branch ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BranchEnd {
     /// The range asked for ends there.
     Range,
@@ -24,10 +26,6 @@ pub enum BranchEnd {
 }
 
 impl BranchEnd {
-    /// All of them, in their order.
-    const ALL: [Self; 6] =
-        [Self::Range, Self::Birth, Self::Lost, Self::Steps, Self::Separated, Self::Unphysical];
-
     /// In words.
     pub fn describe(self) -> &'static str {
         match self {
@@ -131,6 +129,8 @@ impl Turning {
 pub(super) trait Way {
     /// What ends the whole search.
     type Error;
+    /// Everything that the way on depends on.
+    type Kept: Serialize + DeserializeOwned;
     /// Points between two looks at which what is done is kept.
     const BLOCK: usize;
 
@@ -143,23 +143,19 @@ pub(super) trait Way {
     /// Forgets what is not kept, so that a search which goes on takes the same course as one that was never interrupted.
     fn begin_block(&mut self) {}
 
-    /// Everything that the way on depends on; nothing of a way that is not kept.
-    fn columns(&self) -> Vec<Vec<f64>> {
-        Vec::new()
-    }
+    /// What is kept of it.
+    fn kept(&self) -> Self::Kept;
 
     /// Takes up what was kept; nothing where it is of another half.
-    fn recall(&mut self, _columns: &[Vec<f64>]) -> Option<()> {
-        None
-    }
+    fn take_up(&mut self, kept: Self::Kept) -> Option<()>;
 
     /// Goes on to the end, keeping what is done under a name.
     fn run(&mut self, name: &str, watch: &dyn SweepWatch) -> Result<BranchEnd, Self::Error> {
         let mut end = None;
-        if let Some([code, columns @ ..]) = watch.recall(name).as_deref()
-            && self.recall(columns).is_some()
+        if let Some((known, kept)) = watch.recalled(name)
+            && self.take_up(kept).is_some()
         {
-            end = code.first().and_then(|&code| BranchEnd::ALL.get(code as usize).copied());
+            end = known;
         }
         while end.is_none() {
             self.begin_block();
@@ -167,8 +163,7 @@ pub(super) trait Way {
             while end.is_none() && self.count() < next {
                 end = self.advance()?;
             }
-            let code = end.iter().map(|&end| f64::from(end as u8)).collect();
-            watch.keep(name, &[vec![code], self.columns()].concat());
+            watch.keep_value(name, &(end, self.kept()));
         }
         Ok(end.unwrap_or(BranchEnd::Lost))
     }

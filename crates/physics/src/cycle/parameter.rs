@@ -3,10 +3,11 @@
 use crate::contact::SlidingContact;
 use crate::fem::RayleighDamping;
 use crate::output::rounded;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Contact and damping of one limit cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OperatingPoint {
     /// The rotating cylinder and its friction law.
     pub contact: SlidingContact,

@@ -280,10 +280,18 @@ impl<'a> Half<'a> {
 
 impl Way for Half<'_> {
     type Error = Infallible;
+    type Kept = ();
     const BLOCK: usize = usize::MAX;
 
     fn count(&self) -> usize {
         self.cycles.len()
+    }
+
+    fn kept(&self) {}
+
+    /// It is short enough to be followed again.
+    fn take_up(&mut self, (): ()) -> Option<()> {
+        None
     }
 
     /// One step of the branch, with the cycle where it ends at a value asked for.

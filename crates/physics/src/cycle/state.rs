@@ -3,9 +3,10 @@
 use super::parameter::OperatingPoint;
 use crate::contact::ContactStatus;
 use crate::transient::StatusCounts;
+use serde::{Deserialize, Serialize};
 
 /// Contact state of one point of the wave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PointState {
     /// No contact.
     Open,
@@ -16,12 +17,6 @@ pub enum PointState {
     /// Faster than the cylinder, held back: `T = -mu N`.
     SlipBackward,
 }
-
-/// Contact states by their codes, in their order.
-const POINT_STATES: [PointState; 4] =
-    [PointState::Open, PointState::Stick, PointState::SlipForward, PointState::SlipBackward];
-/// Columns of a state.
-pub(super) const STATE_COLUMNS: usize = 4;
 
 impl PointState {
     /// That of a point under a tangential force and a limit to it.
@@ -103,7 +98,7 @@ impl Event {
 }
 
 /// The phase of one wave.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Phase {
     /// `omega`, rad/s.
     pub frequency: f64,
@@ -134,7 +129,7 @@ impl Phase {
 }
 
 /// Contact forces of a rotating wave along its phase, or of two along both, frequencies, and what it lives on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WaveState {
     /// Normal force on a contact node at each phase, N/m.
     pub normal: Vec<f64>,
@@ -183,35 +178,6 @@ impl WaveState {
                 slip => self.tangential[i] = slip.drag() * friction * self.normal[i],
             }
         }
-    }
-
-    /// Everything but the operating point, as columns of numbers.
-    pub(super) fn columns(&self) -> [Vec<f64>; STATE_COLUMNS] {
-        let waves = self.phases.iter().flat_map(|own| [own.frequency, own.origin]);
-        // The points along the first phase are what the second leaves of all.
-        let across = self.phases.get(1).map(|own| own.points as f64);
-        [
-            self.normal.clone(),
-            self.tangential.clone(),
-            self.contact.iter().map(|&state| f64::from(state as u8)).collect(),
-            waves.chain(across).collect(),
-        ]
-    }
-
-    /// The state of [`Self::columns`] at an operating point; none where they are no state.
-    pub(super) fn from_columns(columns: &[Vec<f64>], point: OperatingPoint) -> Option<Self> {
-        let [normal, tangential, contact, scalars]: &[Vec<f64>; 4] = columns.try_into().ok()?;
-        let (waves, across) = scalars.as_chunks();
-        let across = across.first().map_or(1, |points| *points as usize);
-        let along = contact.len().checked_div(across).filter(|_| !waves.is_empty())?;
-        let state = |code: &f64| POINT_STATES.get(*code as usize).copied();
-        Some(Self {
-            normal: normal.clone(),
-            tangential: tangential.clone(),
-            contact: contact.iter().map(state).collect::<Option<_>>()?,
-            phases: Phase::of(waves, [along, across]),
-            point,
-        })
     }
 
     /// Fractions of points that stick, slip, and are open.

@@ -3,6 +3,7 @@
 use super::orthotropy::{Elasticity, Orthotropy};
 use super::{MaxwellChain, ModulusTable};
 use crate::linalg::c64;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Which out-of-plane quantity vanishes.
@@ -214,7 +215,7 @@ impl ElasticMaterial {
 }
 
 /// Rayleigh damping, `C = alpha_R M + beta_R K` (equation (2) of Brunetti et al.).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RayleighDamping {
     /// `alpha_R`, 1/s.
     pub mass_coefficient: f64,

@@ -40,7 +40,7 @@ pub fn direct_response(
     let solved =
         crate::parallel::map::<_, _, Result<Vec<_>, _>>(frequencies_hz.chunks(at_once), |lines| {
             // A stiffness of each line's own leaves nothing to share.
-            let shared = match system.is_tabled() {
+            let shared = match system.matrices.is_tabled() {
                 true => vec![None; lines.len()],
                 false => driven.solve_together(lines),
             };

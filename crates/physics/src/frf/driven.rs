@@ -2,7 +2,7 @@
 
 use super::{FrfError, FrfSystem, Port};
 use crate::linalg::{
-    ComplexSparseLu, LdlAnalysis, LinalgError, LuAnalysis, MatMut, SparseLdl, SparseLu, c64,
+    ComplexSparseLu, LdlAnalysis, LinalgError, LuAnalysis, MatMut, RealFactors, c64,
 };
 
 /// Factors of a frequency by which a real factorization evades an undamped resonance: beside it it serves as well.
@@ -42,10 +42,10 @@ impl<'a> Driven<'a> {
     pub fn real_factors(&self, frequency_hz: f64) -> Result<RealFactors, FrfError> {
         let factorized = |moved: f64| -> Result<RealFactors, LinalgError> {
             let values = self.system.undamped_stiffness(frequency_hz * moved);
-            Ok(match self.system.is_symmetric {
-                true => RealFactors::Symmetric(SparseLdl::factorize(&self.ldl, &values)?),
-                false => RealFactors::General(Box::new(SparseLu::factorize(&self.lu, values)?)),
-            })
+            match self.system.is_symmetric {
+                true => RealFactors::symmetric(&self.ldl, &values),
+                false => RealFactors::general(&self.lu, values),
+            }
         };
         let [first, others @ ..] = BESIDE;
         let found = others
@@ -55,22 +55,13 @@ impl<'a> Driven<'a> {
     }
 }
 
-/// Real factors, of a symmetric matrix where it is one.
-pub(super) enum RealFactors {
-    Symmetric(SparseLdl),
-    General(Box<SparseLu>),
-}
-
-impl RealFactors {
-    /// The solution of the system, or of the transposed one.
-    pub fn solve(&self, mut x: Vec<f64>, is_transposed: bool) -> Vec<f64> {
-        let count = x.len();
-        let column = MatMut::from_column_major_slice_mut(&mut x, count, 1);
-        match self {
-            Self::Symmetric(ldl) => ldl.solve_in_place(column),
-            Self::General(lu) if is_transposed => lu.solve_transpose_in_place(column),
-            Self::General(lu) => lu.solve_in_place(column),
-        }
-        x
+/// The solution for one right side, or that of the transposed system.
+pub(super) fn solved(factors: &RealFactors, mut x: Vec<f64>, is_transposed: bool) -> Vec<f64> {
+    let count = x.len();
+    let column = MatMut::from_column_major_slice_mut(&mut x, count, 1);
+    match is_transposed {
+        true => factors.solve_transpose_in_place(column),
+        false => factors.solve_in_place(column),
     }
+    x
 }

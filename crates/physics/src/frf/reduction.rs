@@ -1,11 +1,12 @@
 //! Response of a projected model.
 
-use super::driven::Driven;
+use super::driven::{Driven, solved};
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem, Port};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use crate::order::range;
+use crate::prestress::MotionMatrices;
 use std::f64::consts::TAU;
 
 /// Krylov vectors taken at each shift, for force and response each.
@@ -123,7 +124,6 @@ fn check_lines(frequencies_hz: &[f64], receptance: &[c64], shifts: &[f64]) -> Ve
 /// The basis with the Krylov vectors of one more shift.
 fn extended(driven: &Driven<'_>, mut basis: Mat<f64>, shift_hz: f64) -> Result<Mat<f64>, FrfError> {
     let (system, factors) = (driven.system, driven.real_factors(shift_hz)?);
-    let [mass, _, _] = system.matrices();
     let n = system.dimension();
     for (start, is_transposed) in [(driven.force, false), (driven.response, true)] {
         // Each chain is orthogonalized in itself alone: with vectors of the other chain mixed in, the
@@ -131,13 +131,13 @@ fn extended(driven: &Driven<'_>, mut basis: Mat<f64>, shift_hz: f64) -> Result<M
         let mut chain = Mat::<f64>::zeros(n, 0);
         let mut right = start.force(n);
         for _ in 0..MOMENTS {
-            let solved = factors.solve(right, is_transposed);
+            let solved = solved(&factors, right, is_transposed);
             let x = Mat::from_fn(n, 1, |i, _| solved[i]);
             let new = orthonormalize(chain.as_ref(), x, DROP).columns;
             if new.ncols() == 0 {
                 break;
             }
-            right = system.multiply(mass, new.col_as_slice(0), is_transposed);
+            right = system.multiply(&system.matrices.mass, new.col_as_slice(0), is_transposed);
             chain = join_columns(chain.as_ref(), new.as_ref());
         }
         let new = orthonormalize(basis.as_ref(), chain, DROP).columns;
@@ -158,7 +158,8 @@ impl ReducedModel {
     fn project(driven: &Driven<'_>, basis: &Mat<f64>) -> Self {
         let system = driven.system;
         let count = basis.ncols();
-        let matrices = system.matrices().map(|values| {
+        let MotionMatrices { mass, damping, stiffness, .. } = &system.matrices;
+        let matrices = [mass, damping, stiffness].map(|values| {
             let mut image = Mat::<f64>::zeros(basis.nrows(), count);
             for j in 0..count {
                 let y = system.multiply(values, basis.col_as_slice(j), false);

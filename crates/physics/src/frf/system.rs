@@ -3,9 +3,11 @@
 use super::{Axis, Direction, FrfError, NodeFault, Port, Terminal};
 use crate::contact::Row;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
-use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
+use crate::linalg::{SparsityPattern, c64};
 use crate::mesh::Mesh;
-use crate::prestress::{ContactDofs, Elimination, LossGain, SlidingTangent, TangentOptions, Terms};
+use crate::prestress::{
+    ContactDofs, Elimination, MotionMatrices, SlidingTangent, TangentOptions, Terms,
+};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -22,11 +24,8 @@ pub(super) const GROWTH_BOUND: f64 = 1e15;
 pub struct FrfSystem {
     /// The pattern of all matrices.
     pub(super) pattern: Arc<SparsityPattern>,
-    mass: Vec<f64>,
-    damping: Vec<f64>,
-    stiffness: Vec<f64>,
-    /// What structural damping `H` and tables over frequency add to the stiffness, with its nonzeros.
-    losses: Vec<(LossGain, Vec<f64>)>,
+    /// Their nonzeros.
+    pub(super) matrices: MotionMatrices<Vec<f64>>,
     /// Coefficients of `C = alpha_R M + beta_R K`; `None` for any other damping.
     pub(super) proportional: Option<RayleighDamping>,
     /// Whether `M` and `K` are known to be symmetric.
@@ -60,15 +59,9 @@ impl FrfSystem {
     /// With rigid contact the normal displacement of the contact nodes is no unknown; the force of
     /// excitation acts on the body, not through the contact.
     pub fn sliding(tangent: &SlidingTangent, friction_coefficient: f64) -> Self {
-        let of_loss = |(gain, own): &(LossGain, MatrixPolynomial)| {
-            (gain.clone(), own.evaluate(friction_coefficient))
-        };
         Self {
             pattern: Arc::clone(tangent.stiffness.pattern()),
-            mass: tangent.mass.evaluate(friction_coefficient),
-            damping: tangent.damping.evaluate(friction_coefficient),
-            stiffness: tangent.stiffness.evaluate(friction_coefficient),
-            losses: tangent.losses.iter().map(of_loss).collect(),
+            matrices: MotionMatrices::of(tangent, |own| own.evaluate(friction_coefficient)),
             proportional: tangent.proportional,
             is_symmetric: false,
             unknowns: tangent.unknowns.clone(),
@@ -135,11 +128,6 @@ impl FrfSystem {
         Ok(Port(shares))
     }
 
-    /// Nonzeros of `M`, `C`, `K`.
-    pub(super) fn matrices(&self) -> [&[f64]; 3] {
-        [&self.mass, &self.damping, &self.stiffness]
-    }
-
     /// `|e_force - A x|` and `|A| |x|` for `A = K + i H + i omega C - omega^2 M`, in the largest norm.
     pub(super) fn residual(&self, frequency_hz: f64, x: &[c64], force: &Port) -> (f64, f64) {
         let matrix = self.dynamic_stiffness(frequency_hz);
@@ -160,36 +148,20 @@ impl FrfSystem {
         (if is_finite { residual } else { f64::INFINITY }, size)
     }
 
-    /// Whether stiffness depends on frequency.
-    pub(super) fn is_tabled(&self) -> bool {
-        self.losses.iter().any(|(gain, _)| gain.0.is_some())
-    }
-
     /// Nonzeros of `K + i H + i omega C - omega^2 M`, with what tables add at that frequency.
     pub(super) fn dynamic_stiffness(&self, frequency_hz: f64) -> Vec<c64> {
-        let omega = TAU * frequency_hz;
-        let mut matrix: Vec<c64> = (0..self.mass.len())
-            .map(|k| {
-                let real = self.stiffness[k] - omega * omega * self.mass[k];
-                c64::new(real, omega * self.damping[k])
-            })
-            .collect();
-        for (gain, stiffness) in &self.losses {
-            let factor = gain.at(c64::new(0.0, omega));
-            let entries = matrix.iter_mut().zip(stiffness);
-            entries.for_each(|(value, k)| *value += factor * *k);
-        }
-        matrix
+        self.matrices.at(c64::new(0.0, TAU * frequency_hz))
     }
 
     /// `(2 omega M - i C) x + omega M w`.
     pub(super) fn slope(&self, omega: f64, x: &[c64], w: &[c64]) -> Vec<c64> {
+        let MotionMatrices { mass, damping, .. } = &self.matrices;
         let mut y = vec![c64::new(0.0, 0.0); x.len()];
         for (column, (x, w)) in x.iter().zip(w).enumerate() {
             let moved = (x * 2.0 + w) * omega;
             let turned = c64::new(x.im, -x.re);
             for (k, row) in self.pattern.column(column) {
-                y[row] += moved * self.mass[k] + turned * self.damping[k];
+                y[row] += moved * mass[k] + turned * damping[k];
             }
         }
         y
@@ -198,7 +170,7 @@ impl FrfSystem {
     /// Nonzeros of `K - omega^2 M`.
     pub(super) fn undamped_stiffness(&self, frequency_hz: f64) -> Vec<f64> {
         let omega = TAU * frequency_hz;
-        let pairs = self.stiffness.iter().zip(&self.mass);
+        let pairs = self.matrices.stiffness.iter().zip(&self.matrices.mass);
         pairs.map(|(k, m)| k - omega * omega * m).collect()
     }
 

@@ -1,6 +1,6 @@
 //! Tangents of a body with cyclic symmetry, one for each number of nodal diameters.
 
-use super::{ContactDofs, SlidingTangent};
+use super::{ContactDofs, MotionMatrices, SlidingTangent};
 use crate::fem::DofMap;
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::CyclicSymmetry;
@@ -146,12 +146,13 @@ impl<'a> CyclicTangent<'a> {
             let own = unknowns.iter().copied().filter(|unknown| *unknown < size);
             (0..blocks).flat_map(|block| own.clone().map(move |k| block * size + k)).collect()
         };
-        let losses = whole.losses.iter().map(|(gain, own)| (gain.clone(), of_waves(own)));
+        let MotionMatrices { stiffness, damping, mass, losses } =
+            MotionMatrices::of(whole, of_waves);
         SlidingTangent {
-            mass: of_waves(&whole.mass),
-            damping: of_waves(&whole.damping),
-            stiffness: of_waves(&whole.stiffness),
-            losses: losses.collect(),
+            mass,
+            damping,
+            stiffness,
+            losses,
             proportional: whole.proportional,
             is_gyroscopic: whole.is_gyroscopic,
             unknowns: DofMap::excluding(blocks * size, []),

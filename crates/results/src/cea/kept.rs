@@ -13,14 +13,14 @@ use std::sync::{Mutex, PoisonError};
 /// Where they are in the folder while the run goes on.
 const FOLDER: &str = "progress";
 const MAGIC: [u8; 8] = *b"FRSWSTEP";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
-/// A step: columns of numbers.
+/// A step of a sweep or a search.
 #[derive(Serialize, Deserialize)]
 struct Step {
     /// The program that found them: another one may take other steps.
     program: String,
-    columns: Vec<Vec<f64>>,
+    bytes: Vec<u8>,
 }
 
 /// Keeps the steps of a sweep in its output folder, one whole file each.
@@ -77,21 +77,19 @@ impl SweepWatch for KeptSteps<'_> {
         (self.heard)(progress);
     }
 
-    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+    fn recall(&self, name: &str) -> Option<Vec<u8>> {
         let bytes = read_file(&self.folder.path().join(Self::path(name)), RESULT).ok()?;
         // A step that is damaged is taken again.
         let payload = framed::read(&bytes, MAGIC, VERSION).ok()?;
         let step: Step = postcard::from_bytes(payload).ok()?;
-        (step.program == env!("CARGO_PKG_VERSION")).then_some(step.columns)
+        (step.program == env!("CARGO_PKG_VERSION")).then_some(step.bytes)
     }
 
-    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
+    fn keep(&self, name: &str, bytes: Vec<u8>) {
         let path = Self::path(name);
-        let written = self.folder.write_bulk(&path, |out| {
-            let step =
-                Step { program: env!("CARGO_PKG_VERSION").to_owned(), columns: columns.to_vec() };
-            framed::write(out, MAGIC, VERSION, &step)
-        });
+        let step = Step { program: env!("CARGO_PKG_VERSION").to_owned(), bytes };
+        let written =
+            self.folder.write_bulk(&path, |out| framed::write(out, MAGIC, VERSION, &step));
         let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
         names.insert(path);
         if let Err(error) = written

@@ -228,15 +228,15 @@ impl<'a> PeriodicStudy<'a> {
         let body = start.map_or_else(|| self.body(), |(key, value)| self.body_at(key, value));
         let mut map = self.map(body, operator, mode)?;
         // From the growing mode to the motion that repeats itself, and along the parameter.
-        let watch =
-            PartWatch { whole: watch, prefix: format!("mode{}-", place + 1), is_heard: false };
-        let known = watch.recall("cycle").and_then(|columns| Found::recalled(&mut map, &columns));
+        let prefix = format!("mode{}-", place + 1);
+        let watch: &dyn SweepWatch = &PartWatch { whole: watch, prefix, is_heard: false };
+        let known = watch.recalled("cycle").and_then(|kept| Found::recalled(&mut map, kept));
         let mut found = match known {
             Some(found) => found,
             None => find_from(&mut map, &self.steady.mode(place))?,
         };
-        watch.keep("cycle", &found.columns());
-        let branch = self.branch(operator, mode, &found, &watch);
+        watch.keep_value("cycle", &found.kept());
+        let branch = self.branch(operator, mode, &found, watch);
         let mut branch = branch.transpose()?;
         if self.start.is_some() {
             (map, found) = self.here(operator, mode, branch.as_mut())?;

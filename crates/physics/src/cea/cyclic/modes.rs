@@ -4,10 +4,10 @@ use super::branch::direction_of;
 use super::found::Wanted;
 use super::path::{Path, Waves};
 use super::paths::HarmonicPaths;
-use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, ModeWave, keeping_ties};
+use crate::cea::{ComplexMode, FrictionPoint, ModeWave};
 use crate::linalg::c64;
 use crate::prestress::WaveTangent;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// The modes wanted at every friction value that is asked for.
 pub(super) fn points(
@@ -37,13 +37,9 @@ fn point(
     modes.sort_by(|a, b| {
         a.eigenvalue.im.total_cmp(&b.eigenvalue.im).then_with(|| key(a).cmp(&key(b)))
     });
-    let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
-    let mut above = modes.split_off(match wanted.request.limit {
-        ModeLimit::Lowest(count) => keeping_ties(frequencies, count),
-        ModeLimit::MaxFrequency(limit) => frequencies.take_while(|own| *own <= TAU * limit).count(),
-    });
-    above.iter_mut().for_each(|mode| (mode.shape, mode.wave) = (None, None));
-    FrictionPoint { friction_coefficient: friction, modes, above }
+    let mut point = FrictionPoint::within(wanted.request.limit, friction, modes);
+    point.above.iter_mut().for_each(|mode| (mode.shape, mode.wave) = (None, None));
+    point
 }
 
 /// One wave of a path at one friction value, if it oscillates.

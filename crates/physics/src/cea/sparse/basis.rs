@@ -8,25 +8,19 @@ use super::mode::ReducedMode;
 use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
-use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
-use super::{
-    BESIDE, CHANGE_PLACES, CONVERGED, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS, ROUND_OFF,
-    SEARCH_WIDTH, SETTLED,
-};
+use super::structure::{ShiftInverted, StructureMatrices};
+use super::{CHANGE_PLACES, CONVERGED, GROUP_WIDTH, HALF_THE_DIGITS, ROUND_OFF, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
-    column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
-    orthonormal_complement, random_columns,
+    column, column_mut, column_norms, columns_of, dot, from_columns, join_rows, random_columns,
 };
 use crate::linalg::{
-    BlockOperator, KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur,
+    BlockOperator, KrylovSchurSettings, LdlAnalysis, MatrixPolynomial, RealFactors, krylov_schur,
 };
-use crate::linalg::{Mat, Scale, c64};
+use crate::linalg::{Mat, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 
-/// Friction values whose modes make up the compressed basis, besides the ends.
-const CHEBYSHEV_POINTS: usize = 5;
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and matrices and factors are
@@ -35,20 +29,18 @@ const START_WIDTH: usize = 4;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
 
-/// Block Davidson iteration over friction coefficients.
+/// Basis of the modes at a few friction coefficients, each from an iteration of its own ([`BasisBuilder::search`]).
 ///
-/// The modes at `mu` of the projected problem leave residuals `r`; `(K(0) - sigma M(0))^-1 r` are the directions that
-/// the basis lacks. This matrix is symmetric and factorized once: as a preconditioner for all `mu` it costs a
-/// fifth of the LU factors of `K(mu)`, and the directions found at one `mu` serve all others. A `sigma` amid the
-/// modes needs two thirds of the directions that `sigma = 0` needs. Where this does not converge (strong friction),
-/// [`BasisBuilder::search`] factorizes `K(mu)`.
+/// The modes at `mu` of the projected problem leave residuals `r`; `(K(0) - sigma M(0))^-1 r` are the directions that the basis lacks.
+/// This matrix is symmetric and factorized once: as a preconditioner for all `mu` it costs a fifth of the LU factors of `K(mu)`.
+/// A `sigma` amid the modes needs two thirds of the directions that `sigma = 0` needs.
 ///
 /// Source: E. R. Davidson, J. Comput. Phys. 17 (1975), here in blocks over a family of problems.
 pub struct BasisBuilder<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
     /// Factors of `K(0) - sigma M(0)`.
-    pub(super) factors: StiffnessFactors,
+    pub(super) factors: RealFactors,
     /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
     stiffness: Cow<'a, MatrixPolynomial>,
     pub(super) analysis: SharedAnalysis,
@@ -60,9 +52,6 @@ pub struct BasisBuilder<'a> {
     pub rigid: usize,
     /// Whether the basis spans all motions, those of a small body: nothing is left to search for.
     pub(super) is_whole: bool,
-    /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own. Else, where damping is
-    /// proportional and the contact alike all around, it grows by residuals: friction couples few modes, and a block holds all values.
-    pub(super) is_sampling: bool,
     /// Friction coefficients whose modes the basis holds as such.
     sampled: Vec<f64>,
     watch: &'a dyn SweepWatch,
@@ -77,7 +66,7 @@ impl<'a> BasisBuilder<'a> {
         tangent: &'a SlidingTangent,
         linearization: Linearization,
         (modes, rigid): (&Mat<f64>, usize),
-        factors: StiffnessFactors,
+        factors: RealFactors,
         watch: &'a dyn SweepWatch,
     ) -> Self {
         let mut model = ReducedModel::empty(tangent, linearization);
@@ -85,7 +74,6 @@ impl<'a> BasisBuilder<'a> {
         let (first, others) = modes.split_at_col(rigid);
         model.extend(first.to_owned(), HALF_THE_DIGITS);
         model.extend(others.to_owned(), HALF_THE_DIGITS);
-        let has_symmetry = !tangent.contact.angles.is_empty();
         let unknowns = tangent.stiffness.dimension();
         let is_whole = unknowns <= DENSE_UP_TO && !tangent.is_tabled();
         if is_whole {
@@ -101,8 +89,6 @@ impl<'a> BasisBuilder<'a> {
             count: modes.ncols() - rigid,
             rigid,
             is_whole,
-            is_sampling: !(is_whole
-                || matches!(linearization, Linearization::Reduced(..)) && has_symmetry),
             sampled: Vec::new(),
             watch,
             steps: 0,
@@ -128,12 +114,12 @@ impl<'a> BasisBuilder<'a> {
         let found: Vec<Result<_, E>> =
             crate::parallel::map(values.iter().enumerate(), |(i, &mu)| {
                 let name = format!("basis-{:04}-at-{mu:?}", own.steps + i);
-                let kept = own.watch.recall(&name);
+                let kept = own.watch.recalled::<Vec<_>>(&name);
                 if let Some(columns) = kept.and_then(|columns| from_columns(&columns, unknowns)) {
                     return Ok(columns);
                 }
                 let columns = find(own, mu)?;
-                own.watch.keep(&name, &columns_of(&columns));
+                own.watch.keep_value(&name, &columns_of(&columns));
                 Ok(columns)
             });
         self.steps += values.len();
@@ -145,88 +131,21 @@ impl<'a> BasisBuilder<'a> {
         found.into_iter().collect()
     }
 
-    /// Refines at `values` (friction coefficients, ascending) in a spread-out order until corrections
-    /// vanish; of the quadratic problem, takes up the modes at the ends and in the middle.
+    /// Takes up the modes at the ends and in the middle of `values`, friction coefficients, ascending.
     ///
     /// # Errors
     /// If a dense decomposition or an iteration fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
-        if self.is_sampling {
-            let (mut open, mut held) = (Vec::new(), Vec::new());
-            for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
-                let is_held = self.is_sampled(mu) || open.contains(&mu);
-                if is_held { &mut held } else { &mut open }.push(mu);
-            }
-            self.sample(&open)?;
-            return held.into_iter().try_for_each(|mu| self.improve_at(mu).map(|_| ()));
+        let (mut open, mut held) = (Vec::new(), Vec::new());
+        for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
+            let is_held = self.is_sampled(mu) || open.contains(&mu);
+            if is_held { &mut held } else { &mut open }.push(mu);
         }
-        for &mu in spread(values).iter().cycle().take(MOST_STEPS) {
-            // The last corrections need no other look: points are checked.
-            let is_done = |longest: f64| longest <= CONVERGED;
-            if self.refine_at(mu)?.is_none_or(is_done) {
-                break;
-            }
-        }
-        if values.len() > CHEBYSHEV_POINTS {
-            self.compress(values)?;
+        self.sample(&open)?;
+        for mu in held {
+            self.improve_at(mu)?;
         }
         Ok(())
-    }
-
-    /// Drops what the modes do not need: keeps their span at some of `values` (Chebyshev points, as the
-    /// modes are smooth functions of the friction coefficient) and at 0.
-    fn compress(&mut self, values: &[f64]) -> Result<(), LinalgError> {
-        let last = values.len() - 1;
-        let angles = (0..CHEBYSHEV_POINTS).map(|i| (i as f64 + 0.5) / CHEBYSHEV_POINTS as f64);
-        let positions = angles.map(|t| 0.5 - 0.5 * (t * std::f64::consts::PI).cos());
-        let mut picked: Vec<usize> =
-            positions.map(|t| (t * last as f64).round() as usize).chain([0, last]).collect();
-        picked.sort_unstable();
-        picked.dedup();
-        let m = self.model.dimension();
-        let mut vectors = Mat::zeros(m, 0);
-        for mu in picked.into_iter().map(|i| values[i]).chain([0.0]) {
-            let modes = self.model.solve_right(mu, self.count)?;
-            let coordinates = PackedModes::of(&modes, m).coordinates;
-            vectors = join_columns(vectors.as_ref(), coordinates.as_ref());
-        }
-        let none = Mat::<f64>::zeros(m, 0);
-        let kept = orthonormal_complement(none.as_ref(), vectors, 0.5 * CONVERGED);
-        self.model.compress(&kept);
-        Ok(())
-    }
-
-    /// One refinement at one friction coefficient; the length of its longest correction, if it added any.
-    ///
-    /// Corrections follow one another like the vectors of a Krylov iteration with `(K(0) - sigma M(0))^-1 M(0)`, so as
-    /// many steps of it as their length asks for are taken at once: only the last corrections need new residuals.
-    pub fn refine_at(&mut self, mu: f64) -> Result<Option<f64>, LinalgError> {
-        let modes = self.model.solve_right(mu, self.count)?;
-        let corrections =
-            self.step(mu, |builder| Ok::<_, LinalgError>(builder.corrections(&modes, mu)))?;
-        let longest = column_norms(corrections.as_ref()).into_iter().fold(0.0, f64::max);
-        let mut new = self.model.extend(corrections, SETTLED * longest);
-        let has_added = new.ncols() > 0;
-        // A step wins about a decade and a half, and costs half of another refinement, which needs residuals.
-        let steps = 0.7 * (longest / CONVERGED).log10();
-        // `|kappa|`, or `|lambda|^2`, of the highest of the modes.
-        let inertia = modes.iter().map(|own| own.eigenvalue.norm_sqr()).fold(0.0, f64::max);
-        // A negative number is none.
-        for _ in 0..steps as usize {
-            if new.ncols() == 0 {
-                break;
-            }
-            let image = self.step(mu, |builder| {
-                let mass = &builder.tangent.mass;
-                let values = &mass.coefficients()[0];
-                let mut image = mass.pattern().multiply(values, new.as_ref());
-                builder.factors.solve_in_place(&mut image);
-                image *= Scale(inertia);
-                Ok::<_, LinalgError>(image)
-            })?;
-            new = self.model.extend(image, BESIDE);
-        }
-        Ok(has_added.then_some(longest))
     }
 
     /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.
@@ -240,7 +159,7 @@ impl<'a> BasisBuilder<'a> {
             open.gather(&matrices, &group.entries, &vectors);
         }
         let mut corrections = open.columns.clone();
-        self.factors.solve_in_place(&mut corrections);
+        self.factors.solve_in_place(corrections.as_mut());
         open.with_energy(&corrections)
     }
 
@@ -263,7 +182,7 @@ impl<'a> BasisBuilder<'a> {
     /// Takes the vectors of modes at `mu` into the basis.
     fn take(&mut self, mu: f64, vectors: &Mat<f64>) {
         self.model.extend(vectors.clone(), ROUND_OFF);
-        if self.is_sampling {
+        if !self.is_whole {
             self.model.hold_sample(mu, vectors);
         }
     }
@@ -280,11 +199,12 @@ impl<'a> BasisBuilder<'a> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let factors = match mu {
             0.0 if self.linearization.is_symmetric(self.tangent) => {
-                StiffnessFactors::frictionless(&self.stiffness)?
+                let analysis = LdlAnalysis::new(self.stiffness.pattern())?;
+                RealFactors::symmetric(&analysis, &self.stiffness.evaluate(mu))?
             }
             _ => {
                 let analysis = self.analysis.of(self.stiffness.pattern())?;
-                StiffnessFactors::general(&self.stiffness, analysis, mu)?
+                RealFactors::general(analysis, self.stiffness.evaluate(mu))?
             }
         };
         let operator = ShiftInverted::new(&matrices, &factors);
@@ -351,42 +271,5 @@ pub(super) fn turn_to_real(vectors: &mut Mat<f64>) {
             let target = column_mut(vectors, j + half).iter_mut();
             target.zip(&turned).for_each(|(v, t)| *v = t[half]);
         }
-    }
-}
-
-/// The values in an order that samples their range evenly at any time: the largest first, then the
-/// middle, the quarters, and so on.
-fn spread(values: &[f64]) -> Vec<f64> {
-    let count = values.len();
-    let mut order: Vec<usize> = Vec::with_capacity(count);
-    let mut denominator = 1;
-    while order.len() < count {
-        for numerator in (1..=denominator).rev().filter(|n| denominator == 1 || n % 2 == 1) {
-            let index = (count * numerator).div_ceil(denominator) - 1;
-            if !order.contains(&index) {
-                order.push(index);
-            }
-        }
-        denominator *= 2;
-        if denominator > 2 * count {
-            order.extend((0..count).filter(|i| !order.contains(i)).collect::<Vec<_>>());
-        }
-    }
-    order.into_iter().map(|i| values[i]).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn spread_visits_each_value_once_and_the_ends_and_middle_first() {
-        let values: Vec<f64> = (0..9).map(f64::from).collect();
-        let order = spread(&values);
-        assert_eq!(order[..2], [8.0, 4.0]);
-        let mut sorted = order.clone();
-        sorted.sort_by(f64::total_cmp);
-        assert_eq!(sorted, values);
-        assert_eq!(spread(&[0.3]), [0.3]);
     }
 }

@@ -3,14 +3,13 @@
 use super::basis::scale_to_unit_length;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
-use super::structure::StiffnessFactors;
 use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS, NEAR};
 use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
 use crate::linalg::{
     LanczosPairs, LanczosSettings, LdlAnalysis, LinalgError, Mat, MatRef, MatrixPolynomial,
-    SparseLdl, SymmetricPencil, block_lanczos,
+    RealFactors, SparseLdl, SymmetricPencil, block_lanczos,
 };
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
@@ -34,7 +33,7 @@ pub struct FrictionlessModes {
     /// Where the eigenproblems with friction are centred.
     pub centre: Centre,
     /// Factors of `K(0) - sigma M(0)`, `sigma` amid the modes where it can be.
-    pub factors: StiffnessFactors,
+    pub factors: RealFactors,
 }
 
 impl FrictionlessModes {
@@ -60,16 +59,17 @@ impl FrictionlessModes {
         const NAME: &str = "frictionless";
         let inertia = Inertia::new(tangent)?;
         let unknowns = tangent.stiffness.dimension();
-        if let Some((vectors, frequencies, centre)) = recalled(watch.recall(NAME), unknowns) {
+        if let Some((columns, frequencies, centre)) =
+            watch.recalled::<(Vec<_>, Vec<f64>, Centre)>(NAME)
+            && let Some(vectors) = from_columns(&columns, unknowns)
+        {
             let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
             let rigid = vectors.ncols() - frequencies.len();
             return Ok(Self { vectors, rigid, frequencies, centre, factors });
         }
         let found = Self::found_by(tangent, &inertia, limit)?;
-        let mut columns = columns_of(&found.vectors);
-        columns.push(found.frequencies.clone());
-        columns.push(vec![found.centre.shift, found.centre.rigid]);
-        watch.keep(NAME, &columns);
+        let vectors = columns_of(&found.vectors);
+        watch.keep_value(NAME, &(vectors, &found.frequencies, found.centre));
         Ok(found)
     }
 
@@ -216,18 +216,6 @@ impl SymmetricPencil for ShiftedPencil<'_> {
     }
 }
 
-/// Vectors, frequencies and centre that were kept, if they are some.
-fn recalled(kept: Option<Vec<Vec<f64>>>, unknowns: usize) -> Option<(Mat<f64>, Vec<f64>, Centre)> {
-    let mut columns = kept?;
-    let &[shift, rigid] = &columns.pop()?[..] else {
-        return None;
-    };
-    let frequencies = columns.pop()?;
-    let is_whole = frequencies.len() <= columns.len() && !columns.is_empty();
-    let vectors = from_columns(&columns, unknowns)?;
-    is_whole.then_some((vectors, frequencies, Centre { shift, rigid }))
-}
-
 /// Number of leading frequencies before the widest relative gap at or after `wanted`.
 fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
     let gap = |i: usize| match frequencies[i] {
@@ -351,12 +339,11 @@ impl<'a> Inertia<'a> {
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes, else those of `K + shift M`.
-    fn factors(&self, frequencies: &[f64], shift: f64) -> Result<StiffnessFactors, LinalgError> {
-        let factorize = |shift: f64| SparseLdl::factorize(&self.analysis, &self.shifted(shift));
+    fn factors(&self, frequencies: &[f64], shift: f64) -> Result<RealFactors, LinalgError> {
+        let factorize = |shift: f64| RealFactors::symmetric(&self.analysis, &self.shifted(shift));
         // There may be no such gap, or no such factors.
         let amid = frequency_amid(frequencies).and_then(|amid| factorize(amid.powi(2)).ok());
-        let ldl = amid.map_or_else(|| factorize(-shift), Ok)?;
-        Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
+        amid.map_or_else(|| factorize(-shift), Ok)
     }
 
     /// Values of `K - shift M`.

@@ -1,11 +1,10 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
 use super::packed::add_complex_multiple;
-use super::pencil::Pencil;
 use crate::linalg::{
     ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial, SparsityPattern, c64,
 };
-use crate::prestress::SlidingTangent;
+use crate::prestress::{MotionMatrices, SlidingTangent};
 use std::sync::{Arc, OnceLock};
 
 /// Order of elimination of all matrices of one tangent, made for the first factors.
@@ -24,7 +23,7 @@ pub struct FullProblem<'a> {
     pattern: &'a Arc<SparsityPattern>,
     analysis: SharedAnalysis,
     /// Nonzero values of the matrices.
-    values: Pencil<Vec<f64>>,
+    values: MotionMatrices<Vec<f64>>,
 }
 
 impl<'a> FullProblem<'a> {
@@ -43,7 +42,7 @@ impl<'a> FullProblem<'a> {
         Self {
             pattern: tangent.stiffness.pattern(),
             analysis: SharedAnalysis::default(),
-            values: Pencil::of(tangent, values),
+            values: MotionMatrices::of(tangent, values),
         }
     }
 
@@ -52,18 +51,9 @@ impl<'a> FullProblem<'a> {
         self.pattern.dimension()
     }
 
-    /// Nonzero values of `T(lambda)`.
-    fn pencil(&self, lambda: c64) -> Vec<c64> {
-        let mut pencil = vec![c64::new(0.0, 0.0); self.pattern.nonzero_count()];
-        for (factor, values) in self.values.terms(lambda) {
-            pencil.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * *value);
-        }
-        pencil
-    }
-
     /// `T(lambda) x` or, of a left vector, `T(lambda)^T x`.
     pub fn residual(&self, lambda: c64, x: &[c64], is_left: bool) -> Vec<c64> {
-        let pencil = self.pencil(lambda);
+        let pencil = self.values.at(lambda);
         let mut residual = vec![c64::new(0.0, 0.0); self.dimension()];
         for j in 0..self.dimension() {
             for (at, i) in self.pattern.column(j) {
@@ -76,23 +66,22 @@ impl<'a> FullProblem<'a> {
 
     /// LU factors of `T(lambda)`.
     pub fn factors(&self, lambda: c64) -> Result<ComplexSparseLu, LinalgError> {
-        ComplexSparseLu::factorize(self.analysis.of(self.pattern)?, self.pencil(lambda))
+        ComplexSparseLu::factorize(self.analysis.of(self.pattern)?, self.values.at(lambda))
     }
 
     /// `ln det T(lambda)`, up to multiples of `2 pi i`; an error at an eigenvalue.
     pub fn ln_determinant(&self, lambda: c64) -> Result<c64, LinalgError> {
-        self.analysis.of(self.pattern)?.ln_determinant(&self.pencil(lambda))
+        self.analysis.of(self.pattern)?.ln_determinant(&self.values.at(lambda))
     }
 
     /// `P^T w` of each matrix.
-    pub fn transposed_images(&self, w: MatRef<'_, f64>) -> Pencil<Mat<f64>> {
-        let Pencil { stiffness, damping, mass, structural, tabled } = &self.values;
-        let image = |values: &Vec<f64>| self.pattern.multiply_transpose(values, w);
-        let tabled = tabled.iter().map(|(gain, values)| (gain.clone(), image(values)));
+    pub fn transposed_images(&self, w: MatRef<'_, f64>) -> MotionMatrices<Mat<f64>> {
+        let MotionMatrices { stiffness, damping, mass, losses } = &self.values;
+        let image = |values: &[f64]| self.pattern.multiply_transpose(values, w);
+        let losses = losses.iter().map(|(gain, values)| (gain.clone(), image(values))).collect();
         let [stiffness, damping, mass] =
             self.pattern.multiply_transpose_each([stiffness, damping, mass], w);
-        let structural = structural.as_ref().map(image);
-        Pencil { stiffness, damping, mass, structural, tabled: tabled.collect() }
+        MotionMatrices { stiffness, damping, mass, losses }
     }
 
     /// `T(lambda)^T w` of each of `values` with its two columns of `w`, real and imaginary part.
@@ -122,8 +111,8 @@ impl<'a> FullProblem<'a> {
 
     /// `w^T (dK/d omega) x` of stiffness that depends on frequency, at that of `lambda`.
     pub fn own_slope(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
-        let tabled = self.values.tabled.iter();
-        tabled.map(|(gain, k)| gain.slope(lambda) * form(self.pattern, k, w, x)).sum()
+        let tabled = self.values.own_rates(lambda);
+        tabled.map(|(rate, k)| rate * form(self.pattern, k, w, x)).sum()
     }
 }
 

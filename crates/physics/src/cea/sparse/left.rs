@@ -1,16 +1,14 @@
 //! Left vectors that a basis of right ones does not hold.
 
-use super::StiffnessFactors;
 use super::full_problem::FullProblem;
 use super::packed::{joined, side_by_side};
-use super::pencil::Pencil;
 use super::projected::ProjectedMatrices;
 use super::{BESIDE, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS};
 use crate::cea::ModeVectors;
 use crate::linalg::dense::{product, transpose_product};
 use crate::linalg::vectors::{dot, length};
-use crate::linalg::{ComplexDenseLu, Mat, c64};
-use crate::prestress::SlidingTangent;
+use crate::linalg::{ComplexDenseLu, Mat, RealFactors, c64};
+use crate::prestress::{MotionMatrices, SlidingTangent};
 use std::ops::Deref;
 use std::sync::LazyLock;
 
@@ -40,7 +38,7 @@ fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64
 /// R. A. Nicolaides, SIAM J. Numer. Anal. 24 (1987), deflation.
 pub fn correct_lefts(
     tangent: &SlidingTangent,
-    (factors, modes): (&StiffnessFactors, Mat<f64>),
+    (factors, modes): (&RealFactors, Mat<f64>),
     mu: f64,
     pairs: &mut [ModeVectors],
 ) {
@@ -59,7 +57,7 @@ pub fn correct_lefts(
 /// The problem among some motions `Z`: `P^T Z` and `Z^T P^T Z` of the matrices of `T(lambda)`.
 struct AmongModes {
     modes: Mat<f64>,
-    images: Pencil<Mat<f64>>,
+    images: MotionMatrices<Mat<f64>>,
     small: ProjectedMatrices,
 }
 
@@ -109,7 +107,7 @@ type Mapped = [Vec<c64>; 3];
 /// Corrects some modes together.
 fn correct_group(
     problem: &FullProblem<'_>,
-    (factors, modes): (&StiffnessFactors, &impl Deref<Target = AmongModes>),
+    (factors, modes): (&RealFactors, &impl Deref<Target = AmongModes>),
     pairs: &mut [ModeVectors],
 ) {
     let eigenvalues: Vec<c64> = pairs.iter().map(|pair| pair.eigenvalue).collect();
@@ -122,7 +120,7 @@ fn correct_group(
     let mapped = |vectors: Vec<[Vec<c64>; 2]>| -> Vec<Mapped> {
         let images: Vec<&[c64]> = vectors.iter().map(|[_, image]| &image[..]).collect();
         let mut solved = side_by_side(problem.dimension(), &images);
-        factors.solve_in_place(&mut solved);
+        factors.solve_in_place(solved.as_mut());
         let all = vectors.into_iter().enumerate();
         all.map(|(k, [vector, image])| [vector, image, joined(&solved, k)]).collect()
     };

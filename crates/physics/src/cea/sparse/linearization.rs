@@ -4,11 +4,12 @@ use crate::cea::counted::is_vibration;
 use crate::fem::RayleighDamping;
 use crate::linalg::{MatrixPolynomial, c64};
 use crate::prestress::SlidingTangent;
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// The point about which eigenvalues are searched for: `K + c C + c^2 M`, or `K + c^2 M`, takes the place of `K` in factors, so that
 /// they exist however a body is held, and softly held bodies lose no digits.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Centre {
     /// `c`, rad/s.
     pub shift: f64,

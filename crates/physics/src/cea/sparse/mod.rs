@@ -2,9 +2,9 @@
 //!
 //! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by block Lanczos iteration; the inertia of
 //!    `K - sigma M` proves that none is missing.
-//! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. Where damping is proportional it
-//!    grows by residuals. Otherwise it takes up the modes at a few friction coefficients, chosen where residuals are
-//!    largest, each from a Krylov iteration ([`crate::linalg::krylov_schur`]). Of a small body it spans all motions.
+//! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. It takes up the modes at a few of
+//!    these, chosen where residuals are largest, each from a Krylov iteration ([`crate::linalg::krylov_schur`]). Of a
+//!    small body it spans all motions.
 //! 3. [`SparseSweep::solve`]: the projected problem at each friction coefficient, in parallel; every mode is
 //!    held to its residual in the full matrices. Where one fails a ladder is climbed: corrections by the factors
 //!    without friction, then by factors of the full problem beside the modes ([`FullProblem`]). Strongly damped
@@ -35,7 +35,6 @@ mod open_residuals;
 mod own_frequency;
 mod packed;
 mod pairs;
-mod pencil;
 mod point;
 mod projected;
 mod reduced;
@@ -57,7 +56,7 @@ pub use linearization::{Centre, Linearization};
 pub use nodal_diameters::sweep_by_diameters;
 pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, SolvedPoint};
-pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
+pub use structure::{ShiftInverted, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range

@@ -36,7 +36,26 @@ pub struct ModeAt {
 /// A friction coefficient and its modes.
 pub type ModesAt<'a> = (f64, &'a [ReducedMode]);
 
+/// What is kept of a mode: eigenvalue, inverse value and derivative, right and left vector.
+pub type KeptMode = ([[f64; 2]; 3], Vec<[f64; 2]>, Vec<[f64; 2]>);
+
 impl ReducedMode {
+    /// What is kept of it, bit by bit.
+    pub fn kept(&self) -> KeptMode {
+        let pair = |v: c64| [v.re, v.im];
+        let [right, left] = [&self.right, &self.left].map(|own| own.iter().copied().map(pair));
+        let scalars = [self.eigenvalue, self.inverse_value, self.derivative].map(pair);
+        (scalars, right.collect(), left.collect())
+    }
+
+    /// The mode that was kept.
+    pub fn recalled((scalars, right, left): KeptMode) -> Self {
+        let complex = |[re, im]: [f64; 2]| c64::new(re, im);
+        let [eigenvalue, inverse_value, derivative] = scalars.map(complex);
+        let [right, left] = [right, left].map(|own| own.into_iter().map(complex).collect());
+        Self { eigenvalue, inverse_value, derivative, right, left }
+    }
+
     /// The same with other coordinates of its vectors.
     pub fn map(&self, change: impl Fn(&[c64]) -> Vec<c64>) -> Self {
         let [right, left] = [&self.right, &self.left].map(|own| change(own));
@@ -83,32 +102,4 @@ impl ReducedMode {
         distance <= SAME_EIGENVALUE * self.eigenvalue.norm()
             && dot(&self.right, &other.right).norm() > (1.0 - NEAR) * lengths
     }
-}
-
-/// Modes as columns of numbers, bit by bit.
-pub fn to_columns(modes: &[ReducedMode]) -> Vec<Vec<f64>> {
-    let flat = |values: &[c64]| values.iter().flat_map(|v| [v.re, v.im]).collect::<Vec<f64>>();
-    let columns = modes.iter().flat_map(|mode| {
-        let scalars = [mode.eigenvalue, mode.inverse_value, mode.derivative];
-        [flat(&scalars), flat(&mode.right), flat(&mode.left)]
-    });
-    columns.collect()
-}
-
-/// The modes that became these columns; nothing of columns that are no modes.
-pub fn from_columns(columns: &[Vec<f64>]) -> Option<Vec<ReducedMode>> {
-    let paired = |column: &Vec<f64>| -> Option<Vec<c64>> {
-        let (pairs, rest) = column.as_chunks::<2>();
-        let whole = pairs.iter().map(|[re, im]| c64::new(*re, *im)).collect();
-        rest.is_empty().then_some(whole)
-    };
-    let (modes, rest) = columns.as_chunks::<3>();
-    let mode = |[scalars, right, left]: &[Vec<f64>; 3]| {
-        let [eigenvalue, inverse_value, derivative] = paired(scalars)?[..] else {
-            return None;
-        };
-        let (right, left) = (paired(right)?, paired(left)?);
-        Some(ReducedMode { eigenvalue, inverse_value, derivative, right, left })
-    };
-    modes.iter().map(mode).collect::<Option<_>>().filter(|_| rest.is_empty())
 }

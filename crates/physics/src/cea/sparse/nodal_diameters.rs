@@ -213,13 +213,9 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         let own = parts.iter().flat_map(|part| part.points[k].modes.iter().cloned());
         let mut modes: Vec<ComplexMode> = own.collect();
         crate::order::sort_by_number(&mut modes, |a| a.eigenvalue.im);
-        let mut above = Vec::new();
-        if let ModeLimit::Lowest(wanted) = limit {
-            let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
-            above = modes.split_off(keeping_ties(frequencies, wanted));
-        }
-        above.extend(parts.iter().flat_map(|part| part.points[k].above.iter().cloned()));
-        FrictionPoint { friction_coefficient, modes, above }
+        let mut point = FrictionPoint::within(limit, friction_coefficient, modes);
+        point.above.extend(parts.iter().flat_map(|part| part.points[k].above.iter().cloned()));
+        point
     });
     let points: Vec<FrictionPoint> = points.collect();
     let counts = merged_counts(&parts, &points);

@@ -2,16 +2,16 @@
 
 use super::mode::ReducedMode;
 use super::packed::forms;
-use super::pencil::Pencil;
 use super::term::{Term, projected};
 use super::{HALF_THE_DIGITS, LITTLE, MOST_STEPS, SETTLED};
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, column_mut, product, transpose_product};
 use crate::linalg::{ComplexDenseLu, FrictionWeights, Mat, Scale, c64};
+use crate::prestress::{LossGain, MotionMatrices};
 use std::f64::consts::TAU;
 
 /// `V^T P V` of the matrices `P`, or of their derivatives, at one friction coefficient.
-pub type ProjectedMatrices = Pencil<Mat<f64>>;
+pub type ProjectedMatrices = MotionMatrices<Mat<f64>>;
 
 impl ProjectedMatrices {
     /// The matrices projected once more, on orthonormal `columns` of coordinates.
@@ -19,7 +19,7 @@ impl ProjectedMatrices {
         self.map(|p| projected(p, columns))
     }
 
-    /// `T(lambda) = lambda^2 M + lambda C + K + i H + sum_p g_p K_p`, `Im lambda > 0`, the last at the frequency of `lambda`.
+    /// `T(lambda) = lambda^2 M + lambda C + K + sum_p g_p K_p`, the last at the frequency of `lambda`.
     pub fn pencil(&self, lambda: c64) -> Mat<c64> {
         let m = self.mass.nrows();
         let mut pencil = Mat::zeros(m, m);
@@ -37,9 +37,8 @@ impl ProjectedMatrices {
         let lambda = c64::new(0.0, TAU * frequency_hz);
         let m = self.mass.nrows();
         let mut stiffness = self.stiffness.clone();
-        let lost = self.structural.clone();
-        let mut structural = lost.unwrap_or_else(|| Mat::zeros(m, m));
-        for (gain, own) in &self.tabled {
+        let mut structural = Mat::zeros(m, m);
+        for (gain, own) in &self.losses {
             let factor = gain.at(lambda);
             stiffness += Scale(factor.re) * own;
             structural += Scale(factor.im) * own;
@@ -48,8 +47,7 @@ impl ProjectedMatrices {
             stiffness,
             damping: self.damping.clone(),
             mass: self.mass.clone(),
-            structural: Some(structural),
-            tabled: Vec::new(),
+            losses: vec![(LossGain(None), structural)],
         }
     }
 
@@ -151,12 +149,10 @@ impl ProjectedMatrices {
     /// `slope` then.
     pub fn followed(&self, mode: &ReducedMode, change: c64, slope: c64) -> c64 {
         let own = std::slice::from_ref(mode);
-        let parts = self.tabled.iter();
-        let parts = parts.map(|(gain, k)| gain.slope(mode.eigenvalue) * forms(own, k, own)[(0, 0)]);
-        match self.tabled.is_empty() {
-            true => change,
-            false => own_frequency_step(change, parts.sum::<c64>() / slope),
-        }
+        let parts = self.own_rates(mode.eigenvalue);
+        let parts = parts.map(|(rate, k)| rate * forms(own, k, own)[(0, 0)]);
+        let sum = parts.reduce(|sum, own| sum + own);
+        sum.map_or(change, |sum| own_frequency_step(change, sum / slope))
     }
 }
 

@@ -8,7 +8,6 @@ use super::basis::turn_to_real;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::side_by_side;
-use super::pencil::Pencil;
 use super::projected::{ProjectedMatrices, summed};
 use super::term::Term;
 use super::{MULTIPLE, NEAR, ROUND_OFF};
@@ -19,7 +18,7 @@ use crate::linalg::gram::complement;
 use crate::linalg::vectors::length;
 use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::SlidingTangent;
+use crate::prestress::{MotionMatrices, SlidingTangent};
 pub(super) use parts::inside;
 use parts::{BasisPart, BasisParts};
 
@@ -88,7 +87,7 @@ fn pair_lefts(modes: &mut [ReducedMode], overlaps: &Mat<c64>) {
 pub struct ReducedModel {
     linearization: Linearization,
     /// Coefficients of each matrix by power of `mu`; of `C` only where it is not proportional.
-    terms: Pencil<Vec<Term>>,
+    terms: MotionMatrices<Vec<Term>>,
     /// What they weigh.
     weights: FrictionWeights,
     /// `V`, `unknowns x m`.
@@ -113,13 +112,12 @@ impl ReducedModel {
             Linearization::Reduced(..) => Vec::new(),
             Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
         };
-        let tabled = tangent.tabled();
-        let terms = Pencil {
+        let losses = tangent.losses.iter();
+        let terms = MotionMatrices {
             stiffness: terms(&tangent.stiffness, true),
             damping,
             mass: terms(&tangent.mass, true),
-            structural: tangent.structural().map(|p| terms(p, true)),
-            tabled: tabled.map(|(gain, own)| (gain.clone(), terms(own, true))).collect(),
+            losses: losses.map(|(gain, own)| (gain.clone(), terms(own, true))).collect(),
         };
         Self {
             linearization,
@@ -148,13 +146,6 @@ impl ReducedModel {
         self.terms.each_mut().flatten().for_each(|term| term.grow(basis, &new));
         self.basis.append(new.as_ref());
         new
-    }
-
-    /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
-    pub fn compress(&mut self, columns: &Mat<f64>) {
-        self.terms.each_mut().flatten().for_each(|term| term.compress(columns));
-        self.basis.combine(columns.as_ref());
-        self.parts = BasisParts::default();
     }
 
     /// The projected matrices at `mu`.
@@ -297,7 +288,9 @@ impl ReducedModel {
         for (_, held) in &mut self.samples {
             *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref());
         }
-        self.compress(&columns);
+        self.terms.each_mut().flatten().for_each(|term| term.compress(&columns));
+        self.basis.combine(columns.as_ref());
+        self.parts = BasisParts::default();
         columns
     }
 

@@ -2,11 +2,10 @@
 
 use super::linearization::Linearization;
 use super::packed::{PackedEntry, add_complex_multiple};
-use super::pencil::Pencil;
 use crate::linalg::dense::join_rows;
-use crate::linalg::{BlockOperator, LinalgError, MatrixPolynomial, SparsityPattern};
-use crate::linalg::{LdlAnalysis, LuAnalysis, Mat, MatRef, SparseLdl, SparseLu, c64};
-use crate::prestress::SlidingTangent;
+use crate::linalg::{BlockOperator, MatrixPolynomial, SparsityPattern};
+use crate::linalg::{Mat, MatRef, RealFactors, c64};
+use crate::prestress::{MotionMatrices, SlidingTangent};
 use std::sync::Arc;
 
 /// Terms of a matrix, over their sum, from which on their rounding shows in residuals.
@@ -16,7 +15,7 @@ const CANCELLING: f64 = 1e3;
 pub struct StructureMatrices<'a> {
     pattern: &'a Arc<SparsityPattern>,
     /// Nonzero values by rows; of the reduced problem `K` and `M` alone, others are empty.
-    values: Pencil<Vec<f64>>,
+    values: MotionMatrices<Vec<f64>>,
     linearization: Linearization,
     /// What they are evaluated from, and where.
     source: (&'a SlidingTangent, f64),
@@ -27,13 +26,12 @@ impl<'a> StructureMatrices<'a> {
     pub fn at(tangent: &'a SlidingTangent, linearization: Linearization, mu: f64) -> Self {
         let of = |p: &MatrixPolynomial| p.pattern().by_rows(&p.evaluate(mu));
         let values = match linearization {
-            Linearization::Companion { .. } => Pencil::of(tangent, of),
-            Linearization::Reduced(..) => Pencil {
+            Linearization::Companion { .. } => MotionMatrices::of(tangent, of),
+            Linearization::Reduced(..) => MotionMatrices {
                 stiffness: of(&tangent.stiffness),
                 damping: Vec::new(),
                 mass: of(&tangent.mass),
-                structural: None,
-                tabled: Vec::new(),
+                losses: Vec::new(),
             },
         };
         let pattern = tangent.stiffness.pattern();
@@ -52,7 +50,7 @@ impl<'a> StructureMatrices<'a> {
         entries: &[PackedEntry],
         x: MatRef<'_, f64>,
     ) -> (Mat<f64>, Mat<f64>) {
-        let Pencil { stiffness, damping, mass, structural, tabled } = &self.values;
+        let MotionMatrices { stiffness, damping, mass, losses } = &self.values;
         let add = |sum: &mut Mat<f64>, image: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
             for entry in entries {
                 let value = self.linearization.value(entry.inverse_value);
@@ -68,11 +66,7 @@ impl<'a> StructureMatrices<'a> {
         let [mut residual, damped, inert] = self.pattern.multiply_sorted(all, x);
         add(&mut residual, &inert, &|lambda| lambda * lambda);
         add(&mut residual, &damped, &|lambda| lambda);
-        if let Some(structural) = structural {
-            let [lost] = self.pattern.multiply_sorted([structural], x);
-            add(&mut residual, &lost, &|_| c64::new(0.0, 1.0));
-        }
-        for (gain, values) in tabled {
+        for (gain, values) in losses {
             let [image] = self.pattern.multiply_sorted([values], x);
             add(&mut residual, &image, &|lambda| gain.at(lambda));
         }
@@ -125,41 +119,6 @@ impl<'a> StructureMatrices<'a> {
     }
 }
 
-/// Factors of `K(mu)`.
-pub enum StiffnessFactors {
-    /// Without friction: a factor five cheaper to compute and to solve with.
-    Symmetric(Box<SparseLdl>),
-    /// With friction.
-    General(Box<SparseLu>),
-}
-
-impl StiffnessFactors {
-    /// Factorizes `K(0)`, which is symmetric.
-    pub fn frictionless(stiffness: &MatrixPolynomial) -> Result<Self, LinalgError> {
-        let analysis = LdlAnalysis::new(stiffness.pattern())?;
-        let ldl = SparseLdl::factorize(&analysis, &stiffness.evaluate(0.0))?;
-        Ok(Self::Symmetric(Box::new(ldl)))
-    }
-
-    /// Factorizes `K(mu)`, by an analysis of its pattern.
-    pub fn general(
-        stiffness: &MatrixPolynomial,
-        analysis: &LuAnalysis,
-        mu: f64,
-    ) -> Result<Self, LinalgError> {
-        let lu = SparseLu::factorize(analysis, stiffness.evaluate(mu))?;
-        Ok(Self::General(Box::new(lu)))
-    }
-
-    /// `K^-1 x` for each column, in place.
-    pub fn solve_in_place(&self, x: &mut Mat<f64>) {
-        match self {
-            Self::Symmetric(ldl) => ldl.solve_in_place(x.as_mut()),
-            Self::General(lu) => lu.solve_in_place(x.as_mut()),
-        }
-    }
-}
-
 /// Shift-and-invert about the centre, in real arithmetic: the lowest modes are its eigenvalues of largest
 /// modulus. `K` and `C` stand for what takes their places there ([`Linearization`]).
 ///
@@ -172,15 +131,15 @@ impl StiffnessFactors {
 /// ```
 pub struct ShiftInverted<'a> {
     matrices: &'a StructureMatrices<'a>,
-    factors: &'a StiffnessFactors,
+    factors: &'a RealFactors,
     /// Nonzero values by rows of `M`, or of `-omega C` and `-omega^2 M`.
     values: Vec<Vec<f64>>,
 }
 
 impl<'a> ShiftInverted<'a> {
     /// The operator of `matrices` at the friction coefficient of the `factors` of what takes the place of `K`.
-    pub fn new(matrices: &'a StructureMatrices<'a>, factors: &'a StiffnessFactors) -> Self {
-        let Pencil { damping, mass, .. } = &matrices.values;
+    pub fn new(matrices: &'a StructureMatrices<'a>, factors: &'a RealFactors) -> Self {
+        let MotionMatrices { damping, mass, .. } = &matrices.values;
         let values = match matrices.linearization {
             Linearization::Reduced(..) => vec![mass.clone()],
             Linearization::Companion { frequency_scale: omega, centre } => {
@@ -202,12 +161,12 @@ impl BlockOperator for ShiftInverted<'_> {
         let pattern = self.matrices.pattern;
         let [damping, mass] = &self.values[..] else {
             let [mut image] = pattern.multiply_sorted([&self.values[0]], z);
-            self.factors.solve_in_place(&mut image);
+            self.factors.solve_in_place(image.as_mut());
             return image;
         };
         let (x, y) = z.split_at_row(pattern.dimension());
         let mut top = pattern.multiply_sum([damping, mass], [x, y]);
-        self.factors.solve_in_place(&mut top);
+        self.factors.solve_in_place(top.as_mut());
         join_rows(top.as_ref(), x)
     }
 }

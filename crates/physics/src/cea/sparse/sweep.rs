@@ -23,9 +23,6 @@ use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// Friction values at which the basis is refined, at least, over a range.
-const MIN_SAMPLES: usize = 6;
-
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
 ///
 /// Oscillating modes of lowest natural frequency only: overdamped motions, and modes whose eigenvalue is
@@ -177,34 +174,15 @@ impl<'a> SparseSweep<'a> {
         if self.builder.is_whole {
             return Ok(());
         }
-        if self.builder.is_sampling {
-            let first = self.first_asked();
-            // Over the range of one of several base states the modes at its middle are corrected to those at its ends.
-            if self.is_continued {
-                return self.builder.improve_at(self.grid[self.grid.len() / 2]).map(|_| ());
-            }
-            if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
-                self.builder.begin_at_rest()?;
-            }
-            self.builder.cover(&self.grid[first..])?;
-            return self.fill_gaps();
+        // Over the range of one of several base states the modes at its middle are corrected to those at its ends.
+        if self.is_continued {
+            return self.builder.improve_at(self.grid[self.grid.len() / 2]).map(|_| ());
         }
-        let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
-        let mut samples = self.grid.clone();
-        // Branches are followed between the friction values asked for, too.
-        if highest > lowest {
-            let steps = (0..=MIN_SAMPLES).map(|i| i as f64 / MIN_SAMPLES as f64);
-            samples.extend(steps.map(|t| lowest + t * (highest - lowest)));
-            samples.sort_by(f64::total_cmp);
-            samples.dedup_by(|b, a| *b - *a < 0.4 * (highest - lowest) / MIN_SAMPLES as f64);
-            samples.pop();
-            samples.push(highest);
+        if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
+            self.builder.begin_at_rest()?;
         }
-        // The undamped modes are those of the frictionless problem where damping is proportional.
-        if matches!(self.linearization, Linearization::Reduced(..)) && samples.len() > 1 {
-            samples.retain(|mu| *mu > 0.0);
-        }
-        self.builder.cover(&samples)
+        self.builder.cover(&self.grid[self.first_asked()..])?;
+        self.fill_gaps()
     }
 
     /// Takes up the modes at the middle of a wide gap between those that the basis holds, where these do not converge there, and so in its
@@ -329,8 +307,7 @@ impl<'a> SparseSweep<'a> {
             }
             for (k, [seen_at, lost_at]) in open {
                 let (from, to) = (self.grid[k], self.grid[k + 1]);
-                let (is_sampling, place) = (self.builder.is_sampling, 0.5 * (seen_at + lost_at));
-                if !(is_sampling && self.builder.improve_between(from, to, place)?) {
+                if !self.builder.improve_between(from, to, 0.5 * (seen_at + lost_at))? {
                     searched.push(k);
                     self.builder.search(to, TRACKING_MARGIN)?;
                 }
@@ -344,9 +321,9 @@ impl<'a> SparseSweep<'a> {
 mod tests {
     use super::*;
     use crate::cea::Unwatched;
-    use crate::cea::sparse::StiffnessFactors;
     use crate::cea::sparse::fixtures::string_on_belt;
     use crate::cea::sparse::linearization::Centre;
+    use crate::linalg::{LdlAnalysis, RealFactors};
 
     /// Consistency check: a mode taken away from one point is missed by the tracking and found again, with proportional
     /// and with general damping.
@@ -388,7 +365,8 @@ mod tests {
         let before = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
         let after = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
-        let factors = StiffnessFactors::frictionless(&tangent.stiffness).unwrap();
+        let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).unwrap();
+        let factors = RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
         complete.cover(&[0.2]).unwrap();

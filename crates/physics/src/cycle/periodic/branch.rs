@@ -4,7 +4,7 @@ use super::corrector::{Corrector, Point};
 use super::follower::Follower;
 use super::map::PeriodMap;
 use super::motion::PeriodicMotion;
-use super::multipliers::{COLUMNS, from_columns, to_columns};
+use super::multipliers::{Kept, kept, recalled};
 use super::search::Found;
 use crate::cea::SweepWatch;
 use crate::cycle::continuation::{Values, both_halves, joined};
@@ -184,8 +184,8 @@ impl BranchRequest<'_, '_> {
         let groups: Result<Vec<_>, TransientError> =
             crate::parallel::map(groups, |(number, group)| {
                 let name = format!("stability-{number}");
-                let known = self.watch.recall(&name).unwrap_or_default();
-                let known: Vec<_> = known.chunks_exact(COLUMNS).map(from_columns).collect();
+                let known = self.watch.recalled::<Vec<Kept>>(&name).unwrap_or_default();
+                let known: Vec<_> = known.into_iter().map(recalled).collect();
                 let mut map = (self.map)()?;
                 let motions = group.iter().enumerate().map(|(i, point)| {
                     (self.tune)(&mut map, point.value)?;
@@ -204,8 +204,7 @@ impl BranchRequest<'_, '_> {
                 let motions = motions.collect::<Result<Vec<_>, TransientError>>()?;
                 if self.with_stability && known.len() < motions.len() {
                     let found = motions.iter().filter_map(|own| own.stability.as_ref());
-                    let columns: Vec<Vec<f64>> = found.flat_map(to_columns).collect();
-                    self.watch.keep(&name, &columns);
+                    self.watch.keep_value(&name, &found.map(kept).collect::<Vec<Kept>>());
                 }
                 Ok(motions)
             });

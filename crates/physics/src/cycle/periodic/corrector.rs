@@ -1,7 +1,7 @@
 //! One point of a branch: a periodic motion and the value of the parameter at which it lives, found together.
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
-use super::search::{ACCEPTED, Found};
+use super::search::{ACCEPTED, Found, KeptMotion};
 use super::secants::{Change, Iterate, NEW_ALONG, SecantSpace};
 use crate::cycle::CycleError;
 use crate::linalg::dense::{add, difference, norm};
@@ -24,8 +24,8 @@ const GAINED: f64 = 0.7;
 /// Residual that is no neighbour's any more.
 const ASTRAY: f64 = 0.7;
 
-/// Columns of a point.
-pub(super) const POINT_COLUMNS: usize = 3;
+/// What a point is found again from: the value, whether it is a fold, and the motion.
+pub(super) type KeptPoint = (f64, bool, KeptMotion);
 
 /// Parameter and amplitude of a point, each over a scale: the plane in which a branch is a curve.
 pub(super) type Place = [f64; 2];
@@ -91,11 +91,9 @@ impl Point {
         [self.value / scales[0], self.found.image.amplitude / scales[1]]
     }
 
-    /// What it is found again from: those of its motion, the value, and whether it is a fold.
-    pub(super) fn columns(&self) -> Vec<Vec<f64>> {
-        let mut columns = self.found.columns();
-        columns.push(vec![self.value, f64::from(u8::from(self.is_fold))]);
-        columns
+    /// What is kept of it.
+    pub(super) fn kept(&self) -> KeptPoint {
+        (self.value, self.is_fold, self.found.kept())
     }
 
     /// The motion `share` of the way from here to another one and beyond.
@@ -162,13 +160,11 @@ impl<'b, 'a> Corrector<'b, 'a> {
         self.secants.clear();
     }
 
-    /// A point from its columns: one period from its state; none where they are of another body.
-    pub fn recalled(&mut self, columns: &[Vec<f64>]) -> Option<Point> {
-        let (last, found) = columns.split_last()?;
-        let [value, is_fold] = last[..].try_into().ok()?;
+    /// A point that was kept: one period from its state; none where it is of another body.
+    pub fn recalled(&mut self, (value, is_fold, motion): KeptPoint) -> Option<Point> {
         (self.tune)(&mut self.map, value).ok()?;
-        let found = Found::recalled(&mut self.map, found)?;
-        Some(Point { value, found, is_fold: is_fold > 0.0 })
+        let found = Found::recalled(&mut self.map, motion)?;
+        Some(Point { value, found, is_fold })
     }
 
     /// A point's motion with its vibration about its mean so many times as large, at another value.

@@ -1,6 +1,6 @@
 //! The way along a branch: tangents, steps, values asked for, folds, ends.
 
-use super::corrector::{Corrector, Goal, Guess, POINT_COLUMNS, Place, Point, TOLERANCE, way};
+use super::corrector::{Corrector, Goal, Guess, KeptPoint, Place, Point, TOLERANCE, way};
 use crate::cycle::CycleError;
 use crate::cycle::continuation::{BranchEnd, Values, Way};
 use crate::transient::TransientError;
@@ -32,6 +32,8 @@ pub(super) struct Follower<'c, 'b, 'a> {
 
 impl Way for Follower<'_, '_, '_> {
     type Error = TransientError;
+    /// The tangent, lengths of a step and the largest amplitude, steps of a period, and the points.
+    type Kept = (Place, [f64; 2], usize, Vec<KeptPoint>);
     const BLOCK: usize = 20;
 
     fn count(&self) -> usize {
@@ -51,23 +53,18 @@ impl Way for Follower<'_, '_, '_> {
         }
     }
 
-    fn columns(&self) -> Vec<Vec<f64>> {
-        let [along, amplitude] = self.tangent;
-        let steps = self.corrector.map.steps() as f64;
-        let course = vec![along, amplitude, self.length, self.largest, steps];
-        let points = self.points.iter().flat_map(Point::columns);
-        std::iter::once(course).chain(points).collect()
+    fn kept(&self) -> Self::Kept {
+        let points = self.points.iter().map(Point::kept).collect();
+        (self.tangent, [self.length, self.largest], self.corrector.map.steps(), points)
     }
 
-    fn recall(&mut self, columns: &[Vec<f64>]) -> Option<()> {
-        let (course, points) = columns.split_first()?;
-        let [along, amplitude, length, largest, steps]: [f64; 5] = course[..].try_into().ok()?;
-        let points = points.chunks_exact(POINT_COLUMNS).map(|own| self.corrector.recalled(own));
+    fn take_up(&mut self, (tangent, lengths, steps, points): Self::Kept) -> Option<()> {
+        let points = points.into_iter().map(|own| self.corrector.recalled(own));
         let points: Vec<Point> = points.collect::<Option<_>>()?;
         points.first()?;
-        (self.points, self.tangent) = (points, [along, amplitude]);
-        (self.length, self.largest) = (length, largest);
-        self.corrector.map.step_in(steps as usize);
+        (self.points, self.tangent) = (points, tangent);
+        [self.length, self.largest] = lengths;
+        self.corrector.map.step_in(steps);
         Some(())
     }
 

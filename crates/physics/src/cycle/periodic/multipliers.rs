@@ -73,41 +73,33 @@ impl FloquetMultipliers {
     }
 }
 
-/// Columns of numbers that keep what is known of one motion.
-pub(super) const COLUMNS: usize = 2;
+/// What is kept of one motion: periods, the shift, and multipliers with growth rate, uncertainty and beat; or why there are none.
+pub(super) type Kept = Result<(usize, Option<[f64; 2]>, Vec<[f64; 5]>), String>;
 
-/// What is known of a motion as columns: why there are no multipliers, byte by byte, or their periods, shift and numbers.
-pub(super) fn to_columns(known: &Result<FloquetMultipliers, String>) -> [Vec<f64>; COLUMNS] {
-    let found = match known {
-        Ok(found) => found,
-        Err(reason) => return [reason.bytes().map(f64::from).collect(), vec![]],
-    };
-    let shift = found.shift.unwrap_or(c64::new(f64::NAN, f64::NAN));
-    let course = [found.periods as f64, shift.re, shift.im];
-    let numbers = found.multipliers.iter().flat_map(|own| {
+/// What is kept of what is known.
+pub(super) fn kept(known: &Result<FloquetMultipliers, String>) -> Kept {
+    let found = known.as_ref().map_err(String::clone)?;
+    let numbers = found.multipliers.iter().map(|own| {
         let c64 { re, im } = own.multiplier;
         [re, im, own.growth_rate, own.uncertainty, own.beat_hz]
     });
-    [vec![], course.into_iter().chain(numbers).collect()]
+    Ok((found.periods, found.shift.map(|own| [own.re, own.im]), numbers.collect()))
 }
 
-/// The inverse of [`to_columns`].
-pub(super) fn from_columns(columns: &[Vec<f64>]) -> Result<FloquetMultipliers, String> {
-    let Some((&[periods, re, im], numbers)) = columns[1].split_first_chunk() else {
-        let bytes = columns[0].iter().map(|&byte| byte as u8).collect();
-        return Err(String::from_utf8(bytes).unwrap_or_default());
-    };
-    let multipliers = numbers.chunks_exact(5).map(|own| FloquetMultiplier {
-        multiplier: c64::new(own[0], own[1]),
-        growth_rate: own[2],
-        uncertainty: own[3],
-        beat_hz: own[4],
+/// The inverse of [`kept`].
+pub(super) fn recalled(kept: Kept) -> Result<FloquetMultipliers, String> {
+    let (periods, shift, numbers) = kept?;
+    let own = |[re, im, growth_rate, uncertainty, beat_hz]: [f64; 5]| FloquetMultiplier {
+        multiplier: c64::new(re, im),
+        growth_rate,
+        uncertainty,
+        beat_hz,
         mode: None,
-    });
+    };
     Ok(FloquetMultipliers {
-        multipliers: multipliers.collect(),
-        shift: (!re.is_nan()).then(|| c64::new(re, im)),
-        periods: periods as usize,
+        multipliers: numbers.into_iter().map(own).collect(),
+        shift: shift.map(|[re, im]| c64::new(re, im)),
+        periods,
     })
 }
 
@@ -138,7 +130,7 @@ mod tests {
         };
         let unknown = FloquetMultipliers { shift: None, ..known.clone() };
         for found in [Ok(known), Ok(unknown), Err("no multiplier".to_owned())] {
-            assert_eq!(from_columns(&to_columns(&found)), found);
+            assert_eq!(recalled(kept(&found)), found);
         }
     }
 }

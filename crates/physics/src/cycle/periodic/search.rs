@@ -3,6 +3,7 @@
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::secants::{Change, Iterate, NEW, SecantSpace};
 use crate::cycle::CycleError;
+use serde::{Deserialize, Serialize};
 
 /// Residual, relative to the amplitude of the vibration, at which a motion repeats itself.
 pub const TOLERANCE: f64 = 1e-9;
@@ -61,25 +62,30 @@ impl Found {
         CycleError::not_converged(self.periods, self.residual, self.state.period)
     }
 
-    /// What it is found again from: the motion, and its numbers.
-    pub fn columns(&self) -> Vec<Vec<f64>> {
-        let [steps, periods] = [self.steps, self.periods].map(|count| count as f64);
-        let numbers = vec![self.state.period, steps, self.residual, periods];
-        vec![self.state.motion.clone(), numbers]
+    /// What it is found again from.
+    pub fn kept(&self) -> KeptMotion {
+        let &Self { ref state, residual, periods, steps, .. } = self;
+        KeptMotion { state: state.clone(), residual, periods, steps }
     }
 
-    /// The motion of such columns, one period from its state; none where they are of another body.
-    pub fn recalled(map: &mut PeriodMap<'_>, columns: &[Vec<f64>]) -> Option<Self> {
-        let [motion, numbers]: &[Vec<f64>; 2] = columns.try_into().ok()?;
-        let [period, steps, residual, periods]: [f64; 4] = numbers[..].try_into().ok()?;
-        if motion.len() != map.unknowns() || !(period > 0.0 && steps >= 1.0) {
+    /// The motion that was kept, one period from its state; none where it is of another body.
+    pub fn recalled(map: &mut PeriodMap<'_>, kept: KeptMotion) -> Option<Self> {
+        let KeptMotion { state, residual, periods, steps } = kept;
+        if state.motion.len() != map.unknowns() || !(state.period > 0.0 && steps >= 1) {
             return None;
         }
-        let (steps, periods) = (steps as usize, periods as usize);
         map.step_in(steps);
-        let state = PeriodicState { motion: motion.clone(), period };
         Some(Self { image: map.image(&state), state, residual, periods, steps })
     }
+}
+
+/// What a periodic motion is found again from.
+#[derive(Serialize, Deserialize)]
+pub struct KeptMotion {
+    state: PeriodicState,
+    residual: f64,
+    periods: usize,
+    steps: usize,
 }
 
 /// A periodic motion near a state.

@@ -2,7 +2,7 @@
 
 use super::super::continuation::{BranchEnd, Values, Way, both_halves, joined};
 use super::super::parameter::Parameter;
-use super::super::state::{STATE_COLUMNS, WaveState};
+use super::super::state::WaveState;
 use super::super::system::Closure;
 use super::{TwoWaveMotion, TwoWaves};
 use crate::cea::SweepWatch;
@@ -78,6 +78,8 @@ struct Half<'a> {
 
 impl Way for Half<'_> {
     type Error = Infallible;
+    /// What leads the way, where the weaker wave vanishes, and the states here and of those found.
+    type Kept = (Option<(usize, f64)>, Option<f64>, Vec<WaveState>);
     const BLOCK: usize = 1;
 
     fn count(&self) -> usize {
@@ -99,32 +101,16 @@ impl Way for Half<'_> {
         Ok(None)
     }
 
-    fn columns(&self) -> Vec<Vec<f64>> {
-        let shrinking = self.shrinking.map_or(vec![], |(wave, from)| vec![wave as f64, from]);
-        let mut columns = vec![shrinking, self.birth.into_iter().collect()];
-        for motion in [&self.here].into_iter().chain(&self.found) {
-            columns.push(vec![self.parameter.of(&motion.state.point)]);
-            columns.extend(motion.state.columns());
-        }
-        columns
+    fn kept(&self) -> Self::Kept {
+        let motions = [&self.here].into_iter().chain(&self.found);
+        (self.shrinking, self.birth, motions.map(|own| own.state.clone()).collect())
     }
 
-    fn recall(&mut self, columns: &[Vec<f64>]) -> Option<()> {
-        let ([shrinking, birth], motions) = columns.split_first_chunk()?;
-        let motion = |columns: &[Vec<f64>]| {
-            let (value, state) = columns.split_first()?;
-            let mut point = self.here.state.point;
-            self.parameter.set(&mut point, *value.first()?);
-            let state = WaveState::from_columns(state, point)?;
-            Some(self.waves.motion(state))
-        };
-        let mut all = motions.chunks_exact(1 + STATE_COLUMNS).map(motion);
-        (self.here, self.found) = (all.next()??, all.collect::<Option<_>>()?);
-        self.birth = birth.first().copied();
-        let &[wave, from] = &shrinking[..] else {
-            return Some(());
-        };
-        self.shrinking = Some((wave as usize, from));
+    fn take_up(&mut self, (shrinking, birth, states): Self::Kept) -> Option<()> {
+        let waves = self.waves;
+        let mut all = states.into_iter().map(|state| waves.motion(state));
+        (self.here, self.found) = (all.next()?, all.collect());
+        (self.shrinking, self.birth) = (shrinking, birth);
         Some(())
     }
 }

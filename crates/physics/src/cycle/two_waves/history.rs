@@ -7,6 +7,7 @@ use super::TwoWaves;
 use crate::linalg::{c64, interruption};
 use crate::signal::rotating_lines;
 use crate::transient::CentralDifference;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Looks at the contact in each period of the first wave.
@@ -20,7 +21,7 @@ const DRAGGED: f64 = 0.8;
 const APART: f64 = 2e-3;
 
 /// Two waves as a transient has them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// `omega_1, omega_2`, rad/s.
     pub frequencies: [f64; 2],
@@ -28,19 +29,6 @@ pub struct Measured {
     pub amplitudes: [f64; 2],
     /// Phases at the first look, rad.
     origins: [f64; 2],
-}
-
-impl Measured {
-    /// Its numbers, one after the other.
-    pub(super) fn numbers(&self) -> Vec<f64> {
-        [self.frequencies, self.amplitudes, self.origins].concat()
-    }
-
-    /// The waves of [`Self::numbers`]; none where these are no waves.
-    pub(super) fn from_numbers(numbers: &[f64]) -> Option<Self> {
-        let [a, b, c, d, e, f] = numbers.try_into().ok()?;
-        Some(Self { frequencies: [a, b], amplitudes: [c, d], origins: [e, f] })
-    }
 }
 
 /// The contact edge of a transient, look by look.

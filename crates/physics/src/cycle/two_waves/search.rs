@@ -1,6 +1,5 @@
 //! From a cycle that loses its stability to the motion of two frequencies beside it.
 
-use super::super::state::WaveState;
 use super::super::stepping::MeshStepping;
 use super::super::system::Closure;
 use super::super::{CycleError, LimitCycle, Parameter};
@@ -65,17 +64,11 @@ impl MeshStepping<'_> {
         let grid = |settled: &Measured| {
             TwoWaves::new(&self.solver.model, harmonics, settled.frequencies, side)
         };
-        if let Some([settled, confirmation, state @ ..]) = watch.recall("found").as_deref()
-            && let Some(settled) = Measured::from_numbers(settled)
-            && let Some(state) = WaveState::from_columns(state, cycle.state.point)
-        {
+        const NAME: &str = "found";
+        if let Some((settled, confirmation, state)) = watch.recalled(NAME) {
             let waves = grid(&settled)?;
-            return Ok(TwoWaveSearch {
-                motion: waves.motion(state),
-                confirmation: Measured::from_numbers(confirmation),
-                settled,
-                waves,
-            });
+            let motion = waves.motion(state);
+            return Ok(TwoWaveSearch { waves, motion, confirmation, settled });
         }
         let (settled, history) = self.settled_waves(cycle, harmonics)?;
 
@@ -96,10 +89,7 @@ impl MeshStepping<'_> {
         let motion = waves.motion(state.ok_or_else(not_converged)?);
         let (mut run, steps) = self.start_from(cycle, None, |time| waves.field(&motion, time))?;
         let confirmation = History::of(&mut run, harmonics, steps, WINDOWS[1]).measured();
-        let numbers = [Some(settled), confirmation].map(|own| own.as_ref().map(Measured::numbers));
-        let mut columns = numbers.map(Option::unwrap_or_default).to_vec();
-        columns.extend(motion.state.columns());
-        watch.keep("found", &columns);
+        watch.keep_value(NAME, &(settled, confirmation, &motion.state));
         Ok(TwoWaveSearch { waves, motion, confirmation, settled })
     }
 

@@ -81,8 +81,8 @@ impl BasisBuilder<'_> {
     /// # Errors
     /// If `K(mu)` is singular, or an iteration or a dense decomposition fails.
     pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
-        if !self.is_sampling {
-            return Ok(self.refine_at(mu)?.is_some());
+        if self.is_whole {
+            return Ok(false);
         }
         if self.is_sampled(mu) {
             let modes = self.model.solve_right(mu, self.count)?;
@@ -155,7 +155,7 @@ impl BasisBuilder<'_> {
 
     /// Lets `modes` stand for a sample at `mu`, if there is none and the basis is made of samples.
     pub fn take_up(&mut self, mu: f64, modes: &[ReducedMode]) {
-        if self.is_sampling && !self.is_sampled(mu) {
+        if !self.is_whole && !self.is_sampled(mu) {
             self.begin_sample(mu);
             self.model.hold_coordinates(mu, self.leading(modes));
         }
@@ -192,7 +192,7 @@ impl BasisBuilder<'_> {
             let problem = FullProblem::at(builder.tangent, *mu);
             let residuals = sides.map(|is_left| builder.residual(&problem, mode, is_left));
             let mut parts = side_by_side(problem.dimension(), &residuals);
-            builder.factors.solve_in_place(&mut parts);
+            builder.factors.solve_in_place(parts.as_mut());
             turn_to_real(&mut parts);
             parts
         })

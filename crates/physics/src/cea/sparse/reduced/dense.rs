@@ -17,7 +17,7 @@ impl ReducedModel {
         count: usize,
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
-        if let Some((gain, _)) = at.tabled.first() {
+        if let Some(gain) = at.losses.iter().find_map(|(gain, _)| gain.0.as_ref()) {
             let start_hz = gain.reference_hz;
             let frozen = |frequency_hz: f64| {
                 let at = at.frozen(frequency_hz);
@@ -29,7 +29,7 @@ impl ReducedModel {
             }
             return Ok(modes);
         }
-        if at.structural.is_some() {
+        if !at.losses.is_empty() {
             return self.solve_lossy(at, count, with_left);
         }
         let centred = self.centred(at);
@@ -87,8 +87,8 @@ impl ReducedModel {
     ) -> Result<Vec<ReducedMode>, LinalgError> {
         let centred = self.centred(at);
         let at = centred.as_ref().unwrap_or(at);
-        let (Linearization::Companion { frequency_scale: omega, .. }, Some(structural)) =
-            (self.linearization, &at.structural)
+        let (Linearization::Companion { frequency_scale: omega, .. }, [(_, structural)]) =
+            (self.linearization, &at.losses[..])
         else {
             return Ok(Vec::new());
         };
@@ -155,14 +155,8 @@ impl ReducedModel {
                 (inert + Scale(shift) * &at.damping, &at.damping + Scale(2.0 * shift) * &at.mass)
             }
         };
-        let structural = at.structural.clone();
-        Some(ProjectedMatrices {
-            stiffness,
-            damping,
-            mass: at.mass.clone(),
-            structural,
-            tabled: Vec::new(),
-        })
+        let losses = at.losses.clone();
+        Some(ProjectedMatrices { stiffness, damping, mass: at.mass.clone(), losses })
     }
 
     /// How many motions grow without oscillating at `mu`: positive real eigenvalues.

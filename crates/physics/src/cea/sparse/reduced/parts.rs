@@ -43,7 +43,7 @@ impl ReducedModel {
     /// The problem in the span of the modes at the samples nearest to `mu` and of the corrections among these: of a wide
     /// basis of matrices that do not depend on frequency.
     pub(super) fn surroundings(&self, mu: f64) -> Option<Arc<BasisPart>> {
-        if self.samples.len() < 2 * NEIGHBOURS || !self.terms.tabled.is_empty() {
+        if self.samples.len() < 2 * NEIGHBOURS || self.terms.is_tabled() {
             return None;
         }
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();

@@ -90,7 +90,7 @@ impl SparseSweep<'_> {
             Rung::AtRest => {
                 let is_near = is_alone && point.worst().1 <= NEAR;
                 let modes = &point.modes[..point.checks.len()];
-                if self.builder.is_sampling && (is_near || self.builder.is_sampled(mu)) {
+                if !self.builder.is_whole && (is_near || self.builder.is_sampled(mu)) {
                     self.builder.take_up(mu, modes);
                     self.builder.refine_modes(mu, modes)?;
                 } else {

@@ -2,7 +2,7 @@
 
 use super::SparseSweep;
 use crate::cea::sparse::left::correct_lefts;
-use crate::cea::sparse::mode::{ReducedMode, from_columns, to_columns};
+use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::{PackedModes, PackedVector, joined, side_by_side};
 use crate::cea::sparse::point::{ModeCheck, SolvedPoint, normalize};
 use crate::cea::sparse::structure::StructureMatrices;
@@ -52,12 +52,12 @@ impl SparseSweep<'_> {
         let stage = if leaves_out { "-left-out" } else { "" };
         let (steps, held) = (self.builder.steps, self.builder.count);
         let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
-        let kept = self.watch.recall(&name);
-        let modes = match kept.and_then(|columns| from_columns(&columns)) {
-            Some(modes) => modes,
+        let modes = match self.watch.recalled::<Vec<_>>(&name) {
+            Some(kept) => kept.into_iter().map(ReducedMode::recalled).collect(),
             None => {
                 let modes = self.modes(mu, leaves_out)?;
-                self.watch.keep(&name, &to_columns(&modes));
+                let kept: Vec<_> = modes.iter().map(ReducedMode::kept).collect();
+                self.watch.keep_value(&name, &kept);
                 modes
             }
         };

@@ -106,9 +106,7 @@ impl SparseSweep<'_> {
                     !is_same || (state.mu - before[*k]).abs() > SETTLED.max(doubt(state))
                 });
                 let known = open.len();
-                open.extend(
-                    moving.filter(|_| self.builder.is_sampling).map(|(_, own)| own.clone()),
-                );
+                open.extend(moving.filter(|_| !self.builder.is_whole).map(|(_, own)| own.clone()));
                 if open.len() > known {
                     moved.push(i);
                 }
