@@ -37,6 +37,21 @@ macro_rules! finding {
 }
 pub(crate) use finding;
 
+/// Declares objects of JSON, each a struct: `key: type = "meaning";` is a field, its key and what the reference says of
+/// it. Attributes may stand before an object and before a key.
+macro_rules! keys {
+    ($($(#[$meta:meta])* $name:ident {
+        $($(#[$($own:tt)+])* $key:ident: $type:ty = $meaning:literal;)+
+    })+) => {$(
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq, frictionsim_output::Described, serde::Serialize)]
+        pub struct $name {
+            $(#[doc = $meaning] $(#[$($own)+])* pub $key: $type,)+
+        }
+    )+};
+}
+pub(crate) use keys;
+
 /// Writes the tables of a document that are files.
 pub fn write_tables(folder: &OutputFolder, document: &Document) -> Result<(), FolderError> {
     document.files().try_for_each(|table| write_table(folder, table))

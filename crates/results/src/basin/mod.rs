@@ -6,28 +6,25 @@ mod map;
 use super::Finding;
 use super::drawing::Declaration;
 use super::summary::Bounds;
-use frictionsim_output::{Described, Document, Section, Table, columns, significant};
+use crate::finding::keys;
+use frictionsim_output::{Document, Section, Table, columns, significant};
 use frictionsim_physics::cycle::{BasinBoundary, BasinRun};
-use serde::Serialize;
 
 pub use map::basin_map;
 
-/// `summary.json` of a basin.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct BasinSummary {
-    /// The two waves, nodal diameters; of a body without symmetry the numbers of the two modes, 0 for steady sliding.
-    pub harmonics: [usize; 2],
-    /// Whether these are numbers of modes.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub of_modes: bool,
-    /// The wave that wins whatever the seeds, if one does.
-    pub winner: Option<usize>,
-    /// Amplitude ratios at saturation, second wave over first, between which the winner changes.
-    pub boundary: Bounds,
-    /// Transients spent.
-    pub transients: usize,
-    /// Every transient, in the order of the search.
-    pub runs: Vec<BasinRun>,
+keys! {
+    /// `summary.json` of a basin.
+    BasinSummary {
+        harmonics: [usize; 2] = "the two waves, nodal diameters; of a body without symmetry the \
+            numbers of the two modes, 0 for steady sliding";
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        of_modes: bool = "whether these are numbers of modes";
+        winner: Option<usize> = "the wave that wins whatever the seeds, if one does";
+        boundary: Bounds = "amplitude ratios at saturation, second wave over first, between which \
+            the winner changes";
+        transients: usize = "transients spent";
+        runs: Vec<BasinRun> = "every transient, in the order of the search";
+    }
 }
 
 impl BasinSummary {

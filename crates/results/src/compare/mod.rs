@@ -6,8 +6,8 @@ pub use figures::overlaid;
 
 use super::sweep::{cell, join};
 use super::{Manifest, Page, distinct};
-use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, unit_of};
-use serde::Serialize;
+use crate::finding::keys;
+use frictionsim_output::{Cell, Document, Format, Section, Table, columns, unit_of};
 use serde_json::Value;
 
 /// A finished run.
@@ -22,22 +22,19 @@ pub struct ComparedRun {
     pub page: Option<Page>,
 }
 
-/// A number that every run has.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SharedQuantity {
-    /// Dotted path in the summaries; entries of lists are named by what they are of.
-    pub path: String,
-    /// Its value in each run: a number, or whether something is so.
-    pub values: Vec<Value>,
-}
+keys! {
+    /// A number that every run has.
+    SharedQuantity {
+        path: String
+            = "dotted path in the summaries; entries of lists are named by what they are of";
+        values: Vec<Value> = "its value in each run: a number, or whether something is so";
+    }
 
-/// `summary.json` of `frictionsim compare`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ComparisonSummary {
-    /// The runs.
-    pub runs: Vec<String>,
-    /// Numbers that all of them have.
-    pub quantities: Vec<SharedQuantity>,
+    /// `summary.json` of `frictionsim compare`.
+    ComparisonSummary {
+        runs: Vec<String> = "the runs";
+        quantities: Vec<SharedQuantity> = "numbers that all of them have";
+    }
 }
 
 /// Keys that say what an entry of a list is of.

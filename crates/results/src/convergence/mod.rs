@@ -7,6 +7,7 @@ pub use estimate::{Verdict, estimate};
 
 use super::drawing::Declaration;
 use super::{Finding, summary::present};
+use crate::finding::keys;
 use frictionsim_output::{Described, Document, Format, Section, Table, columns};
 use serde::Serialize;
 
@@ -30,27 +31,19 @@ impl Refinement {
     }
 }
 
-/// A quantity over the levels of its series.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct Quantity {
-    /// Name, with the mode it belongs to.
-    pub name: String,
-    /// Unit; empty for a pure number.
-    pub unit: String,
-    /// One value for each level, where there is one.
-    pub values: Vec<Option<f64>>,
-    /// What the values say.
-    pub verdict: String,
-    /// Observed order.
-    pub order: Option<f64>,
-    /// Value extrapolated after Richardson.
-    pub extrapolated: Option<f64>,
-    /// Values less that one.
-    pub errors: Option<Vec<Option<f64>>>,
-    /// Largest less smallest value of the three finest levels.
-    pub spread: Option<f64>,
-    /// Whether it is of a mode that does not grow.
-    pub is_minor: bool,
+keys! {
+    /// A quantity over the levels of its series.
+    Quantity {
+        name: String = "name, with the mode it belongs to";
+        unit: String = "unit; empty for a pure number";
+        values: Vec<Option<f64>> = "one value for each level, where there is one";
+        verdict: String = "what the values say";
+        order: Option<f64> = "observed order";
+        extrapolated: Option<f64> = "value extrapolated after Richardson";
+        errors: Option<Vec<Option<f64>>> = "values less that one";
+        spread: Option<f64> = "largest less smallest value of the three finest levels";
+        is_minor: bool = "whether it is of a mode that does not grow";
+    }
 }
 
 impl Quantity {
@@ -99,30 +92,22 @@ impl Quantity {
     }
 }
 
-/// One analysis over refinements of one kind.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct Series {
-    /// Analysis, with the family of its limit cycles.
-    pub analysis: String,
-    /// `mesh` or `time-step`.
-    pub refinement: Refinement,
-    /// Name of each level: `90 x 18`, or the time step.
-    pub levels: Vec<String>,
-    /// Element size, m, or time step, s, of each level, strictly falling.
-    pub sizes: Vec<f64>,
-    /// Wall time of each level, s; levels run side by side.
-    pub wall_s: Vec<f64>,
-    /// What else there is to say.
-    pub notes: Vec<String>,
-    /// The quantities.
-    pub quantities: Vec<Quantity>,
-}
+keys! {
+    /// One analysis over refinements of one kind.
+    Series {
+        analysis: String = "analysis, with the family of its limit cycles";
+        refinement: Refinement = "`mesh` or `time-step`";
+        levels: Vec<String> = "name of each level: `90 x 18`, or the time step";
+        sizes: Vec<f64> = "element size, m, or time step, s, of each level, strictly falling";
+        wall_s: Vec<f64> = "wall time of each level, s; levels run side by side";
+        notes: Vec<String> = "what else there is to say";
+        quantities: Vec<Quantity> = "the quantities";
+    }
 
-/// `summary.json` of `frictionsim convergence`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ConvergenceSummary {
-    /// What was studied.
-    pub series: Vec<Series>,
+    /// `summary.json` of `frictionsim convergence`.
+    ConvergenceSummary {
+        series: Vec<Series> = "what was studied";
+    }
 }
 
 /// A quantity on a level of a series.

@@ -6,39 +6,34 @@ use super::record::{CycleMotion, Exponent, ShownCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::extent::Extent;
+use crate::finding::keys;
 use crate::summary::CriticalValue;
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::periodic::PeriodicMotion;
 use serde::Serialize;
 
-/// `summary.json` of `frictionsim cycle`.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct CycleSummary {
-    /// Whether nothing looked at grows.
-    pub steady_sliding_stable: bool,
-    /// Where the search has started.
-    #[serde(flatten)]
-    pub origin: Origin,
-    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating
-    /// point.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub critical_value: Option<CriticalValue>,
-    /// What powers are of, in the tables too.
-    pub extent: Extent,
-    /// The cycles that were sought, each with its motion or why there is none.
-    pub cycles: Vec<SoughtCycle>,
-    /// Motions of two waves that live together.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub two_waves: Vec<TwoWaveSummary>,
-    /// What there is to say.
-    pub notes: Vec<String>,
-    /// The branches, where no tables hold them: at a point of a study.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub curves: Option<Vec<FamilyRecord>>,
-    /// Friction coefficient of the case.
-    #[serde(skip)]
-    pub friction_coefficient: f64,
+keys! {
+    /// `summary.json` of `frictionsim cycle`.
+    CycleSummary {
+        steady_sliding_stable: bool = "whether nothing looked at grows";
+        #[serde(flatten)]
+        origin: Origin = "where the search has started";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        critical_value: Option<CriticalValue> = "where along the parameter of the case sliding \
+            loses its stability, where it is stable at its own operating point";
+        extent: Extent = "what powers are of, in the tables too";
+        cycles: Vec<SoughtCycle>
+            = "the cycles that were sought, each with its motion or why there is none";
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        two_waves: Vec<TwoWaveSummary> = "motions of two waves that live together";
+        notes: Vec<String> = "what there is to say";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        curves: Option<Vec<FamilyRecord>>
+            = "the branches, where no tables hold them: at a point of a study";
+        #[serde(skip)]
+        friction_coefficient: f64 = "friction coefficient of the case";
+    }
 }
 
 impl CycleSummary {

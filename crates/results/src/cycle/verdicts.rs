@@ -1,6 +1,6 @@
 //! What a transient and small perturbations say of a limit cycle.
 
-use crate::finding::finding;
+use crate::finding::{finding, keys};
 use crate::summary::{StatusFractions, present};
 use frictionsim_output::Described;
 use frictionsim_physics::cycle::{Confirmation, FloquetMultiplier, FloquetMultipliers, Verdict};
@@ -29,24 +29,19 @@ pub enum ConfirmationSummary {
     },
 }
 
-/// A transient that started on a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ConfirmationRun {
-    /// Length of the run in periods of the cycle.
-    pub periods: usize,
-    /// Whether it still is on the cycle.
-    pub agrees: bool,
-    /// Frequency, Hz; none if it has stopped to vibrate.
-    pub main_frequency_hz: Option<f64>,
-    /// Its harmonic, of a wave that still vibrates.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub main_harmonic: Option<usize>,
-    /// Fractions of contact nodes.
-    pub status: StatusFractions,
-    /// Power of the counterface.
-    pub power_w: ExternalPower,
-    /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
-    pub e_folds: f64,
+keys! {
+    /// A transient that started on a cycle.
+    ConfirmationRun {
+        periods: usize = "length of the run in periods of the cycle";
+        agrees: bool = "whether it still is on the cycle";
+        main_frequency_hz: Option<f64> = "frequency, Hz; none if it has stopped to vibrate";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        main_harmonic: Option<usize> = "its harmonic, of a wave that still vibrates";
+        status: StatusFractions = "fractions of contact nodes";
+        power_w: ExternalPower = "power of the counterface";
+        e_folds: f64 = "e-folds of the leading perturbation over the run; negative where it \
+            decays, 0 where it is not known";
+    }
 }
 
 impl ConfirmationSummary {
@@ -64,11 +59,12 @@ impl ConfirmationSummary {
     }
 }
 
-/// Power of the counterface alone.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct ExternalPower {
-    /// Mean power, W.
-    pub external: Option<f64>,
+keys! {
+    /// Power of the counterface alone.
+    #[derive(Copy)]
+    ExternalPower {
+        external: Option<f64> = "mean power, W";
+    }
 }
 
 /// Stability of a cycle, or why it is not known.
@@ -94,21 +90,18 @@ impl StabilitySummary {
     }
 }
 
-/// Stability of a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct KnownStability {
-    /// `stable`, `unstable` or `undecided`.
-    pub verdict: String,
-    /// The same as a flag; none if undecided.
-    pub is_stable: Option<bool>,
-    /// Circumferential harmonics that grow, of a wave.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub growing_harmonics: Option<Vec<usize>>,
-    /// The leading perturbation.
-    pub leading: Option<Perturbation>,
-    /// Modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shift: Option<f64>,
+keys! {
+    /// Stability of a cycle.
+    KnownStability {
+        verdict: String = "`stable`, `unstable` or `undecided`";
+        is_stable: Option<bool> = "the same as a flag; none if undecided";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        growing_harmonics: Option<Vec<usize>> = "circumferential harmonics that grow, of a wave";
+        leading: Option<Perturbation> = "the leading perturbation";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        shift: Option<f64> = "modulus of the multiplier of a shift in phase, which is 1, of a \
+            motion that was stepped in time";
+    }
 }
 
 impl KnownStability {

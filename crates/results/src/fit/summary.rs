@@ -1,7 +1,7 @@
 //! `summary.json` of a fit.
 
 use crate::cea::mode_name;
-use crate::finding::finding;
+use crate::finding::{finding, keys};
 use frictionsim_output::{Column, Described, parted, rounded};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -10,54 +10,39 @@ use std::fmt::Write as _;
 /// Name of the block of fitted values in its folder.
 pub const BLOCK: &str = "fitted.toml";
 
-/// `summary.json` of a fit.
-#[derive(Clone, Debug, Default, Described, Serialize)]
-pub struct FitSummary {
-    /// The table of measured modes.
-    pub measurement: String,
-    /// Friction coefficient at which modes are computed.
-    pub friction_coefficient: f64,
-    /// The fitted parameters by their keys.
-    pub parameters: BTreeMap<String, FittedParameter>,
-    /// Correlation of the estimates, by key and key.
-    pub correlations: BTreeMap<String, BTreeMap<String, f64>>,
-    /// Each measured line with its mode.
-    pub residuals: Vec<LineSummary>,
-    /// Root mean square of the differences of frequencies over the frequency.
-    pub frequency_scatter: Option<f64>,
-    /// The same of real parts.
-    pub real_scatter: Option<f64>,
-    /// Largest difference of a frequency, per cent.
-    pub worst_percent: f64,
-    /// Parameter values of other minima that the data cannot tell from this one.
-    pub other_minima: Vec<BTreeMap<String, f64>>,
-    /// How it was found.
-    pub search: SearchSummary,
-    /// Modes of the fitted model, by frequency.
-    pub modes: Vec<ModeSummary>,
-    /// Modes of the case as it is written.
-    pub modes_of_case: Vec<ModeSummary>,
-    /// What is to be said.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// `summary.json` of a fit.
+    #[derive(Default)]
+    FitSummary {
+        measurement: String = "the table of measured modes";
+        friction_coefficient: f64 = "friction coefficient at which modes are computed";
+        parameters: BTreeMap<String, FittedParameter> = "the fitted parameters by their keys";
+        correlations: BTreeMap<String, BTreeMap<String, f64>>
+            = "correlation of the estimates, by key and key";
+        residuals: Vec<LineSummary> = "each measured line with its mode";
+        frequency_scatter: Option<f64>
+            = "root mean square of the differences of frequencies over the frequency";
+        real_scatter: Option<f64> = "the same of real parts";
+        worst_percent: f64 = "largest difference of a frequency, per cent";
+        other_minima: Vec<BTreeMap<String, f64>>
+            = "parameter values of other minima that the data cannot tell from this one";
+        search: SearchSummary = "how it was found";
+        modes: Vec<ModeSummary> = "modes of the fitted model, by frequency";
+        modes_of_case: Vec<ModeSummary> = "modes of the case as it is written";
+        notes: Vec<String> = "what is to be said";
+    }
 
-/// One fitted parameter.
-#[derive(Clone, Debug, Default, Described, Serialize)]
-pub struct FittedParameter {
-    /// Its value.
-    pub value: f64,
-    /// Lower end of its 95 % interval.
-    pub low: Option<f64>,
-    /// Upper end.
-    pub high: Option<f64>,
-    /// Bounds between which it was sought.
-    pub bounds: [f64; 2],
-    /// The bound that it lies on, if it does.
-    pub at_bound: Option<f64>,
-    /// Keys that have the same value.
-    pub also: Vec<String>,
-    /// Its unit.
-    pub unit: String,
+    /// One fitted parameter.
+    #[derive(Default)]
+    FittedParameter {
+        value: f64 = "its value";
+        low: Option<f64> = "lower end of its 95 % interval";
+        high: Option<f64> = "upper end";
+        bounds: [f64; 2] = "bounds between which it was sought";
+        at_bound: Option<f64> = "the bound that it lies on, if it does";
+        also: Vec<String> = "keys that have the same value";
+        unit: String = "its unit";
+    }
 }
 
 finding! {
@@ -87,7 +72,7 @@ impl ModeSummary {
 
 finding! {
     /// One measured line and its mode.
-    #[derive(Clone, Debug, Described, Serialize)]
+    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     LineSummary, LINES {
         line: usize = "line of the table of measurements";
         frequency_hz: f64 = "measured frequency", Always "measured" Fixed(2);
@@ -112,15 +97,14 @@ pub(crate) const MEASURED: &[Column<LineSummary>] = parted(LINES, "difference_hz
 /// How far its mode is from it.
 pub(crate) const DIFFERENCES: &[Column<LineSummary>] = parted(LINES, "difference_hz").1;
 
-/// How a minimum was found.
-#[derive(Clone, Copy, Debug, Default, Described, Serialize)]
-pub struct SearchSummary {
-    /// Points looked at.
-    pub starts: usize,
-    /// Searches from the best of them.
-    pub searches: usize,
-    /// Searches that ended at this minimum.
-    pub arrived: usize,
+keys! {
+    /// How a minimum was found.
+    #[derive(Copy, Default)]
+    SearchSummary {
+        starts: usize = "points looked at";
+        searches: usize = "searches from the best of them";
+        arrived: usize = "searches that ended at this minimum";
+    }
 }
 
 impl FitSummary {

@@ -1,91 +1,60 @@
 //! Summary of `identify`, as it is written, printed and reported.
 
-use frictionsim_output::{Described, rounded};
+use crate::finding::keys;
+use frictionsim_output::rounded;
 use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
     Estimate, FittedMode, HalfPowerBand, Identification, RayleighFit, ResonanceNote,
 };
-use serde::Serialize;
 
-/// Rayleigh coefficients of measured responses.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct IdentificationSummary {
-    /// Name of the table of the responses.
-    pub source: String,
-    /// Quantity of the first response.
-    pub quantity: String,
-    /// Whether its phase is known.
-    pub has_phase: bool,
-    /// Its number of lines.
-    pub lines: usize,
-    /// The responses.
-    pub responses: Vec<ResponseSummary>,
-    /// The coefficients.
-    #[serde(flatten)]
-    pub rayleigh: RayleighFit,
-    /// Scatter of the damping factors about equation (3) over what their errors explain, squared.
-    pub reduced_chi_square: f64,
-    /// The coefficients from half-power factors alone.
-    pub half_power: Option<RayleighFit>,
-    /// Modes by frequency.
-    pub modes: Vec<ModeSummary>,
-    /// Peaks of which the fit made no mode, Hz.
-    pub unmatched_peaks_hz: Vec<f64>,
-    /// The fit of the responses.
-    pub fit: FitSummary,
-    /// Decisions of the reader.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// Rayleigh coefficients of measured responses.
+    IdentificationSummary {
+        source: String = "name of the table of the responses";
+        quantity: String = "quantity of the first response";
+        has_phase: bool = "whether its phase is known";
+        lines: usize = "its number of lines";
+        responses: Vec<ResponseSummary> = "the responses";
+        #[serde(flatten)]
+        rayleigh: RayleighFit = "the coefficients";
+        reduced_chi_square: f64 = "scatter of the damping factors about equation (3) over what \
+            their errors explain, squared";
+        half_power: Option<RayleighFit> = "the coefficients from half-power factors alone";
+        modes: Vec<ModeSummary> = "modes by frequency";
+        unmatched_peaks_hz: Vec<f64> = "peaks of which the fit made no mode, Hz";
+        fit: FitSummary = "the fit of the responses";
+        notes: Vec<String> = "decisions of the reader";
+    }
 
-/// One response and its noise.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ResponseSummary {
-    /// Name as in the table.
-    pub name: String,
-    /// Receptance, mobility or accelerance.
-    pub quantity: String,
-    /// Number of lines.
-    pub lines: usize,
-    /// Lowest and highest frequency, Hz.
-    pub range_hz: [f64; 2],
-    /// Noise relative to the modulus.
-    pub relative_noise: f64,
-    /// Noise that does not depend on the response, its unit.
-    pub additive_noise: f64,
-}
+    /// One response and its noise.
+    ResponseSummary {
+        name: String = "name as in the table";
+        quantity: String = "receptance, mobility or accelerance";
+        lines: usize = "number of lines";
+        range_hz: [f64; 2] = "lowest and highest frequency, Hz";
+        relative_noise: f64 = "noise relative to the modulus";
+        additive_noise: f64 = "noise that does not depend on the response, its unit";
+    }
 
-/// One mode with both estimates of its damping.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ModeSummary {
-    /// Undamped natural frequency, Hz.
-    pub frequency_hz: f64,
-    /// Damping factor.
-    pub damping_factor: f64,
-    /// 95 % interval, Hz.
-    pub frequency_interval_hz: [f64; 2],
-    /// 95 % interval.
-    pub damping_factor_interval: [f64; 2],
-    /// By the half-power points.
-    pub half_power: Option<HalfPowerBand>,
-    /// Whether it enters the coefficients.
-    pub used: bool,
-    /// What is doubtful about it.
-    pub flag: Option<String>,
-}
+    /// One mode with both estimates of its damping.
+    ModeSummary {
+        frequency_hz: f64 = "undamped natural frequency, Hz";
+        damping_factor: f64 = "damping factor";
+        frequency_interval_hz: [f64; 2] = "95 % interval, Hz";
+        damping_factor_interval: [f64; 2] = "95 % interval";
+        half_power: Option<HalfPowerBand> = "by the half-power points";
+        used: bool = "whether it enters the coefficients";
+        flag: Option<String> = "what is doubtful about it";
+    }
 
-/// The fit of all responses.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct FitSummary {
-    /// Lowest and highest frequency used, Hz.
-    pub range_hz: [f64; 2],
-    /// Poles added because the residual asked for them.
-    pub added_poles: usize,
-    /// Noise of the first response relative to its modulus.
-    pub relative_noise: f64,
-    /// Noise of the first response that does not depend on it.
-    pub additive_noise: f64,
-    /// Factor by which correlated residuals widen the variances.
-    pub residual_correlation: f64,
+    /// The fit of all responses.
+    FitSummary {
+        range_hz: [f64; 2] = "lowest and highest frequency used, Hz";
+        added_poles: usize = "poles added because the residual asked for them";
+        relative_noise: f64 = "noise of the first response relative to its modulus";
+        additive_noise: f64 = "noise of the first response that does not depend on it";
+        residual_correlation: f64 = "factor by which correlated residuals widen the variances";
+    }
 }
 
 impl IdentificationSummary {

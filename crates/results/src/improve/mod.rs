@@ -5,7 +5,7 @@ mod files;
 mod tables;
 
 use super::Extent;
-use super::finding::finding;
+use super::finding::{finding, keys};
 use frictionsim_output::{Column, Described, parted, significant};
 use frictionsim_physics::mesh::Mesh;
 use serde::Serialize;
@@ -43,36 +43,26 @@ pub struct TargetFields {
     pub damping: Vec<f64>,
 }
 
-/// `summary.json` of `improve`.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct ImproveSummary {
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// The friction coefficient at which modes are to be silenced.
-    pub friction_coefficient: f64,
-    /// What the case does as it is.
-    pub base: State,
-    /// The modes that are to be silenced, by frequency.
-    pub modes: Vec<TargetMode>,
-    /// Sizes of the modifications.
-    pub sizes: Sizes,
-    /// What masses, stiffnesses and dashpots are of.
-    pub extent: Extent,
-    /// Modifications, the best first.
-    pub candidates: Vec<Candidate>,
-    /// What there is to say.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// `summary.json` of `improve`.
+    ImproveSummary {
+        dofs: usize = "unknowns of the eigenproblem";
+        friction_coefficient: f64 = "the friction coefficient at which modes are to be silenced";
+        base: State = "what the case does as it is";
+        modes: Vec<TargetMode> = "the modes that are to be silenced, by frequency";
+        sizes: Sizes = "sizes of the modifications";
+        extent: Extent = "what masses, stiffnesses and dashpots are of";
+        candidates: Vec<Candidate> = "modifications, the best first";
+        notes: Vec<String> = "what there is to say";
+    }
 
-/// A mode that is to be silenced.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct TargetMode {
-    /// Number by frequency, from 1.
-    pub mode: usize,
-    /// `Im(lambda) / 2 pi`, Hz.
-    pub frequency_hz: f64,
-    /// `Re(lambda)`, 1/s.
-    pub growth_rate_per_s: f64,
+    /// A mode that is to be silenced.
+    #[derive(Copy)]
+    TargetMode {
+        mode: usize = "number by frequency, from 1";
+        frequency_hz: f64 = "`Im(lambda) / 2 pi`, Hz";
+        growth_rate_per_s: f64 = "`Re(lambda)`, 1/s";
+    }
 }
 
 finding! {
@@ -97,48 +87,33 @@ finding! {
 /// Those that a prediction has too.
 pub(super) const PREDICTED: &[Column<State>] = parted(STATES, "critical_friction").0;
 
-/// Sizes of the modifications.
-#[derive(Clone, Copy, Debug, Described, Serialize)]
-pub struct Sizes {
-    /// Mass at a node, kg.
-    pub mass_kg: f64,
-    /// Stiffness of a spring, N/m.
-    pub stiffness_n_per_m: f64,
-    /// Damping of a dashpot, N s/m.
-    pub damping_n_s_per_m: f64,
-    /// Radius of a patch, m.
-    pub patch_radius_m: f64,
-    /// Stiffness coefficient of its damping, s.
-    pub patch_damping_s: f64,
-    /// Farthest way of the contact curve, m.
-    pub offset_m: f64,
-}
+keys! {
+    /// Sizes of the modifications.
+    #[derive(Copy)]
+    Sizes {
+        mass_kg: f64 = "mass at a node, kg";
+        stiffness_n_per_m: f64 = "stiffness of a spring, N/m";
+        damping_n_s_per_m: f64 = "damping of a dashpot, N s/m";
+        patch_radius_m: f64 = "radius of a patch, m";
+        patch_damping_s: f64 = "stiffness coefficient of its damping, s";
+        offset_m: f64 = "farthest way of the contact curve, m";
+    }
 
-/// One modification.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct Candidate {
-    /// Place in the list, from 1.
-    pub rank: usize,
-    /// What it is.
-    pub kind: String,
-    /// Number of its node.
-    pub node: Option<usize>,
-    /// Where it is, m; the way of the hole for an offset.
-    pub position_m: [f64; 3],
-    /// Direction of a spring or dashpot.
-    pub direction: Option<[f64; 3]>,
-    /// Mass that it adds, kg; negative where material is taken away.
-    pub added_mass_kg: f64,
-    /// Largest growth rate of the targets to first order, 1/s.
-    pub first_order_growth_rate_per_s: Option<f64>,
-    /// What is predicted from all listed modes together.
-    pub predicted: State,
-    /// What the modified case does.
-    pub confirmed: Option<State>,
-    /// What that comes to, in words.
-    pub verdict: String,
-    /// Case keys that make it.
-    pub keys: Vec<String>,
+    /// One modification.
+    Candidate {
+        rank: usize = "place in the list, from 1";
+        kind: String = "what it is";
+        node: Option<usize> = "number of its node";
+        position_m: [f64; 3] = "where it is, m; the way of the hole for an offset";
+        direction: Option<[f64; 3]> = "direction of a spring or dashpot";
+        added_mass_kg: f64 = "mass that it adds, kg; negative where material is taken away";
+        first_order_growth_rate_per_s: Option<f64>
+            = "largest growth rate of the targets to first order, 1/s";
+        predicted: State = "what is predicted from all listed modes together";
+        confirmed: Option<State> = "what the modified case does";
+        verdict: String = "what that comes to, in words";
+        keys: Vec<String> = "case keys that make it";
+    }
 }
 
 impl Candidate {

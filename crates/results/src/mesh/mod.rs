@@ -12,6 +12,7 @@ pub use solid_figure::figure as solid_figure;
 
 use super::folder::{FolderError, OutputFolder};
 use super::vtu::{EncodedMesh, Field, write_vtu};
+use crate::finding::keys;
 use frictionsim_chart::literal;
 use frictionsim_output::{Described, Document, Format, Section, fixed, significant};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh, MeshQuality};
@@ -47,17 +48,14 @@ impl<S: Measured> MeshSummary<S> {
     }
 }
 
-/// Counts of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MeshSize {
-    /// Nodes.
-    pub nodes: usize,
-    /// Elements.
-    pub elements: usize,
-    /// Unknowns: two for each node in the plane, three in space.
-    pub dofs: usize,
-    /// Nodes of the contact edge, or of the surfaces that slide on others.
-    pub contact_nodes: usize,
+keys! {
+    /// Counts of a mesh.
+    MeshSize {
+        nodes: usize = "nodes";
+        elements: usize = "elements";
+        dofs: usize = "unknowns: two for each node in the plane, three in space";
+        contact_nodes: usize = "nodes of the contact edge, or of the surfaces that slide on others";
+    }
 }
 
 impl MeshSize {

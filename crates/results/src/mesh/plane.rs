@@ -1,7 +1,7 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
 use super::{Measured, MeshSize, condition_name, write_nodes};
-use crate::finding::finding;
+use crate::finding::{finding, keys};
 use crate::folder::{FolderError, OutputFolder};
 use frictionsim_output::{Described, Format, Section, Table};
 use frictionsim_physics::mesh::{
@@ -9,41 +9,35 @@ use frictionsim_physics::mesh::{
 };
 use serde::Serialize;
 
-/// Size and quality of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MeshStatistics {
-    /// Counts.
-    #[serde(flatten)]
-    pub size: MeshSize,
-    /// Layers of bricks over the thickness of a body in three dimensions. Edges, quality and areas are of its plane
-    /// section then.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial_elements: Option<usize>,
-    /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nodes_per_sector: Option<usize>,
-    /// Sizes and shapes of the elements.
-    #[serde(flatten)]
-    pub shape: MeshQuality,
-    /// Edges of one element alone that belong to no named boundary, of a mesh file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unnamed_free_edges: Option<usize>,
-    /// Area of the mesh, m2.
-    pub area_m2: f64,
-    /// Its relative difference to the annulus.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub area_error: Option<f64>,
-    /// Elements for each shear wavelength at the highest frequency of the case, where it has one: the largest edge
-    /// counts.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements_per_wavelength: Option<f64>,
-    /// Contact nodes for each such wave, where they are farthest apart on average.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_nodes_per_wave: Option<f64>,
-    /// Regions with their elements and areas.
-    pub regions: Vec<RegionStatistics>,
-    /// Boundaries with their nodes and lengths; faces of a body of revolution with their areas.
-    pub boundaries: Vec<BoundaryStatistics>,
+keys! {
+    /// Size and quality of a mesh.
+    MeshStatistics {
+        #[serde(flatten)]
+        size: MeshSize = "counts";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        axial_elements: Option<usize> = "layers of bricks over the thickness of a body in three \
+            dimensions. Edges, quality and areas are of its plane section then";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        nodes_per_sector: Option<usize> = "on the annulus, nodes of one ray of corner nodes: node \
+            `1 + j (nodes_per_sector) + i`";
+        #[serde(flatten)]
+        shape: MeshQuality = "sizes and shapes of the elements";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        unnamed_free_edges: Option<usize>
+            = "edges of one element alone that belong to no named boundary, of a mesh file";
+        area_m2: f64 = "area of the mesh, m2";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        area_error: Option<f64> = "its relative difference to the annulus";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        elements_per_wavelength: Option<f64> = "elements for each shear wavelength at the highest \
+            frequency of the case, where it has one: the largest edge counts";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        contact_nodes_per_wave: Option<f64>
+            = "contact nodes for each such wave, where they are farthest apart on average";
+        regions: Vec<RegionStatistics> = "regions with their elements and areas";
+        boundaries: Vec<BoundaryStatistics> = "boundaries with their nodes and lengths; faces of a \
+            body of revolution with their areas";
+    }
 }
 
 finding! {

@@ -1,39 +1,29 @@
 //! Results of `mesh` for solid bodies of a mesh file.
 
 use super::{Measured, MeshSize, role_of};
-use crate::finding::finding;
+use crate::finding::{finding, keys};
 use frictionsim_output::{Described, Section, Table};
 use frictionsim_physics::mesh::{Mesh, MeshQuality};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Size and quality of the mesh of solid bodies.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SolidMeshStatistics {
-    /// Counts; unknowns with those that are held.
-    #[serde(flatten)]
-    pub size: MeshSize,
-    /// Elements of each kind.
-    pub elements_by_kind: BTreeMap<String, usize>,
-    /// Parts that no element connects.
-    pub bodies: usize,
-    /// Least coordinates, m.
-    pub lowest_m: [f64; 3],
-    /// Largest coordinates, m.
-    pub highest_m: [f64; 3],
-    /// Sizes and shapes of the elements.
-    #[serde(flatten)]
-    pub shape: MeshQuality,
-    /// Centre of the element that has it, m.
-    pub worst_element_at_m: [f64; 3],
-    /// Volume, m3.
-    pub volume_m3: f64,
-    /// Mass, kg.
-    pub mass_kg: f64,
-    /// Regions with their elements, volumes and masses.
-    pub regions: Vec<SolidRegion>,
-    /// Named surfaces and sets of nodes.
-    pub boundaries: Vec<SolidBoundary>,
+keys! {
+    /// Size and quality of the mesh of solid bodies.
+    SolidMeshStatistics {
+        #[serde(flatten)]
+        size: MeshSize = "counts; unknowns with those that are held";
+        elements_by_kind: BTreeMap<String, usize> = "elements of each kind";
+        bodies: usize = "parts that no element connects";
+        lowest_m: [f64; 3] = "least coordinates, m";
+        highest_m: [f64; 3] = "largest coordinates, m";
+        #[serde(flatten)]
+        shape: MeshQuality = "sizes and shapes of the elements";
+        worst_element_at_m: [f64; 3] = "centre of the element that has it, m";
+        volume_m3: f64 = "volume, m3";
+        mass_kg: f64 = "mass, kg";
+        regions: Vec<SolidRegion> = "regions with their elements, volumes and masses";
+        boundaries: Vec<SolidBoundary> = "named surfaces and sets of nodes";
+    }
 }
 
 finding! {

@@ -1,126 +1,92 @@
 //! `summary.json` of an uncertainty analysis.
 
 use crate::cea::arrow;
-use frictionsim_output::Described;
+use crate::finding::keys;
 use frictionsim_signal::Estimate;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// `summary.json` of an uncertainty analysis.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct UncertaintySummary {
-    /// Samples.
-    pub samples: usize,
-    /// Samples that could not be solved; nothing below counts them.
-    pub failed: usize,
-    /// Samples that the indices rest on.
-    pub index_samples: usize,
-    /// Friction coefficient of the case; none where it is uncertain, and each sample has its own.
-    pub friction_coefficient: Option<f64>,
-    /// Friction coefficients up to which onsets are sought.
-    pub largest_friction: f64,
-    /// Probability that some mode is unstable, with Wilson's 95 % interval: at the case's friction coefficient, or at a
-    /// sample's own.
-    pub probability_unstable: Estimate,
-    /// Distribution of the lowest critical friction.
-    pub critical_friction: CriticalFriction,
-    /// The modes that turn unstable in some sample, the most probable first.
-    pub families: Vec<FamilySummary>,
-    /// Indices of the lowest critical friction after Sobol, by key.
-    pub sobol: BTreeMap<String, Index>,
-    /// The parameter with the largest total index.
-    pub decisive: Option<String>,
-    /// Friction coefficient, probability of squeal there, and its interval.
-    pub probability_over_friction: Vec<[f64; 4]>,
-    /// Designs, where they were asked for.
-    pub robust: Option<RobustSummary>,
-    /// What is to be said.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// `summary.json` of an uncertainty analysis.
+    UncertaintySummary {
+        samples: usize = "samples";
+        failed: usize = "samples that could not be solved; nothing below counts them";
+        index_samples: usize = "samples that the indices rest on";
+        friction_coefficient: Option<f64> = "friction coefficient of the case; none where it is \
+            uncertain, and each sample has its own";
+        largest_friction: f64 = "friction coefficients up to which onsets are sought";
+        probability_unstable: Estimate = "probability that some mode is unstable, with Wilson's 95 \
+            % interval: at the case's friction coefficient, or at a sample's own";
+        critical_friction: CriticalFriction = "distribution of the lowest critical friction";
+        families: Vec<FamilySummary>
+            = "the modes that turn unstable in some sample, the most probable first";
+        sobol: BTreeMap<String, Index>
+            = "indices of the lowest critical friction after Sobol, by key";
+        decisive: Option<String> = "the parameter with the largest total index";
+        probability_over_friction: Vec<[f64; 4]>
+            = "friction coefficient, probability of squeal there, and its interval";
+        robust: Option<RobustSummary> = "designs, where they were asked for";
+        notes: Vec<String> = "what is to be said";
+    }
 
-/// Distribution of the lowest critical friction; absent where that lies beyond the range.
-#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
-pub struct CriticalFriction {
-    /// Mean of the samples that have an onset.
-    pub mean: Option<f64>,
-    /// 95 % interval of that mean, from its scatter between 16 parts of the sequence.
-    pub mean_low: Option<f64>,
-    /// Upper end.
-    pub mean_high: Option<f64>,
-    /// Median of all samples.
-    pub median: Option<f64>,
-    /// Five in a hundred lie below.
-    pub p05: Option<f64>,
-    /// Five in a hundred lie above.
-    pub p95: Option<f64>,
-    /// Share of the samples without an onset in the range.
-    pub without_onset: f64,
-}
+    /// Distribution of the lowest critical friction; absent where that lies beyond the range.
+    #[derive(Copy, Deserialize)]
+    CriticalFriction {
+        mean: Option<f64> = "mean of the samples that have an onset";
+        mean_low: Option<f64>
+            = "95 % interval of that mean, from its scatter between 16 parts of the sequence";
+        mean_high: Option<f64> = "upper end";
+        median: Option<f64> = "median of all samples";
+        p05: Option<f64> = "five in a hundred lie below";
+        p95: Option<f64> = "five in a hundred lie above";
+        without_onset: f64 = "share of the samples without an onset in the range";
+    }
 
-/// A mode that turns unstable in some sample.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct FamilySummary {
-    /// Circumferential harmonic, of a body that has them.
-    pub harmonic: Option<usize>,
-    /// Branch within the harmonic, else among all.
-    pub branch: usize,
-    /// +1 with the rotor, -1 against it, 0 standing.
-    pub direction: i8,
-    /// Probability that it is unstable at the friction coefficient of the case.
-    pub probability: f64,
-    /// Probability that it turns unstable in the range.
-    pub probability_in_range: f64,
-    /// Share of the samples in which it lies beyond the frequency limit, where it is not followed.
-    pub beyond_limit: f64,
-    /// Median of its critical friction, of the samples in which it has one.
-    pub critical_friction_median: f64,
-    /// Mean frequency at its onset, Hz.
-    pub frequency_hz: f64,
-    /// Its critical friction at the quantiles 1, 2, ... 99 % of all samples, where it has one.
-    pub critical_friction_percentiles: Vec<Option<f64>>,
-}
+    /// A mode that turns unstable in some sample.
+    FamilySummary {
+        harmonic: Option<usize> = "circumferential harmonic, of a body that has them";
+        branch: usize = "branch within the harmonic, else among all";
+        direction: i8 = "+1 with the rotor, -1 against it, 0 standing";
+        probability: f64
+            = "probability that it is unstable at the friction coefficient of the case";
+        probability_in_range: f64 = "probability that it turns unstable in the range";
+        beyond_limit: f64 = "share of the samples in which it lies beyond the frequency limit, \
+            where it is not followed";
+        critical_friction_median: f64
+            = "median of its critical friction, of the samples in which it has one";
+        frequency_hz: f64 = "mean frequency at its onset, Hz";
+        critical_friction_percentiles: Vec<Option<f64>> = "its critical friction at the quantiles \
+            1, 2, ... 99 % of all samples, where it has one";
+    }
 
-/// Sobol's indices of one parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct Index {
-    /// Share of the variance that goes if the parameter is known.
-    pub first: f64,
-    /// Share that stays if all others are known.
-    pub total: f64,
-    /// Ends of the 95 % interval of the first, from resampling; absent in summaries of earlier versions.
-    pub first_interval: Option<[f64; 2]>,
-    /// The same of the second.
-    pub total_interval: Option<[f64; 2]>,
-}
+    /// Sobol's indices of one parameter.
+    #[derive(Copy)]
+    Index {
+        first: f64 = "share of the variance that goes if the parameter is known";
+        total: f64 = "share that stays if all others are known";
+        first_interval: Option<[f64; 2]> = "ends of the 95 % interval of the first, from \
+            resampling; absent in summaries of earlier versions";
+        total_interval: Option<[f64; 2]> = "the same of the second";
+    }
 
-/// Probability of squeal over designs.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct RobustSummary {
-    /// Probability that is to be reached.
-    pub bound: f64,
-    /// Samples at each design.
-    pub samples: usize,
-    /// One curve for each design parameter.
-    pub curves: Vec<DesignCurve>,
-    /// The parameter whose smallest relative change reaches the bound.
-    pub cheapest: Option<String>,
-}
+    /// Probability of squeal over designs.
+    RobustSummary {
+        bound: f64 = "probability that is to be reached";
+        samples: usize = "samples at each design";
+        curves: Vec<DesignCurve> = "one curve for each design parameter";
+        cheapest: Option<String> = "the parameter whose smallest relative change reaches the bound";
+    }
 
-/// Probability of squeal over one design parameter.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct DesignCurve {
-    /// Dotted case key.
-    pub key: String,
-    /// Its value in the case.
-    pub own: Option<f64>,
-    /// Value, probability and its interval.
-    pub points: Vec<[f64; 4]>,
-    /// The value nearest to the case's at which the bound is reached, by linear interpolation.
-    pub reaches_bound_at: Option<f64>,
-    /// The change that takes, per cent.
-    pub change_percent: Option<f64>,
-    /// Whether the onsets of the first sample depend on the parameter at all.
-    pub has_effect: bool,
+    /// Probability of squeal over one design parameter.
+    DesignCurve {
+        key: String = "dotted case key";
+        own: Option<f64> = "its value in the case";
+        points: Vec<[f64; 4]> = "value, probability and its interval";
+        reaches_bound_at: Option<f64> = "the value nearest to the case's at which the bound is \
+            reached, by linear interpolation";
+        change_percent: Option<f64> = "the change that takes, per cent";
+        has_effect: bool = "whether the onsets of the first sample depend on the parameter at all";
+    }
 }
 
 impl FamilySummary {
