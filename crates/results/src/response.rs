@@ -3,6 +3,7 @@
 use super::finding::write_table;
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
+use super::sorted;
 use crate::finding::keys;
 use frictionsim_chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use frictionsim_output::{Document, Section, Table};
@@ -109,12 +110,8 @@ fn maxima(magnitude: &[f64]) -> Vec<usize> {
         let near = &logs[i.saturating_sub(3)..(i + 4).min(logs.len())];
         near.iter().all(|value| *value <= logs[*i])
     };
-    let mut found: Vec<(f64, usize)> = peaks
-        .filter(is_high)
-        .map(|i| (prominence(magnitude, i), i))
-        .filter(|(rise, _)| *rise > least)
-        .collect();
-    frictionsim_physics::order::sort_by_number(&mut found, |a| -a.0);
+    let found = peaks.filter(is_high).map(|i| (prominence(magnitude, i), i));
+    let mut found = sorted(found.filter(|(rise, _)| *rise > least), |own| -own.0);
     found.truncate(MOST_MAXIMA);
     found.into_iter().map(|(_, place)| place).collect()
 }

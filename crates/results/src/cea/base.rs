@@ -3,7 +3,7 @@
 use crate::extent::Extent;
 use crate::finding::keys;
 use crate::vtu::Field;
-use crate::{BodyStress, ShownBody};
+use crate::{BodyStress, ShownBody, sorted};
 use frictionsim_output::{Table, columns, significant};
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::mesh::{Counterface, Mesh};
@@ -179,8 +179,7 @@ impl BaseField {
                 // The angle of round-off below zero is zero.
                 *angle = if TAU - turned < 1e-9 { 0.0 } else { turned };
             }
-            frictionsim_physics::order::sort_by_number(&mut places, |a| a.1);
-            return places;
+            return sorted(places, |own| own.1);
         }
         for i in 1..places.len() {
             let step = places[i].1 - places[i - 1].1;

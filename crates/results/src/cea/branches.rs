@@ -1,5 +1,6 @@
 //! The modes of a sweep and its unstable intervals by branch.
 
+use crate::sorted;
 use frictionsim_physics::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use std::collections::BTreeMap;
 
@@ -55,9 +56,7 @@ pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&Unstable
     for interval in &sweep.intervals {
         rows.entry(branch_of(interval)).or_default().push(interval);
     }
-    let mut rows: Vec<_> = rows.into_iter().collect();
-    frictionsim_physics::order::sort_by_number(&mut rows, |a| a.1[0].frequency_hz);
-    rows
+    sorted(rows, |own| own.1[0].frequency_hz)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::mode_name::travels;
 use crate::finding::finding;
+use crate::sorted;
 use frictionsim_output::{Format, Table, columns, fixed};
 use frictionsim_physics::linalg::c64;
 use std::f64::consts::TAU;
@@ -53,13 +54,10 @@ impl SensitivityReport {
     /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
     fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
         let given = row.derivatives.iter().zip(&self.parameters);
-        let mut changes: Vec<(&str, c64)> = given
-            .filter_map(|(derivative, (name, value))| {
-                Some((name.as_str(), (*derivative)? * (0.01 * value)))
-            })
-            .collect();
-        frictionsim_physics::order::sort_by_number(&mut changes, |a| -a.1.re.abs());
-        changes
+        let changes = given.filter_map(|(derivative, (name, value))| {
+            Some((name.as_str(), (*derivative)? * (0.01 * value)))
+        });
+        sorted(changes, |own| -own.1.re.abs())
     }
 
     /// `sensitivities.csv`, one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
@@ -93,8 +91,7 @@ impl SensitivityReport {
     /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest
     /// first.
     pub(super) fn tables(&self, most: usize) -> Vec<Table> {
-        let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
-        frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.eigenvalue.re);
+        let rows = sorted(&self.rows, |own| -own.eigenvalue.re);
         rows.into_iter().take(most).map(|row| self.changes(row)).collect()
     }
 

@@ -5,7 +5,7 @@ mod figures;
 pub use figures::overlaid;
 
 use super::sweep::{cell, join};
-use super::{Manifest, Page, distinct};
+use super::{Manifest, Page, distinct, sorted};
 use crate::finding::keys;
 use frictionsim_output::{Cell, Document, Format, Section, Table, columns, unit_of};
 use serde_json::Value;
@@ -212,12 +212,9 @@ fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
     let differs = |shared: &&SharedQuantity| !shared.is_equal() && !shared.is_cost();
     let mut found: Vec<&SharedQuantity> =
         first_of(quantities).into_iter().filter(differs).collect();
-    let mut others: Vec<&SharedQuantity> = quantities
-        .iter()
-        .filter(|shared| found.iter().all(|known| known.path != shared.path))
-        .filter(differs)
-        .collect();
-    frictionsim_physics::order::sort_by_number(&mut others, |a| -a.largest_relative());
+    let is_other = |shared: &&SharedQuantity| found.iter().all(|own| own.path != shared.path);
+    let others = quantities.iter().filter(is_other).filter(differs);
+    let others = sorted(others, |own| -own.largest_relative());
     found.extend(others);
     found
 }

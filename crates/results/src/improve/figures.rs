@@ -3,6 +3,7 @@
 use super::{ImproveSummary, Improvement, Sizes, TargetFields};
 use crate::charts::{Disc, SolidView};
 use crate::drawing::{Declaration, declared};
+use crate::sorted;
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Marker, Points, Side, significant};
 use frictionsim_physics::mesh::Mesh;
 use std::f64::consts::PI;
@@ -12,9 +13,8 @@ const MOST: usize = 4;
 
 /// A figure for each target, the fastest first.
 pub fn figures(found: &Improvement) -> Vec<Figure> {
-    let mut order: Vec<&TargetFields> = found.fields.iter().collect();
-    frictionsim_physics::order::sort_by_number(&mut order, |a| -a.mode.growth_rate_per_s);
-    let figures = order.into_iter().take(MOST).map(|own| -> Declaration<'_> {
+    let order = sorted(&found.fields, |own| -own.mode.growth_rate_per_s).into_iter();
+    let figures = order.take(MOST).map(|own| -> Declaration<'_> {
         Box::new(move || Some(target_figure(&found.summary, &found.mesh, own)))
     });
     declared(figures.collect())

@@ -3,8 +3,8 @@
 use super::figures::{indices, robust, uncertainty};
 use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
 use super::{ONSETS, Sample};
-use crate::Finding;
 use crate::drawing::Declaration;
+use crate::{Finding, sorted};
 use frictionsim_output::{Document, Format, Section, Table, columns};
 
 columns! {
@@ -91,9 +91,7 @@ impl Finding for UncertaintySummary {
         )
         .columns(FAMILIES, &self.families)]);
         if !self.sobol.is_empty() {
-            let mut rows: Vec<(String, Index)> =
-                self.sobol.iter().map(|(key, index)| (key.clone(), *index)).collect();
-            frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.1.total);
+            let rows = sorted(self.sobol.clone(), |a| -a.1.total);
             let caption =
                 "Sobol's indices of the lowest critical friction: which parameter decides it";
             results = results.tables([Table::new("", caption).columns(INDICES, rows)]);

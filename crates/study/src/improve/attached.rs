@@ -21,6 +21,7 @@ use super::base::{Base, PairedMode, REACH};
 use frictionsim_physics::linalg::dense::{dot, transpose_product};
 use frictionsim_physics::linalg::dense_eigen::real_eigenvalues;
 use frictionsim_physics::linalg::{ComplexSparseLu, LinalgError, Mat, c64};
+use frictionsim_results::sorted;
 use nalgebra::DMatrix;
 
 /// Modes taken into the space, the nearest to the targets.
@@ -53,8 +54,7 @@ impl<'a> NearModes<'a> {
             let own = mode.eigenvalue().im;
             targets.iter().map(|target| (own / target).ln().abs()).fold(f64::INFINITY, f64::min)
         };
-        let mut modes: Vec<&PairedMode> = base.modes.iter().collect();
-        frictionsim_physics::order::sort_by_number(&mut modes, |a| away(a));
+        let mut modes = sorted(&base.modes, |mode| away(mode));
         modes.truncate(MOST_MODES);
         let frequencies = || modes.iter().map(|mode| mode.eigenvalue().im);
         let lowest = frequencies().fold(f64::INFINITY, f64::min);
