@@ -17,37 +17,39 @@ pub trait Finding: Serialize {
     fn figures(&self) -> Vec<Declaration<'_>>;
 }
 
-/// Declares what was found once: `field: type = "meaning", Always "label" Fixed(2);` is a field, a column of files and,
-/// with a label, one that people see. Without a meaning it is a field alone.
-macro_rules! finding {
-    ($(#[$meta:meta])* $name:ident, $columns:ident {
-        $($(#[$own:meta])* $field:ident: $type:ty
-            $(= $meaning:literal $(, $when:ident $label:literal $format:expr)?)?;)+
+/// Declares objects of JSON, each a struct: `key: type = "meaning";` is a field, its key and what the reference says of
+/// it; `key?: type` is absent where there is none. With a name of columns, `Name, COLUMNS`, each key is a column of
+/// files as well and, with a label as in `Always "label" Fixed(2)`, one that people see; without a meaning it is a field
+/// alone. Attributes may stand before an object and before a key.
+macro_rules! keys {
+    (@ $(#[$($meta:tt)+])* $name:ident {
+        $($(#[$($own:tt)+])* $key:ident $(?: $option:ty)? $(: $type:ty)? $(= $meaning:literal
+            $(, $when:ident $label:literal $format:expr)?)?;)+
     }) => {
-        $(#[$meta])*
-        pub struct $name {
-            $($(#[doc = $meaning])? $(#[$own])* pub $field: $type,)+
-        }
+        $(#[$($meta)+])*
+        #[derive(Clone, Debug, PartialEq, frictionsim_output::Described, serde::Serialize)]
+        pub struct $name {$(
+            $(#[doc = $meaning])?
+            $(#[$($own)+])*
+            $(#[serde(skip_serializing_if = "Option::is_none")] #[cfg_attr(any(), key($option))])?
+            pub $key: $($type)? $(Option<$option>)?,
+        )+}
+    };
+    (@ $(#[$($meta:tt)+])* $name:ident, $columns:ident {
+        $($(#[$($own:tt)+])* $key:ident $(?: $option:ty)? $(: $type:ty)? $(= $meaning:literal
+            $(, $when:ident $label:literal $format:expr)?)?;)+
+    }) => {
+        $crate::finding::keys! { @ $(#[$($meta)+])* $name {
+            $($(#[$($own)+])* $key $(?: $option)? $(: $type)? $(= $meaning)?;)+
+        }}
 
         frictionsim_output::columns! {
             pub(crate) $columns: own as $name;
-            $($($field: $meaning = own.$field.to_owned() $(, $when $label $format)?;)?)+
+            $($($key: $meaning = own.$key.to_owned() $(, $when $label $format)?;)?)+
         }
     };
-}
-pub(crate) use finding;
-
-/// Declares objects of JSON, each a struct: `key: type = "meaning";` is a field, its key and what the reference says of
-/// it. Attributes may stand before an object and before a key.
-macro_rules! keys {
-    ($($(#[$meta:meta])* $name:ident {
-        $($(#[$($own:tt)+])* $key:ident: $type:ty = $meaning:literal;)+
-    })+) => {$(
-        $(#[$meta])*
-        #[derive(Clone, Debug, PartialEq, frictionsim_output::Described, serde::Serialize)]
-        pub struct $name {
-            $(#[doc = $meaning] $(#[$($own)+])* pub $key: $type,)+
-        }
+    ($($(#[$($meta:tt)+])* $name:ident $(, $columns:ident)? { $($keys:tt)+ })+) => {$(
+        $crate::finding::keys! { @ $(#[$($meta)+])* $name $(, $columns)? { $($keys)+ } }
     )+};
 }
 pub(crate) use keys;

@@ -3,12 +3,11 @@
 //! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an
 //! `Option` and null in JSON: JSON has neither NaN nor infinity.
 
-use super::finding::{finding, keys};
+use super::finding::keys;
 use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
-use frictionsim_output::Described;
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::transient::ContactPowers;
 use serde::Serialize;
@@ -38,9 +37,9 @@ impl fmt::Display for CriticalValue {
     }
 }
 
-finding! {
+keys! {
     /// Fractions of the contact nodes, averaged over the interval that a summary is of.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+    #[derive(Copy, Default)]
     StatusFractions, STATUS {
         stick: Option<f64> = "fraction of the contact that sticks", Always "stick" Percent(1);
         slip: Option<f64> = "fraction that slips", Always "slip" Percent(1);
@@ -66,8 +65,7 @@ keys! {
         contact_dissipated: Option<f64> = "lost to friction";
         material_damping: Option<f64> = "lost in the body";
         normal_contact: Option<f64> = "of the normal contact forces";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        contact_damping: Option<f64> = "lost in the dashpots of a contact that has some";
+        contact_damping?: f64 = "lost in the dashpots of a contact that has some";
     }
 }
 

@@ -20,10 +20,8 @@ keys! {
         pressure_pa: [f64; 2] = "contact pressure, smallest and largest, Pa";
         shear_pa: [f64; 2] = "friction traction with the sign of that in `prestress.csv`, smallest \
             and largest, Pa";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        torque_n_m: Option<f64> = "friction torque on a cylinder, of the whole thickness, N m";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        drag_n: Option<f64> = "friction force on a plane, of the whole thickness, N";
+        torque_n_m?: f64 = "friction torque on a cylinder, of the whole thickness, N m";
+        drag_n?: f64 = "friction force on a plane, of the whole thickness, N";
         power_w: f64 = "power that the counterface puts in, W";
         extent: Extent = "what torque, force and power are of";
     }

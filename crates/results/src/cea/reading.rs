@@ -3,14 +3,15 @@
 use super::branches::Branch;
 use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, ModeFeed};
-use crate::finding::finding;
+use crate::finding::keys;
 use crate::{distinct, grouped, sorted};
 use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
-use frictionsim_output::{Cell, Table, columns, fixed};
+use frictionsim_output::{Cell, Described, Table, columns, fixed};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// What a contribution comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
 pub enum Source {
     /// The material damping of a region.
     Part,
@@ -33,9 +34,8 @@ impl From<Source> for Cell {
     }
 }
 
-finding! {
+keys! {
     /// The share of one part, support or contact in a mode.
-    #[derive(Clone, Debug, PartialEq)]
     Contribution, CONTRIBUTIONS {
         /// The mode.
         mode: ModeName;

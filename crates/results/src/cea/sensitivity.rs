@@ -1,7 +1,7 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use super::mode_name::travels;
-use crate::finding::finding;
+use crate::finding::keys;
 use crate::sorted;
 use frictionsim_output::{Format, Table, columns, fixed};
 use frictionsim_physics::linalg::c64;
@@ -16,9 +16,8 @@ pub struct SensitivityReport {
     pub rows: Vec<SensitivityRow>,
 }
 
-finding! {
+keys! {
     /// Derivatives of one eigenvalue.
-    #[derive(Clone, Debug, PartialEq)]
     SensitivityRow, ROWS {
         friction_coefficient: f64 = "friction coefficient";
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
@@ -26,10 +25,13 @@ finding! {
         direction: Option<i8>
             = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         /// Eigenvalue, rad/s.
+        #[serde(skip)]
         eigenvalue: c64;
         /// `d lambda / d parameter`, in the order of the parameters; `None` of one that the branch does not have.
+        #[serde(skip)]
         derivatives: Vec<Option<c64>>;
         /// Where the branch turns unstable first.
+        #[serde(skip)]
         onset: Option<OnsetRates>;
     }
 }

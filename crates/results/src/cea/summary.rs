@@ -2,11 +2,11 @@
 
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
-use crate::finding::{finding, keys};
+use crate::finding::keys;
 use crate::summary::present;
-use frictionsim_output::{Column, Described, parted};
+use frictionsim_output::{Column, parted};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::f64::consts::TAU;
 
 keys! {
@@ -26,8 +26,7 @@ keys! {
             = "the modes that grow at each friction value of the tables";
         base_state: BaseState = "steady sliding at the case's own friction coefficient";
         notes: Vec<String> = "what the solver has to say";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        contact_open_fraction: Option<f64>
+        contact_open_fraction?: f64
             = "fraction of the contact nodes that are open, where some may be";
         #[serde(skip_serializing_if = "Vec::is_empty")]
         mode_counts: Vec<CountSummary>
@@ -75,11 +74,9 @@ keys! {
         modes: usize = "modes";
         unstable: usize = "those that grow";
     }
-}
 
-finding! {
     /// Where a branch turns unstable, and where it is stable again.
-    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    #[derive(Copy, Deserialize)]
     CriticalFriction, ONSETS {
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
             IfAny "n" Count;
@@ -94,14 +91,10 @@ finding! {
             IfAny "stable again above" Fixed(6);
         restabilized_frequency_hz: Option<f64> = "frequency there",
             IfAny "frequency there" Fixed(2);
-        unstable_from_start: bool
-            = "whether it is unstable at the lowest friction solved already";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        lost_after: Option<f64> = "friction coefficient between which and critical_friction it \
+        unstable_from_start: bool = "whether it is unstable at the lowest friction solved already";
+        lost_after?: f64 = "friction coefficient between which and critical_friction it \
             turns unstable, where it was lost";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        mesh_error: Option<f64>
-            = "estimate of the critical friction less that on an ever finer mesh",
+        mesh_error?: f64 = "estimate of the critical friction less that on an ever finer mesh",
             IfAny "error of the mesh" Scientific(1);
     }
 }
@@ -109,9 +102,9 @@ finding! {
 /// Those that a sweep lists too.
 pub(crate) const SWEPT_ONSETS: &[Column<CriticalFriction>] = parted(ONSETS, "mesh_error").0;
 
-finding! {
+keys! {
     /// A mode at the friction coefficient of the case.
-    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    #[derive(Copy, Deserialize)]
     ModeSummary, OWN_MODES {
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
         branch: usize = "rank within the harmonic, else among all, from 1";
@@ -121,11 +114,9 @@ finding! {
         frequency_hz: f64 = "imaginary part over 2 pi";
         unstable: bool = "whether it grows";
         contact_share: Option<f64> = "share of the kinetic energy at the contact";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        axial_share: Option<f64>
+        axial_share?: f64
             = "share of the kinetic energy along the axis, of a body in three dimensions";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        mesh_error: Option<f64> = "estimate of the frequency less that on an ever finer mesh, Hz";
+        mesh_error?: f64 = "estimate of the frequency less that on an ever finer mesh, Hz";
     }
 }
 
@@ -149,9 +140,9 @@ impl ModeSummary {
     }
 }
 
-finding! {
+keys! {
     /// A mode that grows, where it was found, and from when it does.
-    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    #[derive(Copy, Deserialize)]
     UnstableMode, UNSTABLE {
         friction_coefficient: f64 = "friction coefficient", Always "friction" Plain;
         mode: usize = "number by frequency at that friction, from 1", Always "mode" Count;

@@ -22,10 +22,8 @@ keys! {
     ModeOfCycle {
         #[serde(flatten)]
         mode: ModeSummary = "the mode";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        same_as: Option<usize> = "mode that has led to the same cycle before";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        sought_from: Option<f64> = "value of the parameter of `cycle.continuation` at which the \
+        same_as?: usize = "mode that has led to the same cycle before";
+        sought_from?: f64 = "value of the parameter of `cycle.continuation` at which the \
             mode grows, where none does at the case's own";
     }
 

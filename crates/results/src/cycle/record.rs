@@ -2,7 +2,7 @@
 
 use super::name::CycleName;
 use super::verdicts::Perturbation;
-use crate::finding::{finding, keys};
+use crate::finding::keys;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
@@ -35,8 +35,7 @@ keys! {
         contact_node: usize = "label of the contact node that moves most along the counterface";
         kick_velocity: Option<f64> = "velocity of a kick that tips stable sliding into this cycle: \
             `2 pi f` times the amplitude of the unstable cycle between both, m/s";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        sound: Option<Sound> = "estimate of the sound that it radiates, of a body with flat faces";
+        sound?: Sound = "estimate of the sound that it radiates, of a body with flat faces";
         harmonic_count: usize = "harmonics in which the motion is told";
         harmonic_remainder: f64 = "share of the vibration of the contact nodes that these leave";
         #[serde(skip)]
@@ -47,9 +46,8 @@ keys! {
 /// A perturbation, of a wave with the value of the parameter of its branch.
 pub(super) type Exponent = (Option<f64>, Perturbation);
 
-finding! {
+keys! {
     /// A contact node over the period.
-    #[derive(Clone, Debug, PartialEq)]
     ContactNode, CONTACT_NODES {
         node: usize = "number of the node";
         x_m: f64 = "its place";

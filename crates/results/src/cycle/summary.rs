@@ -19,8 +19,7 @@ keys! {
         steady_sliding_stable: bool = "whether nothing looked at grows";
         #[serde(flatten)]
         origin: Origin = "where the search has started";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        critical_value: Option<CriticalValue> = "where along the parameter of the case sliding \
+        critical_value?: CriticalValue = "where along the parameter of the case sliding \
             loses its stability, where it is stable at its own operating point";
         extent: Extent = "what powers are of, in the tables too";
         cycles: Vec<SoughtCycle>
@@ -28,8 +27,7 @@ keys! {
         #[serde(skip_serializing_if = "Vec::is_empty")]
         two_waves: Vec<TwoWaveSummary> = "motions of two waves that live together";
         notes: Vec<String> = "what there is to say";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        curves: Option<Vec<FamilyRecord>>
+        curves?: Vec<FamilyRecord>
             = "the branches, where no tables hold them: at a point of a study";
         #[serde(skip)]
         friction_coefficient: f64 = "friction coefficient of the case";

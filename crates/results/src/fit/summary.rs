@@ -1,9 +1,8 @@
 //! `summary.json` of a fit.
 
 use crate::cea::mode_name;
-use crate::finding::{finding, keys};
-use frictionsim_output::{Column, Described, parted, rounded};
-use serde::Serialize;
+use crate::finding::keys;
+use frictionsim_output::{Column, parted, rounded};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -43,11 +42,8 @@ keys! {
         also: Vec<String> = "keys that have the same value";
         unit: String = "its unit";
     }
-}
 
-finding! {
     /// One mode of the model.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     ModeSummary, MODES {
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
             IfAny "n" Count;
@@ -70,9 +66,8 @@ impl ModeSummary {
     }
 }
 
-finding! {
+keys! {
     /// One measured line and its mode.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     LineSummary, LINES {
         line: usize = "line of the table of measurements";
         frequency_hz: f64 = "measured frequency", Always "measured" Fixed(2);
@@ -86,8 +81,7 @@ finding! {
         difference_hz: f64 = "frequency of the model less measured";
         difference_percent: f64 = "the same over the measured one", Always "difference" Signed(3);
         real_difference_hz: Option<f64> = "real part of the model less measured";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        mac: Option<f64> = "modal assurance criterion of measured shape and mode; where shapes \
+        mac?: f64 = "modal assurance criterion of measured shape and mode; where shapes \
             were measured", IfAny "MAC" Fixed(3);
     }
 }

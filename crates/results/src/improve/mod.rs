@@ -5,10 +5,9 @@ mod files;
 mod tables;
 
 use super::Extent;
-use super::finding::{finding, keys};
-use frictionsim_output::{Column, Described, parted, significant};
+use super::finding::keys;
+use frictionsim_output::{Column, parted, significant};
 use frictionsim_physics::mesh::Mesh;
-use serde::Serialize;
 use std::sync::Arc;
 
 pub use figures::figures;
@@ -63,19 +62,16 @@ keys! {
         frequency_hz: f64 = "`Im(lambda) / 2 pi`, Hz";
         growth_rate_per_s: f64 = "`Re(lambda)`, 1/s";
     }
-}
 
-finding! {
     /// What the modes of the window of frequencies come to.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+    #[derive(Copy, Default)]
     State, STATES {
         growth_rate_per_s: Option<f64> = "growth rate of the fastest mode of the window",
             Always "growth" Significant(4);
         /// Its frequency, Hz.
         frequency_hz: Option<f64>;
-        critical_friction: Option<f64>
-            = "lowest critical friction of the window, of a run; empty where none is below the case's own",
-            Always "critical friction" Fixed(4);
+        critical_friction: Option<f64> = "lowest critical friction of the window, of a run; empty \
+            where none is below the case's own", Always "critical friction" Fixed(4);
         /// Unstable modes there.
         unstable: usize;
         unstable_beside: usize = "unstable modes at other frequencies";

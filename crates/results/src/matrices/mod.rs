@@ -4,7 +4,7 @@ mod spectrum;
 
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
-use super::finding::{finding, keys};
+use super::finding::keys;
 use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
 use super::npz::NpzArchive;
@@ -74,9 +74,8 @@ impl Described for MatrixRole {
     }
 }
 
-finding! {
+keys! {
     /// One unknown. Its node has the number that the user knows, its direction is along global axes.
-    #[derive(Clone, Debug, PartialEq)]
     ExportedUnknown, UNKNOWN {
         unknown: usize = "row and column of the matrices, from 0";
         node: usize = "number of its node";

@@ -1,66 +1,51 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
 use super::{Measured, MeshSize, condition_name, write_nodes};
-use crate::finding::{finding, keys};
+use crate::finding::keys;
 use crate::folder::{FolderError, OutputFolder};
-use frictionsim_output::{Described, Format, Section, Table};
+use frictionsim_output::{Format, Section, Table};
 use frictionsim_physics::mesh::{
     AnnulusMesh, Mesh, MeshQuality, SolidContact, SolidFace, SolidSector,
 };
-use serde::Serialize;
 
 keys! {
     /// Size and quality of a mesh.
     MeshStatistics {
         #[serde(flatten)]
         size: MeshSize = "counts";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        axial_elements: Option<usize> = "layers of bricks over the thickness of a body in three \
+        axial_elements?: usize = "layers of bricks over the thickness of a body in three \
             dimensions. Edges, quality and areas are of its plane section then";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        nodes_per_sector: Option<usize> = "on the annulus, nodes of one ray of corner nodes: node \
+        nodes_per_sector?: usize = "on the annulus, nodes of one ray of corner nodes: node \
             `1 + j (nodes_per_sector) + i`";
         #[serde(flatten)]
         shape: MeshQuality = "sizes and shapes of the elements";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        unnamed_free_edges: Option<usize>
+        unnamed_free_edges?: usize
             = "edges of one element alone that belong to no named boundary, of a mesh file";
         area_m2: f64 = "area of the mesh, m2";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        area_error: Option<f64> = "its relative difference to the annulus";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        elements_per_wavelength: Option<f64> = "elements for each shear wavelength at the highest \
+        area_error?: f64 = "its relative difference to the annulus";
+        elements_per_wavelength?: f64 = "elements for each shear wavelength at the highest \
             frequency of the case, where it has one: the largest edge counts";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        contact_nodes_per_wave: Option<f64>
+        contact_nodes_per_wave?: f64
             = "contact nodes for each such wave, where they are farthest apart on average";
         regions: Vec<RegionStatistics> = "regions with their elements and areas";
         boundaries: Vec<BoundaryStatistics> = "boundaries with their nodes and lengths; faces of a \
             body of revolution with their areas";
     }
-}
 
-finding! {
     /// One region of a mesh.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     RegionStatistics, REGIONS {
         name: String = "its name", Always "region" Plain;
         elements: usize = "its elements", Always "elements" Count;
         area_m2: f64 = "its area", Always "area" Scientific(6);
     }
-}
 
-finding! {
     /// One boundary of a mesh.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     BoundaryStatistics, BOUNDARIES {
         name: String = "its name", Always "boundary" Plain;
         nodes: usize = "its nodes", Always "nodes" Count;
         length_m: Option<f64> = "its length, around a face of a body of revolution",
             IfAny "length" Scientific(6);
-        #[serde(skip_serializing_if = "Option::is_none")]
-        area_m2: Option<f64> = "its area, of a face of a body of revolution",
-            IfAny "area" Scientific(6);
+        area_m2?: f64 = "its area, of a face of a body of revolution", IfAny "area" Scientific(6);
         condition: String = "what holds it, in a word", Always "condition" Plain;
     }
 }

@@ -1,10 +1,9 @@
 //! Results of `mesh` for solid bodies of a mesh file.
 
 use super::{Measured, MeshSize, role_of};
-use crate::finding::{finding, keys};
-use frictionsim_output::{Described, Section, Table};
+use crate::finding::keys;
+use frictionsim_output::{Section, Table};
 use frictionsim_physics::mesh::{Mesh, MeshQuality};
-use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 keys! {
@@ -24,22 +23,16 @@ keys! {
         regions: Vec<SolidRegion> = "regions with their elements, volumes and masses";
         boundaries: Vec<SolidBoundary> = "named surfaces and sets of nodes";
     }
-}
 
-finding! {
     /// One region of solid bodies.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     SolidRegion, REGIONS {
         name: String = "its name", Always "region" Plain;
         elements: usize = "its elements", Always "elements" Count;
         volume_m3: f64 = "its volume", Always "volume" Scientific(6);
         mass_kg: f64 = "its mass", Always "mass" Fixed(6);
     }
-}
 
-finding! {
     /// One named surface of solid bodies.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     SolidBoundary, BOUNDARIES {
         name: String = "its name", Always "boundary" Plain;
         nodes: usize = "its nodes", Always "nodes" Count;

@@ -48,11 +48,9 @@ keys! {
         mode: usize = "number by frequency, from 1";
         frequency_hz: f64 = "frequency, Hz";
         growth_rate_per_s: f64 = "growth rate, 1/s";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        harmonic: Option<usize> = "circumferential harmonic; none on a body without symmetry";
+        harmonic?: usize = "circumferential harmonic; none on a body without symmetry";
         branch: usize = "branch of that harmonic, or of the body";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        direction: Option<i8>
+        direction?: i8
             = "+1 with the rotor, -1 against it, 0 standing; none on a body without symmetry";
         unstable: bool = "whether it grows";
     }

@@ -30,11 +30,9 @@ keys! {
         settled_from_s: Option<f64> = "since when, s";
         end_state: String = "`limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, \
             `separated` or `unsettled`";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        frequencies_hz: Option<[f64; 2]>
+        frequencies_hz?: [f64; 2]
             = "both frequencies of a motion of two, the stronger first, Hz; absent otherwise";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        envelope_ratio: Option<f64> = "largest over smallest envelope of a motion of two \
+        envelope_ratio?: f64 = "largest over smallest envelope of a motion of two \
             frequencies over the last fifth; absent otherwise";
         unsettled_because: Option<String> = "why it is unsettled";
         drift: Option<Drift> = "drift over the last fifth";
@@ -46,11 +44,9 @@ keys! {
         status: StatusFractions = "fractions of contact nodes over the last fifth";
         power_w: MeanPowers = "mean powers over the last fifth";
         extent: Extent = "what powers, energies and forces are of, in the tables too";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        ambiguous_friction: Option<f64> = "share of the steps of contact nodes that could have \
+        ambiguous_friction?: f64 = "share of the steps of contact nodes that could have \
             ended in stick and in slip alike; absent where there is none";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        unconverged_steps: Option<u64> = "steps in which the forces between two bodies had not \
+        unconverged_steps?: u64 = "steps in which the forces between two bodies had not \
             converged; absent where there is none";
         harmonics: Vec<f64> = "mean amplitudes of the harmonics 0 to 8 of the contact edge's \
             tangential displacement, m; empty for a body without symmetry";
@@ -103,39 +99,26 @@ keys! {
     /// Growth of one harmonic, with 95 % intervals.
     #[derive(Copy)]
     GrowthSummary {
-        #[serde(skip_serializing_if = "Option::is_none")]
-        harmonic: Option<usize> = "circumferential harmonic; absent for a body without symmetry";
+        harmonic?: usize = "circumferential harmonic; absent for a body without symmetry";
         rate_per_s: f64 = "rate, 1/s";
         rate_low_per_s: f64 = "low end of its interval, 1/s";
         rate_high_per_s: f64 = "high end, 1/s";
         frequency_hz: f64 = "frequency, Hz";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        direction: Option<i8>
-            = "+1 with the rotor, -1 against it; absent for a body without symmetry";
+        direction?: i8 = "+1 with the rotor, -1 against it; absent for a body without symmetry";
     }
 
     /// Motion of a probe over the last fifth; accelerations are means over the sample interval.
     #[derive(Copy)]
     ProbeSummary {
-        #[serde(skip_serializing_if = "Option::is_none")]
-        place: Option<PlaceSummary> = "where it is, if it was asked for by its place";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        radial: Option<ProbeMotion>
+        place?: PlaceSummary = "where it is, if it was asked for by its place";
+        radial?: ProbeMotion
             = "radially; absent on a plane counterface and of solid bodies of a mesh";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        normal: Option<ProbeMotion>
-            = "along the normal of a plane counterface; absent of other bodies";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        tangential: Option<ProbeMotion> = "tangentially; absent of solid bodies of a mesh";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        axial: Option<ProbeMotion>
-            = "along the axis; absent in the plane and of solid bodies of a mesh";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        x: Option<ProbeMotion> = "along x, of solid bodies of a mesh";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        y: Option<ProbeMotion> = "along y, of solid bodies of a mesh";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        z: Option<ProbeMotion> = "along z, of solid bodies of a mesh";
+        normal?: ProbeMotion = "along the normal of a plane counterface; absent of other bodies";
+        tangential?: ProbeMotion = "tangentially; absent of solid bodies of a mesh";
+        axial?: ProbeMotion = "along the axis; absent in the plane and of solid bodies of a mesh";
+        x?: ProbeMotion = "along x, of solid bodies of a mesh";
+        y?: ProbeMotion = "along y, of solid bodies of a mesh";
+        z?: ProbeMotion = "along z, of solid bodies of a mesh";
     }
 
     /// A place that was asked for, and its nearest node.

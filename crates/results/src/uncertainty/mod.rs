@@ -10,12 +10,12 @@ pub use summary::{
     CriticalFriction, DesignCurve, FamilySummary, Index, RobustSummary, UncertaintySummary,
 };
 
-use super::finding::finding;
+use super::finding::keys;
 use serde::{Deserialize, Serialize};
 
-finding! {
+keys! {
     /// A branch that turns unstable in a sample.
-    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[derive(Deserialize)]
     Onset, ONSETS {
         critical_friction: f64 = "lowest critical friction of the sample";
         harmonic: Option<usize> = "nodal diameters of its mode; none without symmetry";
