@@ -143,9 +143,6 @@ impl Case {
     }
 
     /// Normal force of each contact without friction, N: the sum of its forces along its normals, none across a gap.
-    ///
-    /// # Errors
-    /// Why there is no base state.
     pub fn normal_forces(&self) -> Result<Vec<f64>, String> {
         let contact = SlidingContact { friction_coefficient: 0.0, ..self.contact.sliding };
         let law = self.contact.stiffness.law;

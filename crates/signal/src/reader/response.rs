@@ -33,9 +33,6 @@ pub struct ResponseOptions {
 /// whose phase rises through its resonances is of the convention `exp(-i omega t)`: it is conjugated. A
 /// column of coherence becomes the weight of its response. Values in `g/N` become m/s2/N; other units are
 /// taken as SI.
-///
-/// # Errors
-/// [`ReadError`] with source name, line and column.
 pub fn read_response(
     bytes: &[u8],
     source: &str,

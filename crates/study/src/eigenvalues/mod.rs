@@ -81,9 +81,6 @@ const MOST_TABLED: usize = 3_000;
 /// table.
 ///
 /// Modes without friction are counted: by one factorization of `K - omega^2 M`, or by one of each harmonic.
-///
-/// # Errors
-/// As [`SlidingModel::new`] and [`refuse_no_modes`].
 pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     let SlidingModel { model, mesh, .. } = SlidingModel::new(case, cea)?;
     // Tables hold the frequencies of all modes, or not. There may be fewer modes than asked for where these are many.

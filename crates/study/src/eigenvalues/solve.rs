@@ -135,9 +135,6 @@ pub struct Solved<'a> {
 
 /// [`SlidingModel::new`] and [`solve`]. Where `auto` chose the harmonics of a body and a branch of them cannot be
 /// followed, its whole mesh is solved.
-///
-/// # Errors
-/// Those of both.
 pub fn solved<'a>(
     case: &'a Case,
     cea: &Cea,

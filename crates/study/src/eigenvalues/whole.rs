@@ -96,17 +96,11 @@ impl WholeMesh {
     }
 
     /// The tangent of one of the states.
-    ///
-    /// # Errors
-    /// Those of [`Assembly::tangent`].
     pub fn tangent(&self, case: &Case, state: &PressedState) -> Result<SlidingTangent, CeaError> {
         Ok(self.assembly(case).tangent(state, &self.options)?)
     }
 
     /// The tangent at the case's own friction coefficient.
-    ///
-    /// # Errors
-    /// As [`Self::tangent`].
     pub fn own_tangent(&self, case: &Case) -> Result<SlidingTangent, CeaError> {
         self.tangent(case, self.state())
     }

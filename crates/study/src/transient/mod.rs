@@ -159,9 +159,6 @@ impl<'a> TransientStudy<'a> {
     /// Sets the run up to its first step: finds out whether it can start, and gives its time step. A limit cycle that
     /// it would start on is not looked for, nor the steady sliding of any body but a plane annulus, which takes longer
     /// than a check is worth.
-    ///
-    /// # Errors
-    /// As [`Self::start`], and those of the recorder.
     pub fn preflight(&self) -> Result<StepPlan, StudyError> {
         let operator = self.operator()?;
         let initial = match (self.case.body.annulus(), self.settings.initial) {
