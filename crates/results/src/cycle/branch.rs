@@ -11,11 +11,12 @@ use serde::{Deserialize, Serialize};
 
 /// A cycle of a branch.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct BranchRow {
+pub struct BranchRow {
     /// The parameter, in units of its key.
     pub value: f64,
     /// Circumferential harmonic of a wave.
     pub harmonic: Option<usize>,
+    /// Its motion.
     pub motion: CycleMotion,
     /// What a motion of the whole mesh misses its start by.
     pub residual: Option<f64>,
@@ -23,6 +24,7 @@ pub(crate) struct BranchRow {
     pub periods: Option<usize>,
     /// Growth rate of the leading perturbation, 1/s, where it is known.
     pub growth_rate: Option<f64>,
+    /// Whether it is stable, where that is known.
     pub verdict: Option<Verdict>,
     /// Whether the branch turns back here, of motions of the whole mesh.
     pub is_fold: Option<bool>,
@@ -150,36 +152,29 @@ impl BranchRecord {
     }
 }
 
-/// A branch of limit cycles.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
-pub struct BranchSummary {
-    /// Case key of the parameter.
-    pub key: String,
-    /// Cycles.
-    pub cycles: usize,
-    /// Smallest and largest value of the parameter.
-    pub range: Option<[f64; 2]>,
-    /// Values at which it turns back, in its order.
-    pub folds: Vec<f64>,
-    /// Why it ends, at either end.
-    pub ends: [String; 2],
-    /// Where stability changes between folds: the value; of waves an object.
-    pub stability_changes: Vec<StabilityChangeSummary>,
-    /// What else there is to a branch of waves.
-    #[serde(flatten)]
-    pub waves: Option<WaveBranch>,
-    /// What else there is to one of motions of the whole mesh.
-    #[serde(flatten)]
-    pub motions: Option<MotionBranch>,
-    /// The case's own value of the parameter, in units of its key.
-    #[serde(skip)]
-    pub(super) own_value: f64,
-    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
-    #[serde(skip)]
-    pub(super) threshold: Option<[f64; 2]>,
-    /// Its cycles, in its order.
-    #[serde(skip)]
-    pub(super) rows: Vec<BranchRow>,
+keys! {
+    /// A branch of limit cycles.
+    #[derive(Default)]
+    BranchSummary {
+        key: String = "case key of the parameter";
+        cycles: usize = "cycles";
+        range: Option<[f64; 2]> = "smallest and largest value of the parameter";
+        folds: Vec<f64> = "values at which it turns back, in its order";
+        ends: [String; 2] = "why it ends, at either end";
+        stability_changes: Vec<StabilityChangeSummary>
+            = "where stability changes between folds: the value; of waves an object";
+        #[serde(flatten)]
+        waves: Option<WaveBranch> = "what else there is to a branch of waves";
+        #[serde(flatten)]
+        motions: Option<MotionBranch> = "what else there is to one of motions of the whole mesh";
+        #[serde(skip)]
+        own_value: f64 = "the case's own value of the parameter, in units of its key";
+        #[serde(skip)]
+        threshold: Option<[f64; 2]> = "amplitude (m) and velocity of the kick (m/s) of the \
+            unstable cycle between stable sliding and the case's own";
+        #[serde(skip)]
+        rows: Vec<BranchRow> = "its cycles, in its order";
+    }
 }
 
 impl BranchSummary {

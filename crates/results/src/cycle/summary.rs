@@ -109,36 +109,26 @@ pub enum Origin {
     },
 }
 
-/// A limit cycle that was sought.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SoughtCycle {
-    /// What leads to it.
-    #[serde(flatten)]
-    pub name: CycleName,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// The cycle, where there is one that no other has led to before.
-    #[serde(flatten)]
-    pub cycle: Option<CycleMotion>,
-    /// That there is none because steady sliding is stable against the wave.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub absent: Option<String>,
-    /// Why none was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error: Option<String>,
-    /// What a transient says of it, where one was asked for.
-    pub confirmation: Option<ConfirmationSummary>,
-    /// Its stability, where it was asked for.
-    pub stability: Option<StabilitySummary>,
-    /// Its branch over the case's parameter.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub branch: Option<BranchSummary>,
-    /// Its motion, which tables and figures show.
-    #[serde(skip)]
-    pub(super) motion: Option<PeriodicMotion>,
-    /// Its exponents or multipliers, where they are known.
-    #[serde(skip)]
-    pub(super) exponents: Option<Vec<Exponent>>,
+keys! {
+    /// A limit cycle that was sought.
+    SoughtCycle {
+        #[serde(flatten)]
+        name: CycleName = "what leads to it";
+        wall_s: f64 = "wall time, s";
+        #[serde(flatten)]
+        cycle: Option<CycleMotion>
+            = "the cycle, where there is one that no other has led to before";
+        absent?: String = "that there is none because steady sliding is stable against the wave";
+        error?: String = "why none was found";
+        confirmation: Option<ConfirmationSummary>
+            = "what a transient says of it, where one was asked for";
+        stability: Option<StabilitySummary> = "its stability, where it was asked for";
+        branch?: BranchSummary = "its branch over the case's parameter";
+        #[serde(skip)]
+        motion: Option<PeriodicMotion> = "its motion, which tables and figures show";
+        #[serde(skip)]
+        exponents: Option<Vec<Exponent>> = "its exponents or multipliers, where they are known";
+    }
 }
 
 impl SoughtCycle {
