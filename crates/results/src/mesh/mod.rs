@@ -1,14 +1,12 @@
 //! Results of `mesh`: statistics, VTU, picture.
 
 mod plane;
-mod plane_figure;
 mod solid;
-mod solid_figure;
 
+pub use plane::figure as plane_figure;
 pub use plane::{BoundaryStatistics, MeshStatistics, RegionStatistics, write_revolution};
-pub use plane_figure::figure as plane_figure;
+pub use solid::figure as solid_figure;
 pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
-pub use solid_figure::figure as solid_figure;
 
 use super::folder::{FolderError, OutputFolder};
 use super::vtu::{EncodedMesh, Field, write_vtu};

@@ -2,7 +2,7 @@
 
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
-use super::swept::{heads, of_points};
+use super::record::{heads, of_points};
 use super::table::cell;
 use crate::finding::keys;
 use crate::{grouped, number_ranges};

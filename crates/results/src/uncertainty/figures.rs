@@ -1,6 +1,6 @@
 //! The figures of an uncertainty analysis.
 
-use super::summary::{DesignCurve, Index, RobustSummary, UncertaintySummary};
+use super::{DesignCurve, Index, RobustSummary, UncertaintySummary};
 use crate::parameter::{parameter_axis, parameter_name};
 use crate::sorted;
 use frictionsim_chart::{

@@ -1,16 +1,16 @@
 //! Results of a search for the boundary between two basins.
 
-mod figures;
-mod map;
-
-use super::Finding;
-use super::drawing::Declaration;
-use super::summary::Bounds;
+use crate::Finding;
+use crate::drawing::Declaration;
 use crate::finding::keys;
+use crate::parameter::parameter_axis;
+use crate::summary::Bounds;
+use crate::sweep::{PointRecord, by_other_keys, swept_text};
+use frictionsim_chart::{
+    Axis, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Scale, Stroke, literal, look,
+};
 use frictionsim_output::{Document, Section, Table, columns, significant};
 use frictionsim_physics::cycle::{BasinBoundary, BasinRun};
-
-pub use map::basin_map;
 
 keys! {
     /// `summary.json` of a basin.
@@ -158,6 +158,124 @@ impl Finding for BasinSummary {
     }
 
     fn figures(&self) -> Vec<Declaration<'_>> {
-        vec![Box::new(|| Some(figures::search(self)))]
+        vec![Box::new(|| Some(search(self)))]
     }
+}
+
+const SPEED: &str = "contact.rotation_speed_rpm";
+const FRICTION: &str = "contact.friction_coefficient";
+
+/// The boundary at one value of the key along the axis.
+struct Boundary {
+    value: f64,
+    low: Option<f64>,
+    high: Option<f64>,
+}
+
+/// Amplitude ratio at saturation above which the second wave wins, over the rotation speed or the first swept key; one
+/// line for each choice of the other keys.
+pub fn basin_map(records: &[PointRecord]) -> Option<Figure> {
+    let first = records.first()?;
+    let keys = || first.swept.keys();
+    let key = keys().find(|key| *key == SPEED).or_else(|| keys().next())?;
+    let mut harmonics = [1, 2];
+    let boundaries = records.iter().filter_map(|record| {
+        let summary = record.summaries.get("basin")?;
+        for (place, harmonic) in harmonics.iter_mut().enumerate() {
+            let found = summary["harmonics"][place].as_f64();
+            *harmonic = found.map_or(*harmonic, |n| n as usize);
+        }
+        let boundary = Boundary {
+            value: record.swept[key].as_f64().unwrap_or(f64::NAN),
+            low: summary["boundary"]["low"].as_f64(),
+            high: summary["boundary"]["high"].as_f64(),
+        };
+        Some((record, boundary))
+    });
+    let series = by_other_keys(boundaries, key, |rest| match rest.get(FRICTION) {
+        Some(friction) if rest.len() == 1 => format!("*μ* = {friction}"),
+        _ => literal(&swept_text(rest)),
+    });
+    let [one, two] = harmonics;
+    let values = series.iter().flat_map(|(_, all)| all).map(|b| b.value);
+    let axis = parameter_axis(key).scaled(Scale::for_values(values, 10.0));
+    let ratio = Axis::new("amplitude ratio at saturation", "").logarithmic();
+    let only = [
+        format!("*n* = {one} wins up to here, the largest ratio tried"),
+        format!("*n* = {two} wins down to here, the smallest ratio tried"),
+    ];
+    let mut panel = Panel::new(axis, ratio).height(180.0);
+    for (index, (name, boundaries)) in series.iter().enumerate() {
+        let colour = look(index).0;
+        let all = || boundaries.iter();
+        let middle = all().filter_map(|b| Some((b.value, (b.low? * b.high?).sqrt())));
+        let bars = all().map(|b| {
+            let ends = [b.low, b.high].into_iter().flatten();
+            Line::through(ends.map(|end| (b.value, end))).solid(colour, 3.0)
+        });
+        let low =
+            Points::new(all().filter(|b| b.high.is_none()).filter_map(|b| Some((b.value, b.low?))));
+        let high =
+            Points::new(all().filter(|b| b.low.is_none()).filter_map(|b| Some((b.value, b.high?))));
+        let one_sided = [low, high].into_iter().zip(&only).zip(Marker::ALL);
+        let one_sided = one_sided.map(|((points, text), marker)| {
+            let points = points.marker(marker, 2.6, colour);
+            if index == 0 { points.name(text) } else { points }
+        });
+        panel = panel
+            .layer(Line::through(middle).nth(index).name(name.clone()))
+            .layers(bars)
+            .layers(one_sided);
+    }
+    let caption = format!(
+        "Amplitude of *n* = {two} over that of *n* = {one} at the first stick or opening, above \
+         which *n* = {two} wins; bars: the bounds found."
+    );
+    Some(Figure::new("basins", caption).panel(panel))
+}
+
+/// The winner of each transient over the ratio of the amplitudes at the first stick or opening.
+fn search(summary: &BasinSummary) -> Figure {
+    let [first, second] = summary.harmonics;
+    let place = |run: &BasinRun| {
+        let at = if run.winner == first { 0.0 } else { 1.0 };
+        Some((run.saturation_ratio?, at))
+    };
+    let shown = |rival: usize| summary.name(rival).replace("n = ", "*n* = ");
+    let wins = |rival: usize| format!("{} wins", shown(rival));
+    let kinds = [
+        (first, true, Marker::Disc, SERIES[0], wins(first)),
+        (second, true, Marker::Square, SERIES[1], wins(second)),
+        (first, false, Marker::Circle, INK, "not settled".to_owned()),
+        (second, false, Marker::Circle, INK, "not settled".to_owned()),
+    ];
+    let points = kinds.map(|(winner, is_settled, marker, colour, name)| {
+        let own = summary.runs.iter();
+        let own = own.filter(|run| run.winner == winner && run.is_settled == is_settled);
+        Points::new(own.filter_map(place)).marker(marker, 2.6, colour).name(name)
+    });
+    let bounds = [summary.boundary.low, summary.boundary.high];
+    let bounds = bounds.into_iter().flatten().map(|ratio| {
+        Rule::vertical(ratio).stroke(Stroke::dashed(INK, 0.8)).name("bounds of the boundary")
+    });
+    let names = [(0.0, shown(first)), (1.0, shown(second))];
+    let ratio = summary.ratio().replace("n = ", "*n* = ");
+    let panel = Panel::new(
+        Axis::new(&ratio, "–").logarithmic().room(0.1),
+        Axis::new("winner", "").between(-0.5, 1.5).ticks(names),
+    )
+    .height(90.0)
+    .layers(bounds)
+    .layers(points);
+    Figure::new(
+        "basin",
+        match summary.of_modes {
+            true => "What wins over the ratio, one point for each transient.",
+            false => {
+                "The wave that wins over the ratio of the amplitudes of both at the first stick or \
+                opening, one point for each transient."
+            }
+        },
+    )
+    .panel(panel)
 }
