@@ -13,20 +13,18 @@
 //! ```
 
 mod contact;
-mod dampings;
 mod model;
 mod notes;
 mod reading;
 mod sensitivity;
 mod sliding;
-mod solid;
 mod solve;
 mod spectrum;
 mod states;
 mod whole;
 
 pub use contact::{SolidState, SteadyState};
-pub use dampings::dampings;
+pub use model::dampings;
 pub use model::{Model, Solver, asked_modes, wave_tangent};
 pub use sensitivity::body_sensitivities;
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};

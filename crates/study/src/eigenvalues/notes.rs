@@ -2,7 +2,7 @@
 
 use super::SlidingModel;
 use super::contact::SteadyState;
-use super::solid::mean_friction;
+use super::contact::mean_friction;
 use frictionsim_case::{BodyKind, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeCount, UnstableInterval};

@@ -1,9 +1,8 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
 use super::StudyError;
-use super::contact::{SolidState, SteadyState};
+use super::contact::{SolidState, SteadyState, solved_solid};
 use super::model::Model;
-use super::solid;
 use crate::extent_of;
 use frictionsim_case::{AssemblyBody, BodyKind, Case, Cea, refusal};
 use frictionsim_physics::contact::{ContactInterface, ContactSurface};
@@ -46,7 +45,7 @@ fn sliding_sector(
             (Arc::new(mesh), SteadyState::Mesh { contacts, state: base.repeated(sector.count) })
         }
         BodyKind::Revolution(specification) => {
-            let solid = solid::solved(case, specification)?;
+            let solid = solved_solid(case, specification)?;
             let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
             mesh.regions = specification.region_names();
             (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))

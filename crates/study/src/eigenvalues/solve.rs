@@ -1,5 +1,6 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
+use super::contact::open_note;
 use super::model::Model;
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
@@ -7,7 +8,6 @@ use super::notes::{
 };
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
-use super::solid;
 use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
 use frictionsim_case::{Case, Cea, CeaMethod, refusal};
 use frictionsim_physics::cea::cyclic::WaveSweep;
@@ -58,7 +58,7 @@ pub fn solve(
     notes.extend(count_notes(cea, &found.sweep, waves.is_some()));
     notes.append(&mut found.notes);
     notes.extend(waves.and_then(|waves| overdamped_note(case, model, &waves.overdamped)));
-    notes.extend(model.solid().and_then(solid::note));
+    notes.extend(model.solid().and_then(open_note));
     notes.extend(table_notes(case));
     notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));
