@@ -101,8 +101,7 @@ fn solve(case: &mut Case, wanted: &Wanted) -> Result<bool, CaseErrors> {
     }
     Err(refusal!(case, &wanted.key,
         "{} = {target}: no interference presses with this force", wanted.key; "not reached";
-        "a surface that overlaps the counterface in the mesh presses already; one that nothing \
-         holds gives way"))
+        "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way"))
 }
 
 /// The normal force of a contact pushed in so far, less the one that is wanted.

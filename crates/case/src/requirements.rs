@@ -58,8 +58,7 @@ impl Case {
             return Err(refusal!(self, "contact.normal_law",
                 "rotating waves are those of rigid contact, whose pressure is another one than on \
                  a contact that stiffens"; "stiffens with pressure";
-                "`cycle` seeks the motions of the whole mesh of such a disc; or leave \
-                 contact.normal_law out"));
+                "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"));
         }
         if self.contact.sliding.decay.is_none() {
             return Ok(());

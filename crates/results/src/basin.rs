@@ -20,8 +20,7 @@ keys! {
         #[serde(skip_serializing_if = "std::ops::Not::not")]
         of_modes: bool = "whether these are numbers of modes";
         winner: Option<usize> = "the wave that wins whatever the seeds, if one does";
-        boundary: Bounds = "amplitude ratios at saturation, second wave over first, between which \
-            the winner changes";
+        boundary: Bounds = "amplitude ratios at saturation, second wave over first, between which the winner changes";
         transients: usize = "transients spent";
         runs: Vec<BasinRun> = "every transient, in the order of the search";
     }
@@ -82,8 +81,7 @@ impl BasinSummary {
                 if winner == first { "up to" } else { "down to" }
             ),
             (None, Some(low), Some(high)) => format!(
-                "{other} wins where its amplitude at saturation is more than {low:.3} to \
-                 {high:.3} of that of {one}"
+                "{other} wins where its amplitude at saturation is more than {low:.3} to {high:.3} of that of {one}"
             ),
             _ => "some runs never saturate: no boundary can be named".to_owned(),
         }
@@ -93,8 +91,7 @@ impl BasinSummary {
     fn answer_to_kick(&self, name: &str) -> String {
         if self.runs.iter().any(|run| !run.is_settled) {
             return format!(
-                "no answer: not every transient from a kick along {name} has come to its end \
-                 (raise basin.periods)"
+                "no answer: not every transient from a kick along {name} has come to its end (raise basin.periods)"
             );
         }
         match (self.winner, self.boundary.low, self.boundary.high) {

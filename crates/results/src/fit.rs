@@ -235,8 +235,7 @@ fn fit(summary: &FitSummary) -> Figure {
         false => "measured frequencies",
     };
     let caption = format!(
-        "Modes of the fitted model and {measured}: growth rate over frequency (a), differences \
-         line by line (b)."
+        "Modes of the fitted model and {measured}: growth rate over frequency (a), differences line by line (b)."
     );
     Figure::new("fit", caption).panel(plane).panel(differences)
 }

@@ -88,8 +88,7 @@ keys! {
     /// Amplitude ratios between which the winner of two waves changes.
     #[derive(Copy, Default)]
     Bounds {
-        low: Option<f64> = "largest ratio at which the first wave wins; without `high` it wins at \
-            every ratio tried";
+        low: Option<f64> = "largest ratio at which the first wave wins; without `high` it wins at every ratio tried";
         high: Option<f64>
             = "smallest ratio at which the second wins; without `low` it wins at every ratio tried";
     }

@@ -18,8 +18,7 @@ keys! {
         sticking: usize = "contact nodes that stick";
         open: usize = "contact nodes without contact";
         pressure_pa: [f64; 2] = "contact pressure, smallest and largest, Pa";
-        shear_pa: [f64; 2] = "friction traction with the sign of that in `prestress.csv`, smallest \
-            and largest, Pa";
+        shear_pa: [f64; 2] = "friction traction with the sign of that in `prestress.csv`, smallest and largest, Pa";
         torque_n_m?: f64 = "friction torque on a cylinder, of the whole thickness, N m";
         drag_n?: f64 = "friction force on a plane, of the whole thickness, N";
         power_w: f64 = "power that the counterface puts in, W";

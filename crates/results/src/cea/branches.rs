@@ -82,9 +82,8 @@ fn of_pair((harmonic, branch, direction): Branch) -> Option<String> {
     let (own, other) = (direction_name(direction), direction_name(-direction));
     (harmonic > 0 && direction != 0).then(|| {
         format!(
-            "n = {harmonic}, branch {branch}: friction couples the two waves of the pair; the one \
-            {own} the rotor gains what the \
-             one {other} it loses."
+            "n = {harmonic}, branch {branch}: friction couples the two waves of the pair; the one {own} the rotor \
+            gains what the one {other} it loses."
         )
     })
 }

@@ -96,9 +96,8 @@ pub(super) fn figure(
     let modes = fastest(report, all);
     let friction = modes.first()?.mode.friction_coefficient;
     let caption = format!(
-        "Where the contact feeds the unstable modes at friction {friction}: growth rate for \
-        each area of the surface; red \
-         feeds, blue takes. The sum over the surface is the contact's part in the budget."
+        "Where the contact feeds the unstable modes at friction {friction}: growth rate for each area of the surface; \
+        red feeds, blue takes. The sum over the surface is the contact's part in the budget."
     );
     Some(match report.body.is_assembly() {
         true => pictures(report.body.mesh, field, &modes, caption),

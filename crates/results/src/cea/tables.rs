@@ -302,9 +302,8 @@ fn decisive(report: &CeaReport<'_>, view: View) -> Section {
     };
     let tables = sensitivities.as_ref().map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));
     let explained = (!tables.is_empty()).then(|| {
-        "Sensitivities: a positive change of the growth rate brings a mode nearer to squeal or \
-         makes it grow faster. A negative one holds it back. They hold for small changes; \
-         sensitivities.csv has those of every mode."
+        "Sensitivities: a positive change of the growth rate brings a mode nearer to squeal or makes it grow faster. A \
+         negative one holds it back. They hold for small changes; sensitivities.csv has those of every mode."
             .to_owned()
     });
     section.text(coupled).text(read).text(explained).tables(tables)

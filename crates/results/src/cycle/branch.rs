@@ -61,8 +61,7 @@ keys! {
     /// The limit cycles of one harmonic or mode.
     #[derive(Deserialize)]
     FamilyRecord {
-        harmonic: usize = "circumferential harmonic; 0 of a body without rotating waves, whose \
-            cycles have a mode";
+        harmonic: usize = "circumferential harmonic; 0 of a body without rotating waves, whose cycles have a mode";
         onset: usize = "onset of that harmonic at which the cycles are born, from 1";
         #[serde(default)]
         mode: Option<usize> = "the mode that leads to the cycles of a body without rotating waves";

@@ -19,9 +19,8 @@ keys! {
             harmonic. On other bodies half the range of the contact node that moves most";
         velocity_level_db: Option<f64>
             = "level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB";
-        harmonics: Vec<f64> = "amplitudes along the counterface, m: of a wave the harmonics 0 to 8 \
-            around the contact edge. On other bodies the harmonics 1, 2, ... in time, root mean \
-            square over the contact nodes";
+        harmonics: Vec<f64> = "amplitudes along the counterface, m: of a wave the harmonics 0 to 8 around the contact \
+            edge. On other bodies the harmonics 1, 2, ... in time, root mean square over the contact nodes";
         #[serde(flatten)]
         stepped: Option<SteppedMotion> = "what else there is to a motion that was stepped in time";
     }

@@ -96,8 +96,7 @@ keys! {
         is_stable: Option<bool> = "the same as a flag; none if undecided";
         growing_harmonics?: Vec<usize> = "circumferential harmonics that grow, of a wave";
         leading: Option<Perturbation> = "the leading perturbation";
-        shift?: f64 = "modulus of the multiplier of a shift in phase, which is 1, of a \
-            motion that was stepped in time";
+        shift?: f64 = "modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time";
     }
 }
 

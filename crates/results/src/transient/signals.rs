@@ -200,8 +200,7 @@ impl RecordedRun<'_> {
                  the rates of the eigenvalue analysis."
             }
             (false, true) => {
-                "Growth of the tangential vibration of the contact edge, with the rate of the \
-                 eigenvalue analysis."
+                "Growth of the tangential vibration of the contact edge, with the rate of the eigenvalue analysis."
             }
             (false, false) => {
                 "Vibration of the contact edge about its final mean; there is no linear stage."

@@ -25,11 +25,9 @@ keys! {
         perturbation: PerturbationSummary = "velocity that was added";
         element_steps_per_s: f64 = "elements times steps for each second of stepping";
         max_balance_residual: f64 = "largest energy balance residual";
-        settled: bool = "whether amplitude, frequency and status drift by less than 1 % over the \
-            last fifth of the run";
+        settled: bool = "whether amplitude, frequency and status drift by less than 1 % over the last fifth of the run";
         settled_from_s: Option<f64> = "since when, s";
-        end_state: String = "`limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, \
-            `separated` or `unsettled`";
+        end_state: String = "`limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, `separated` or `unsettled`";
         frequencies_hz?: [f64; 2]
             = "both frequencies of a motion of two, the stronger first, Hz; absent otherwise";
         envelope_ratio?: f64 = "largest over smallest envelope of a motion of two \

@@ -99,9 +99,8 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
         .layers(whiskers);
     Figure::new(
         "indices",
-        "Sobol's indices of the lowest critical friction. Dark: the share of its variance that \
-         goes if the parameter is known (first order). Light: the share that stays if all others \
-         are known (total).",
+        "Sobol's indices of the lowest critical friction. Dark: the share of its variance that goes if the parameter \
+         is known (first order). Light: the share that stays if all others are known (total).",
     )
     .note("dark: first order; light: total; lines: 95 % intervals")
     .panel(panel)

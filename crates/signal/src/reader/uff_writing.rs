@@ -1,5 +1,4 @@
-//! Universal files: responses and signals (dataset 58 in text), meshes (164, 2411, 2412), complex
-//! mode shapes (55).
+//! Universal files: responses and signals (dataset 58 in text), meshes (164, 2411, 2412), complex mode shapes (55).
 //!
 //! Source: SDRC, "Universal file datasets", by their numbers.
 

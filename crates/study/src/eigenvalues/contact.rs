@@ -150,18 +150,16 @@ pub(super) fn open_note(solid: &SolidState) -> Option<String> {
     match pressed.as_slice() {
         _ if open == 0 => None,
         [only] if base.law.is_none() => Some(format!(
-            "the contact has shrunk to the ring of nodes at {word} {:.6} m, a line. Its \
-             pressure is spread over the width of the mesh, {:.2e} m2 in all, and \
-             contact.normal_stiffness acts on that alone. With contact.base_state = \
-             \"compliant\" the stiffness of the interface gives the contact a width of its own",
+            "the contact has shrunk to the ring of nodes at {word} {:.6} m, a line. Its pressure is spread over the \
+             width of the mesh, {:.2e} m2 in all, and contact.normal_stiffness acts on that alone. With \
+             contact.base_state = \"compliant\" the stiffness of the interface gives the contact a width of its own",
             place(only),
             only.area * sector.sector_count() as f64,
         )),
         _ => {
             let [low, high] = range(pressed.iter().map(place));
             Some(format!(
-                "{open} of {} rings of contact nodes are open; the others lie between {word} \
-                 {low:.6} and {high:.6} m",
+                "{open} of {} rings of contact nodes are open; the others lie between {word} {low:.6} and {high:.6} m",
                 sector.rings.len(),
             ))
         }

@@ -204,8 +204,7 @@ mod tests {
         let error = CeaError::LostHarmonic { harmonic: 3, friction: 0.3 };
         let whole = on_whole_mesh(&case, cea, error, None).unwrap();
         assert_eq!((waves.solution.method, whole.solution.method), ("cyclic", "sparse"));
-        let note = "a branch of harmonic 3 could not be followed up to friction 0.3: \
-                    the whole mesh was solved instead";
+        let note = "a branch of harmonic 3 could not be followed up to friction 0.3: the whole mesh was solved instead";
         assert!(whole.solution.notes[0].starts_with(note), "{:?}", whole.solution.notes);
         // A friction traction in three dimensions is along the sliding, whatever its sense.
         let shears = [&waves, &whole].map(|own| own.model.base_state(&case).shear_pa[0]);

@@ -36,8 +36,7 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
     let failed = |reason| {
         let points = points.len();
         FitError::Model(format!(
-            "the model has no modes to compare at any of {points} points within the bounds: \
-             {reason}"
+            "the model has no modes to compare at any of {points} points within the bounds: {reason}"
         ))
     };
     let looked: Vec<Result<Trial, String>> =

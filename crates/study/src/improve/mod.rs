@@ -1,6 +1,5 @@
-//! What silences the unstable modes of a case. Derivatives by every place of its bodies come first.
-//! The best of them are looked at with all modes together, the best of those run again as cases of
-//! their own.
+//! What silences the unstable modes of a case. Derivatives by every place of its bodies come first. The best of them
+//! are looked at with all modes together, the best of those run again as cases of their own.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;
