@@ -2,7 +2,7 @@
 
 use crate::Finding;
 use crate::drawing::Declaration;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::parameter::parameter_axis;
 use crate::summary::Bounds;
 use crate::sweep::{PointRecord, by_other_keys, swept_text};

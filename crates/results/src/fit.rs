@@ -4,7 +4,7 @@ use crate::Finding;
 use crate::cea::mode_name;
 use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::drawing::Declaration;
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_chart::{Axis, Figure, INK, MUTED, Marker, Panel, Points, Rule, Stroke};
 use frictionsim_output::{Column, Document, Section, Table, columns, parted, rounded};
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Tables, figure and page of an identified damping.
 
 use crate::charts::palette::UNSTABLE;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::{FolderError, OutputFolder};
 use frictionsim_chart::{
     Axis, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, SERIES, Stroke, extremes,

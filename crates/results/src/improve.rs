@@ -2,7 +2,7 @@
 
 use crate::charts::{Disc, SolidView};
 use crate::drawing::{Declaration, declared};
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::vtu::{EncodedMesh, Field, write_vtu};
 use crate::{Extent, FolderError, OutputFolder, sorted};
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Marker, Points, Side};

@@ -13,6 +13,7 @@ mod finding;
 pub mod fit;
 pub mod identification;
 pub mod improve;
+mod keys;
 pub mod mac;
 pub mod matrices;
 pub mod mesh;

@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::drawing::Declaration;
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_chart::{Axis, ColourMap, Figure, Heat, INK, Marker, Panel, Points, Side};
 use frictionsim_output::{Document, Section, Table, columns};
 use std::f64::consts::TAU;

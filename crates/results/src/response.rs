@@ -4,7 +4,7 @@ use super::finding::write_table;
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
 use super::sorted;
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use frictionsim_output::{Document, Section, Table};
 use frictionsim_physics::linalg::c64;

@@ -1,7 +1,7 @@
 //! The steady sliding state that the eigenvalues belong to.
 
 use crate::extent::Extent;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::vtu::Field;
 use crate::{BodyStress, ShownBody, sorted};
 use frictionsim_output::{Table, columns, significant};

@@ -1,6 +1,6 @@
 //! The name of a mode in tables of what is read from it.
 
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_output::{Column, parted};
 
 keys! {

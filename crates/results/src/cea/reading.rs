@@ -3,7 +3,7 @@
 use super::branches::Branch;
 use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, ModeFeed};
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::{distinct, grouped, sorted};
 use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use frictionsim_output::{Cell, Described, Table, columns, fixed};

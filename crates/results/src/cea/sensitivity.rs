@@ -1,7 +1,7 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use super::mode_name::travels;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::sorted;
 use frictionsim_output::{Format, Table, columns, fixed};
 use frictionsim_physics::linalg::c64;

@@ -2,7 +2,7 @@
 
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::summary::present;
 use frictionsim_output::{Column, parted};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};

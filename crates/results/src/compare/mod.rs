@@ -6,7 +6,7 @@ pub use figures::overlaid;
 
 use super::sweep::{cell, join};
 use super::{Manifest, Page, distinct, sorted};
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_output::{Cell, Document, Format, Section, Table, columns, unit_of};
 use serde_json::Value;
 

@@ -3,7 +3,7 @@
 mod estimate;
 
 use crate::drawing::Declaration;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::summary::present;
 use crate::{Finding, distinct};
 pub use estimate::{Verdict, estimate};

@@ -2,7 +2,7 @@
 
 use super::record::CycleMotion;
 use crate::extent::Extent;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::summary::MeanPowers;
 use frictionsim_chart::extremes;
 use frictionsim_output::{Described, columns};

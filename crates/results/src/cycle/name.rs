@@ -1,6 +1,6 @@
 //! What leads to a limit cycle: a wave of a disc and its onset, or a mode of any other body.
 
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_output::Described;
 use frictionsim_physics::cycle::{Family, Onset};
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use super::name::CycleName;
 use super::verdicts::Perturbation;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};

@@ -6,7 +6,7 @@ use super::record::{CycleMotion, Exponent, ShownCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::extent::Extent;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::summary::CriticalValue;
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactInterface;

@@ -1,6 +1,6 @@
 //! Motions of two frequencies: words, table, summary, curves.
 
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_chart::{INK, Line, Stroke};
 use frictionsim_output::{Table, columns, significant};
 use frictionsim_physics::cycle::periodic::MotionFrame;

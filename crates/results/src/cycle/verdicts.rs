@@ -1,6 +1,6 @@
 //! What a transient and small perturbations say of a limit cycle.
 
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::summary::{StatusFractions, present};
 use frictionsim_output::Described;
 use frictionsim_physics::cycle::{Confirmation, FloquetMultiplier, FloquetMultipliers, Verdict};

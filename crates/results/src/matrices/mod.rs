@@ -4,9 +4,9 @@ mod spectrum;
 
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
-use super::finding::keys;
 use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
+use super::keys::keys;
 use super::npz::NpzArchive;
 use super::summary::{Head, object};
 use frictionsim_output::{Described, Entry, columns, significant, write_rows};

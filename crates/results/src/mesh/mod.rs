@@ -10,7 +10,7 @@ pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
 
 use super::folder::{FolderError, OutputFolder};
 use super::vtu::{EncodedMesh, Field, write_vtu};
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_chart::literal;
 use frictionsim_output::{Described, Document, Format, Section, fixed, significant};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh, MeshQuality};

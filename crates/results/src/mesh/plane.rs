@@ -1,8 +1,8 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
 use super::{Measured, MeshSize, REGION_COLOURS, condition_name, write_nodes};
-use crate::finding::keys;
 use crate::folder::{FolderError, OutputFolder};
+use crate::keys::keys;
 use frictionsim_chart::{
     Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES, TextStyle,
     literal,

@@ -2,7 +2,7 @@
 
 use super::{Measured, MeshSize, REGION_COLOURS, role_of};
 use crate::charts::{MovingBody, SolidView};
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_chart::{Figure, Motion, MotionState, Panel, SERIES, Surface, literal};
 use frictionsim_output::{Section, Table};
 use frictionsim_physics::mesh::{BoundaryFace, Mesh, MeshQuality};

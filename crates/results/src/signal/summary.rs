@@ -1,6 +1,6 @@
 //! Summary of `signal`, as it is written, printed and reported.
 
-use crate::finding::keys;
+use crate::keys::keys;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_signal::{ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
 

@@ -1,6 +1,6 @@
 //! Manifest of a result: program, case and inputs.
 
-use crate::finding::keys;
+use crate::keys::keys;
 use serde::Deserialize;
 
 keys! {

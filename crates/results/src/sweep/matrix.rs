@@ -1,7 +1,7 @@
 //! The operating matrix of a study of eigenvalue analyses: which modes grow under which conditions.
 
 use super::record::{PointRecord, listed};
-use super::record::{of_points, swept_text};
+use super::swept::{of_points, swept_text};
 use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
 use frictionsim_output::{Table, fixed};
 use serde_json::{Map, Value};

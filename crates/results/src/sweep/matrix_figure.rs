@@ -2,7 +2,7 @@
 
 use super::PointRecord;
 use super::matrix::{Condition, OperatingMatrix};
-use super::record::{printed, swept_text};
+use super::swept::{printed, swept_text};
 use crate::distinct;
 use crate::parameter::{in_unit, parameter_name, shared_unit};
 use frictionsim_chart::{Axis, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal};

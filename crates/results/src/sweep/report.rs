@@ -2,9 +2,9 @@
 
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
-use super::record::{heads, of_points};
+use super::swept::{heads, of_points};
 use super::table::cell;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::{grouped, number_ranges};
 use frictionsim_chart::extremes;
 use frictionsim_output::{Cell, Document, Format, Section, Table, columns, significant};

@@ -2,7 +2,7 @@
 
 use super::RecordedRun;
 use crate::extent::Extent;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;
 use frictionsim_physics::transient::{

@@ -4,7 +4,7 @@ mod figures;
 
 use crate::cea::arrow;
 use crate::drawing::Declaration;
-use crate::finding::keys;
+use crate::keys::keys;
 use crate::{Finding, sorted};
 use figures::{indices, robust, uncertainty};
 use frictionsim_output::{Document, Format, Section, Table, columns};

@@ -24,11 +24,10 @@ mod states;
 mod whole;
 
 pub use contact::{SolidState, SteadyState};
-pub use model::dampings;
 pub use model::{Model, Solver, asked_modes, wave_tangent};
 pub use sensitivity::body_sensitivities;
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};
-pub use sliding::SlidingModel;
+pub use sliding::{SlidingModel, dampings};
 pub use solve::{Solved, solve, solved};
 pub(super) use spectrum::analysis;
 pub use spectrum::{

@@ -1,15 +1,13 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
 use super::whole::WholeMesh;
-use super::{Progress, SlidingModel, Solution, StudyError};
+use super::{Progress, Solution, StudyError};
 use crate::tangent_options;
 use frictionsim_case::{BodyKind, Case, CaseErrors, Cea, CeaMethod, refusal};
-use frictionsim_chart::literal;
 use frictionsim_physics::cea::cyclic::{self, WaveSweep};
 use frictionsim_physics::cea::{CeaError, ModeLimit, SweepRequest, Unwatched};
 use frictionsim_physics::mesh::{SolidSector, Strip};
 use frictionsim_physics::prestress::{TangentOptions, WaveTangent};
-use frictionsim_results::cea::NamedDamping;
 
 /// The eigenvalue solver that a body gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,30 +182,4 @@ fn reduction_note(found: &WaveSweep, request: &SweepRequest<'_>) -> String {
 /// The modes of the case's own eigenvalue analysis, else so many of the lowest.
 pub fn asked_modes(case: &Case, otherwise: usize) -> ModeLimit {
     case.cea.as_ref().map_or(ModeLimit::Lowest(otherwise), |cea| cea.modes)
-}
-
-/// The different Rayleigh dampings that regions of the body have, each with the mark-up that names it.
-pub fn dampings(case: &Case, model: &SlidingModel) -> Vec<NamedDamping> {
-    let (materials, regions) = (case.materials(), &model.mesh.regions);
-    let count = regions.len().max(1);
-    let mut found: Vec<(Vec<usize>, _)> = Vec::new();
-    for region in 0..count {
-        let damping = materials.own_damping(region).unwrap_or(case.damping.rayleigh);
-        match found.iter_mut().find(|(_, known)| *known == damping) {
-            Some((regions, _)) => regions.push(region),
-            None => found.push((vec![region], damping)),
-        }
-    }
-    let is_one = found.len() == 1;
-    let named = found.into_iter().map(|(own, damping)| {
-        let formula = "damping *ζ* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2";
-        let names = own.iter().filter_map(|&region| regions.get(region));
-        let names: Vec<String> = names.map(|name| literal(name)).collect();
-        let name = match is_one {
-            true => formula.to_owned(),
-            false => format!("{formula} of {}", names.join(", ")),
-        };
-        (name, damping)
-    });
-    named.collect()
 }
