@@ -48,7 +48,7 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_971),
+    ("crates/case", 10_916),
     ("crates/chart", 4_840),
     ("crates/described", 107),
     ("crates/formats", 6_156),
@@ -65,9 +65,9 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 4_644),
     ("crates/physics/src/transient", 4_648),
-    ("crates/results", 18_230),
-    ("crates/signal", 6_052),
-    ("crates/study", 10_647),
+    ("crates/results", 17_635),
+    ("crates/signal", 6_020),
+    ("crates/study", 10_553),
     ("src/app", 4_542),
     ("src/guide", 70),
     ("src/lib.rs", 100),

@@ -1,9 +1,8 @@
 //! Where on the contact surfaces friction feeds the unstable modes, point by point.
 //!
-//! The forces of the bodies are `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i D_i phi` over the
-//! contact points `i`, with `D_i = lambda C_i + K_i + i H_i` of dashpots, stiffness and structural
-//! damping. A rigid one has an unknown `dN_i = lift_i . (f + sum_j D_j phi)`. The growth rate that a
-//! point feeds is
+//! The forces of the bodies are `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i D_i phi` over the contact points `i`,
+//! with `D_i = lambda C_i + K_i + i H_i` of dashpots, stiffness and structural damping. A rigid one has an unknown
+//! `dN_i = lift_i . (f + sum_j D_j phi)`. The growth rate that a point feeds is
 //!
 //! ```text
 //! sigma_i = Im(conj(n_i.phi + mu drag_i t_i.phi) dN_i - phi^H D_i phi) / (2 omega m)
