@@ -312,52 +312,9 @@ pub const UNIT_REMAINDER: f64 = 0.5;
 /// `drop_below` (absolute).
 #[inline]
 pub fn orthonormal_complement(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Mat<f64> {
-    let independent = independent_directions(w, drop_below);
-    let new = orthonormalize_down_to(basis, independent, |_| drop_below).columns;
+    let new = orthonormalize_down_to(basis, w, |_| drop_below).columns;
     // Scaled to unit length, short remainders hold the round-off of long ones along the basis: once more.
     orthonormalize_down_to(basis, new, |_| UNIT_REMAINDER).columns
-}
-
-/// Orthogonal columns, as long as the remainders of a pivoted Gram-Schmidt process, that span `w` down to
-/// remainders of the length `drop_below`.
-fn independent_directions(mut w: Mat<f64>, drop_below: f64) -> Mat<f64> {
-    let mut kept = Vec::new();
-    // Squares of the remainders, updated as they shrink and computed anew before they lose all digits.
-    let square = |w: &Mat<f64>, j: usize| {
-        let v = column(w.as_ref(), j);
-        dot(v, v)
-    };
-    let mut remaining: Vec<(usize, f64, f64)> =
-        (0..w.ncols()).map(|j| (j, square(&w, j))).map(|(j, s)| (j, s, s)).collect();
-    while let Some(slot) =
-        (0..remaining.len()).max_by(|&a, &b| remaining[a].1.total_cmp(&remaining[b].1))
-    {
-        let (pivot, _, reference) = remaining[slot];
-        let exact = square(&w, pivot);
-        if remaining[slot].1 < 1e-3 * reference && exact < 0.5 * remaining[slot].1 {
-            remaining[slot] = (pivot, exact, exact);
-            continue;
-        }
-        let norm = exact.sqrt();
-        if norm.is_nan() || norm < drop_below {
-            break;
-        }
-        remaining.remove(slot);
-        column_mut(&mut w, pivot).iter_mut().for_each(|v| *v /= norm);
-        kept.push(pivot);
-        let direction = column(w.as_ref(), pivot).to_vec();
-        for (j, estimate, reference) in &mut remaining {
-            let remainder = column_mut(&mut w, *j);
-            let overlap = dot(&direction, remainder);
-            add(remainder, -overlap, &direction);
-            *estimate -= overlap * overlap;
-            if *estimate < 1e-6 * *reference {
-                *estimate = dot(remainder, remainder);
-                *reference = *estimate;
-            }
-        }
-    }
-    pick_columns(&w, &kept)
 }
 
 /// Column `k` to read and column `j > k` to write.

@@ -27,19 +27,12 @@ impl RealFactors {
         SparseLu::factorize(analysis, values).map(|lu| Self::General(Box::new(lu)))
     }
 
-    /// Solves `A x = b` for each column, in place.
-    pub fn solve_in_place(&self, x: MatMut<'_, f64>) {
+    /// Solves `A x = b`, or `A^T x = b`, for each column, in place.
+    pub fn solve(&self, x: MatMut<'_, f64>, is_transposed: bool) {
         match self {
             Self::Symmetric(ldl) => ldl.solve_in_place(x),
+            Self::General(lu) if is_transposed => lu.solve_transpose_in_place(x),
             Self::General(lu) => lu.solve_in_place(x),
-        }
-    }
-
-    /// Solves `A^T x = b` for each column, in place.
-    pub fn solve_transpose_in_place(&self, x: MatMut<'_, f64>) {
-        match self {
-            Self::Symmetric(ldl) => ldl.solve_in_place(x),
-            Self::General(lu) => lu.solve_transpose_in_place(x),
         }
     }
 }

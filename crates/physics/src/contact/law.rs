@@ -1,7 +1,5 @@
 //! Coulomb's law of friction, and the status that it gives a contact node.
 
-use serde::{Deserialize, Serialize};
-
 /// Status of a contact node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u8)]
@@ -30,7 +28,7 @@ impl ContactStatus {
 ///
 /// `mu` is the kinetic coefficient at high speed, `q mu` the static one. Nothing but the speed of the moment enters:
 /// no memory, no time of rest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FrictionDecay {
     /// `q`, 1 or more.
     pub static_ratio: f64,

@@ -43,13 +43,12 @@ pub use opposite::OppositeMotion;
 pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, row_along, scaled, summed};
-use serde::{Deserialize, Serialize};
 pub use surface::{SegmentPoint, SurfacePair, SurfacePoint};
 pub use topography::Topography;
 pub use turning::{Turning, turned};
 
 /// The rigid moving counterface and its friction law.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SlidingContact {
     /// Coulomb friction coefficient `mu`, at high speed.
     pub friction_coefficient: f64,

@@ -3,7 +3,6 @@
 use super::orthotropy::{Elasticity, Orthotropy};
 use super::{MaxwellChain, ModulusTable};
 use crate::linalg::c64;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Which out-of-plane quantity vanishes.
@@ -215,7 +214,7 @@ impl ElasticMaterial {
 }
 
 /// Rayleigh damping, `C = alpha_R M + beta_R K` (equation (2) of Brunetti et al.).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RayleighDamping {
     /// `alpha_R`, 1/s.
     pub mass_coefficient: f64,

@@ -59,9 +59,6 @@ impl<'a> Driven<'a> {
 pub(super) fn solved(factors: &RealFactors, mut x: Vec<f64>, is_transposed: bool) -> Vec<f64> {
     let count = x.len();
     let column = MatMut::from_column_major_slice_mut(&mut x, count, 1);
-    match is_transposed {
-        true => factors.solve_transpose_in_place(column),
-        false => factors.solve_in_place(column),
-    }
+    factors.solve(column, is_transposed);
     x
 }

@@ -3,7 +3,6 @@
 use super::PrestressError;
 use super::complementarity::range;
 use super::condensed::CondensedContact;
-use super::cyclic::without_symmetry;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
 use super::pressed_range::PressedRange;
@@ -144,4 +143,9 @@ impl Pressing<'_> {
         }
         forces.iter().all(|own| is_alike(own)).then_some(first_of)
     }
+}
+
+/// Entry `k` of a vector that has no symmetry, between -0.5 and 0.5.
+pub(crate) fn without_symmetry(k: usize) -> f64 {
+    (1.0 + k as f64).sqrt().fract() - 0.5
 }

@@ -235,7 +235,7 @@ impl<'a> PeriodicStudy<'a> {
             Some(found) => found,
             None => find_from(&mut map, &self.steady.mode(place))?,
         };
-        watch.keep_value("cycle", &found.kept());
+        watch.keep_value("cycle", &found);
         let branch = self.branch(operator, mode, &found, watch);
         let mut branch = branch.transpose()?;
         if self.start.is_some() {

@@ -5,9 +5,9 @@ mod joining;
 use super::whole::{WholeMesh, notes};
 use super::{Progress, Solution};
 use frictionsim_case::Case;
-use frictionsim_physics::cea::sparse;
+use frictionsim_physics::cea::sparse::{self, CyclicTangent};
 use frictionsim_physics::cea::{CeaError, FrictionSweep, PartWatch, SweepRequest};
-use frictionsim_physics::prestress::{CyclicTangent, PressedRange, PressedState};
+use frictionsim_physics::prestress::{PressedRange, PressedState};
 use joining::{Part, Undecided, joined, jumps, label, undecided};
 
 /// What the parts of a sweep have in common.

@@ -131,23 +131,6 @@ impl<'a> BasisBuilder<'a> {
         found.into_iter().collect()
     }
 
-    /// Takes up the modes at the ends and in the middle of `values`, friction coefficients, ascending.
-    ///
-    /// # Errors
-    /// If a dense decomposition or an iteration fails.
-    pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
-        let (mut open, mut held) = (Vec::new(), Vec::new());
-        for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
-            let is_held = self.is_sampled(mu) || open.contains(&mu);
-            if is_held { &mut held } else { &mut open }.push(mu);
-        }
-        self.sample(&open)?;
-        for mu in held {
-            self.improve_at(mu)?;
-        }
-        Ok(())
-    }
-
     /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.
     fn corrections(&self, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
         let packed = PackedModes::of(modes, self.model.dimension());
@@ -159,7 +142,7 @@ impl<'a> BasisBuilder<'a> {
             open.gather(&matrices, &group.entries, &vectors);
         }
         let mut corrections = open.columns.clone();
-        self.factors.solve_in_place(corrections.as_mut());
+        self.factors.solve(corrections.as_mut(), false);
         open.with_energy(&corrections)
     }
 

@@ -120,7 +120,7 @@ fn correct_group(
     let mapped = |vectors: Vec<[Vec<c64>; 2]>| -> Vec<Mapped> {
         let images: Vec<&[c64]> = vectors.iter().map(|[_, image]| &image[..]).collect();
         let mut solved = side_by_side(problem.dimension(), &images);
-        factors.solve_in_place(solved.as_mut());
+        factors.solve(solved.as_mut(), false);
         let all = vectors.into_iter().enumerate();
         all.map(|(k, [vector, image])| [vector, image, joined(&solved, k)]).collect()
     };

@@ -41,6 +41,7 @@ mod reduced;
 mod structure;
 mod sweep;
 mod term;
+mod waves;
 
 use crate::cea::accuracy::{
     BESIDE, CHANGE_PLACES, CONVERGED, HALF_THE_DIGITS, MULTIPLE, NEAR, RESIDUAL_BOUND, ROUND_OFF,
@@ -58,6 +59,7 @@ pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, SolvedPoint};
 pub use structure::{ShiftInverted, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
+pub use waves::CyclicTangent;
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range
 /// are seen.

@@ -1,13 +1,13 @@
 //! Sweep over the friction coefficient of a body with cyclic symmetry, one number of nodal diameters after the other.
 
 use super::point::normalize;
-use super::{FrictionlessModes, sweep};
+use super::{CyclicTangent, FrictionlessModes, sweep};
 use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors,
     PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
 };
 use crate::linalg::c64;
-use crate::prestress::{CyclicTangent, SlidingTangent};
+use crate::prestress::SlidingTangent;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

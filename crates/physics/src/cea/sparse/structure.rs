@@ -161,12 +161,12 @@ impl BlockOperator for ShiftInverted<'_> {
         let pattern = self.matrices.pattern;
         let [damping, mass] = &self.values[..] else {
             let [mut image] = pattern.multiply_sorted([&self.values[0]], z);
-            self.factors.solve_in_place(image.as_mut());
+            self.factors.solve(image.as_mut(), false);
             return image;
         };
         let (x, y) = z.split_at_row(pattern.dimension());
         let mut top = pattern.multiply_sum([damping, mass], [x, y]);
-        self.factors.solve_in_place(top.as_mut());
+        self.factors.solve(top.as_mut(), false);
         join_rows(top.as_ref(), x)
     }
 }

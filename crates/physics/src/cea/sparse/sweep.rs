@@ -181,7 +181,16 @@ impl<'a> SparseSweep<'a> {
         if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
             self.builder.begin_at_rest()?;
         }
-        self.builder.cover(&self.grid[self.first_asked()..])?;
+        let asked = &self.grid[self.first_asked()..];
+        let (mut open, mut held) = (Vec::new(), Vec::new());
+        for mu in [asked[asked.len() - 1], asked[0], asked[asked.len() / 2]] {
+            let is_held = self.builder.is_sampled(mu) || open.contains(&mu);
+            if is_held { &mut held } else { &mut open }.push(mu);
+        }
+        self.builder.sample(&open)?;
+        for mu in held {
+            self.builder.improve_at(mu)?;
+        }
         self.fill_gaps()
     }
 
@@ -369,7 +378,7 @@ mod tests {
         let factors = RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
-        complete.cover(&[0.2]).unwrap();
+        complete.improve_at(0.2).unwrap();
         for (found, exact) in
             after.iter().zip(complete.model.solve_with_coarse_lefts(0.2, 5).unwrap())
         {

@@ -1,11 +1,12 @@
 //! One point of a branch: a periodic motion and the value of the parameter at which it lives, found together.
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
-use super::search::{ACCEPTED, Found, KeptMotion};
+use super::search::{ACCEPTED, Found};
 use super::secants::{Change, Iterate, NEW_ALONG, SecantSpace};
 use crate::cycle::CycleError;
 use crate::linalg::dense::{add, difference, norm};
 use crate::transient::TransientError;
+use serde::{Deserialize, Serialize};
 
 /// Residual of a point, relative to the amplitude of the vibration.
 pub(super) const TOLERANCE: f64 = 1e-6;
@@ -23,9 +24,6 @@ const FEWEST: usize = 3;
 const GAINED: f64 = 0.7;
 /// Residual that is no neighbour's any more.
 const ASTRAY: f64 = 0.7;
-
-/// What a point is found again from: the value, whether it is a fold, and the motion.
-pub(super) type KeptPoint = (f64, bool, KeptMotion);
 
 /// Parameter and amplitude of a point, each over a scale: the plane in which a branch is a curve.
 pub(super) type Place = [f64; 2];
@@ -75,7 +73,7 @@ impl Goal {
 }
 
 /// A point of a branch.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
     /// The parameter, SI.
     pub value: f64,
@@ -89,11 +87,6 @@ impl Point {
     /// Where it lies.
     pub(super) fn place(&self, scales: Place) -> Place {
         [self.value / scales[0], self.found.image.amplitude / scales[1]]
-    }
-
-    /// What is kept of it.
-    pub(super) fn kept(&self) -> KeptPoint {
-        (self.value, self.is_fold, self.found.kept())
     }
 
     /// The motion `share` of the way from here to another one and beyond.
@@ -161,10 +154,10 @@ impl<'b, 'a> Corrector<'b, 'a> {
     }
 
     /// A point that was kept: one period from its state; none where it is of another body.
-    pub fn recalled(&mut self, (value, is_fold, motion): KeptPoint) -> Option<Point> {
-        (self.tune)(&mut self.map, value).ok()?;
-        let found = Found::recalled(&mut self.map, motion)?;
-        Some(Point { value, found, is_fold })
+    pub fn recalled(&mut self, kept: Point) -> Option<Point> {
+        (self.tune)(&mut self.map, kept.value).ok()?;
+        let found = Found::recalled(&mut self.map, kept.found)?;
+        Some(Point { found, ..kept })
     }
 
     /// A point's motion with its vibration about its mean so many times as large, at another value.

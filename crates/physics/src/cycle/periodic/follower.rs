@@ -1,6 +1,6 @@
 //! The way along a branch: tangents, steps, values asked for, folds, ends.
 
-use super::corrector::{Corrector, Goal, Guess, KeptPoint, Place, Point, TOLERANCE, way};
+use super::corrector::{Corrector, Goal, Guess, Place, Point, TOLERANCE, way};
 use crate::cycle::CycleError;
 use crate::cycle::continuation::{BranchEnd, Values, Way};
 use crate::transient::TransientError;
@@ -33,7 +33,7 @@ pub(super) struct Follower<'c, 'b, 'a> {
 impl Way for Follower<'_, '_, '_> {
     type Error = TransientError;
     /// The tangent, lengths of a step and the largest amplitude, steps of a period, and the points.
-    type Kept = (Place, [f64; 2], usize, Vec<KeptPoint>);
+    type Kept = (Place, [f64; 2], usize, Vec<Point>);
     const BLOCK: usize = 20;
 
     fn count(&self) -> usize {
@@ -54,8 +54,8 @@ impl Way for Follower<'_, '_, '_> {
     }
 
     fn kept(&self) -> Self::Kept {
-        let points = self.points.iter().map(Point::kept).collect();
-        (self.tangent, [self.length, self.largest], self.corrector.map.steps(), points)
+        let (lengths, steps) = ([self.length, self.largest], self.corrector.map.steps());
+        (self.tangent, lengths, steps, self.points.clone())
     }
 
     fn take_up(&mut self, (tangent, lengths, steps, points): Self::Kept) -> Option<()> {

@@ -31,7 +31,7 @@ pub struct PeriodicState {
 }
 
 /// Where a state comes after its period.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct PeriodImage {
     /// As [`PeriodicState::motion`].
     pub motion: Vec<f64>,

@@ -38,11 +38,12 @@ const REFINEMENTS: usize = 3;
 const UNBOUNDED: f64 = 1e4;
 
 /// A periodic motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Found {
     /// The state that comes back.
     pub state: PeriodicState,
-    /// Where it comes.
+    /// Where it comes; not kept.
+    #[serde(skip)]
     pub image: PeriodImage,
     /// `|P(x) - x|` over the amplitude.
     pub residual: f64,
@@ -62,30 +63,15 @@ impl Found {
         CycleError::not_converged(self.periods, self.residual, self.state.period)
     }
 
-    /// What it is found again from.
-    pub fn kept(&self) -> KeptMotion {
-        let &Self { ref state, residual, periods, steps, .. } = self;
-        KeptMotion { state: state.clone(), residual, periods, steps }
-    }
-
-    /// The motion that was kept, one period from its state; none where it is of another body.
-    pub fn recalled(map: &mut PeriodMap<'_>, kept: KeptMotion) -> Option<Self> {
-        let KeptMotion { state, residual, periods, steps } = kept;
-        if state.motion.len() != map.unknowns() || !(state.period > 0.0 && steps >= 1) {
+    /// A motion that was kept, one period from its state; none where it is of another body.
+    pub fn recalled(map: &mut PeriodMap<'_>, kept: Self) -> Option<Self> {
+        let Self { state, steps, .. } = &kept;
+        if state.motion.len() != map.unknowns() || !(state.period > 0.0 && *steps >= 1) {
             return None;
         }
-        map.step_in(steps);
-        Some(Self { image: map.image(&state), state, residual, periods, steps })
+        map.step_in(*steps);
+        Some(Self { image: map.image(state), ..kept })
     }
-}
-
-/// What a periodic motion is found again from.
-#[derive(Serialize, Deserialize)]
-pub struct KeptMotion {
-    state: PeriodicState,
-    residual: f64,
-    periods: usize,
-    steps: usize,
 }
 
 /// A periodic motion near a state.

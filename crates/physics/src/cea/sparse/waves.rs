@@ -1,9 +1,9 @@
 //! Tangents of a body with cyclic symmetry, one for each number of nodal diameters.
 
-use super::{ContactDofs, MotionMatrices, SlidingTangent};
 use crate::fem::DofMap;
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::CyclicSymmetry;
+use crate::prestress::{ContactDofs, MotionMatrices, SlidingTangent, without_symmetry};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -194,9 +194,4 @@ fn turned_pair(size: usize, total: usize, multiply: impl Fn(&[f64]) -> Vec<f64>)
         (0..total).map(|k| values[(k + total - size) % total]).collect()
     };
     [turned(&multiply(&own)), multiply(&turned(&own))]
-}
-
-/// Entry `k` of a vector that has no symmetry, between -0.5 and 0.5.
-pub(super) fn without_symmetry(k: usize) -> f64 {
-    (1.0 + k as f64).sqrt().fract() - 0.5
 }
