@@ -23,9 +23,6 @@ use std::borrow::Cow;
 
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
-/// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and matrices and factors are
-/// read once for all. With eight a half more vectors are needed, which costs as much as is won.
-const START_WIDTH: usize = 4;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
 
@@ -195,7 +192,7 @@ impl<'a> BasisBuilder<'a> {
         // The start.
         let unknowns = matrices.dimension();
         let start = [1, 2].map(|seed| match leading {
-            Some(leading) => self.model.expand(random_columns(leading, START_WIDTH, seed).as_ref()),
+            Some(leading) => self.model.expand(random_columns(leading, SEARCH_WIDTH, seed).as_ref()),
             None => random_columns(unknowns, SEARCH_WIDTH.min(unknowns), 2 + seed),
         });
         let (start, wanted, tolerance) = match self.linearization {

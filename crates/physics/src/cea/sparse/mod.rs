@@ -83,7 +83,8 @@ const MOST_ATTEMPTS: usize = 8;
 const LITTLE: f64 = 0.3;
 /// Samples near a friction coefficient whose modes, together, come near its own and their left vectors.
 const NEIGHBOURS: usize = 4;
-/// Start vectors of an iteration that relies on no known modes: as many as equal eigenvalues may come together.
+/// Start vectors of an iteration: as many as equal eigenvalues may come together. With twice as many a half more are needed in all, which
+/// costs as much as is won by reading matrices and factors once for more of them.
 const SEARCH_WIDTH: usize = 4;
 /// Vectors over the unknowns that are expanded, multiplied and solved for together.
 const GROUP_WIDTH: usize = 24;
