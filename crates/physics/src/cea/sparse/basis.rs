@@ -192,7 +192,9 @@ impl<'a> BasisBuilder<'a> {
         // The start.
         let unknowns = matrices.dimension();
         let start = [1, 2].map(|seed| match leading {
-            Some(leading) => self.model.expand(random_columns(leading, SEARCH_WIDTH, seed).as_ref()),
+            Some(leading) => {
+                self.model.expand(random_columns(leading, SEARCH_WIDTH, seed).as_ref())
+            }
             None => random_columns(unknowns, SEARCH_WIDTH.min(unknowns), 2 + seed),
         });
         let (start, wanted, tolerance) = match self.linearization {
