@@ -84,6 +84,20 @@ fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
     assert_eq!(TransientAnalysis::of(&stopped, &[]).settling.state, EndState::LimitCycle);
 }
 
+/// At 610 rpm waves grow out of noise: a fifth of the first periods, in which the others die out, is no steady sliding.
+#[test]
+fn a_run_from_noise_goes_on_until_what_grows_in_it_is_seen() {
+    let wanted = RecorderSettings { stop_when_settled: true, ..Default::default() };
+    for noise in [1e-3, 1e-6] {
+        let noise = Perturbation { noise, ..Perturbation::default() };
+        let settings = transient_settings([0.012, 4e-6, 0.0], InitialState::SteadySliding, noise);
+        let (record, end) = run(610.0, &settings, &wanted);
+        assert_eq!(end, RunEnd::Finished, "{} samples", record.rows.len());
+        let analysis = TransientAnalysis::of(&record, &[]);
+        assert_eq!(analysis.settling.state, EndState::Unsettled);
+    }
+}
+
 #[test]
 fn steady_sliding_rest_and_separation_are_ends_of_their_own() {
     let quiet = settings(0.07, &[]);

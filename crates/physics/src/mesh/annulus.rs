@@ -7,11 +7,10 @@ use super::specification::{AnnulusSpecification, MeshError, validate};
 
 /// A structured annulus mesh with its sectors.
 ///
-/// Nodes are numbered radially fastest: corner node `(i, j)` of a Quad4 mesh, `i = 0..=N_r`,
-/// `j = 0..N_theta`, has index `j (N_r + 1) + i`. A Quad8 sector holds `2 N_r + 1` nodes on its
-/// corner ray (corner and mid-side nodes alternate), then the `N_r + 1` mid-side nodes on its
-/// middle ray. Of a shaft all nodes of a sector come before those of the annulus, numbered alike; the two bodies share
-/// no node, nodes of the contact lie in pairs.
+/// Nodes are numbered radially fastest: corner node `(i, j)` of a Quad4 mesh, `i = 0..=N_r`, `j = 0..N_theta`, has index `j (N_r + 1) + i`.
+/// A Quad8 sector holds `2 N_r + 1` nodes on its corner ray (corner and mid-side nodes alternate), then the `N_r + 1` mid-side nodes on its
+/// middle ray. Of a shaft all nodes of a sector come before those of the annulus, numbered alike; the two bodies share no node, nodes of
+/// the contact lie in pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnulusMesh {
     /// The generated mesh.

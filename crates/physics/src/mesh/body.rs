@@ -8,7 +8,6 @@ use super::{Boundary, BoundaryCondition, BoundaryFace, Chord, Counterface, Mesh,
 use frictionsim_formats::FileMesh;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::FRAC_PI_2;
 
 /// Relative distance from a circle up to which nodes lie on it.
 const ROUND: f64 = 1e-4;
@@ -67,9 +66,8 @@ impl Mesh {
     ) -> Result<Self, BodyError> {
         if file.dimension == 3 {
             return Err(BodyError::Body(
-                "the mesh is of solid elements, and a body on a rigid counterface must be plane. \
-                 Mesh its surface alone (gmsh -2), or name the contacts of solid bodies under \
-                 [contacts.NAME]"
+                "the mesh is of solid elements, and a body on a rigid counterface must be plane. Mesh its surface alone (gmsh -2), or \
+                 name the contacts of solid bodies under [contacts.NAME]"
                     .to_owned(),
             ));
         }
@@ -98,8 +96,7 @@ impl Mesh {
                 continue;
             }
             let curve = find(name, BodyPart::Boundary(name.clone()))?;
-            boundaries.push(held_boundary(&mut mesh, curve, name, *condition, &contact.nodes));
-            refuse_slanted_hold(&mesh, boundaries.last(), &contact.nodes)?;
+            boundaries.push(held_boundary(&mut mesh, curve, name, *condition, &contact.nodes)?);
         }
         if let Some(name) = &specification.opposite {
             let curve = find(name, BodyPart::Opposite)?;
@@ -111,12 +108,12 @@ impl Mesh {
             }
             mesh.opposite = Some(place.unwrap_or(boundaries.len()));
             if place.is_none() {
-                boundaries.push(held_boundary(&mut mesh, curve, name, free, &contact.nodes));
+                boundaries.push(held_boundary(&mut mesh, curve, name, free, &contact.nodes)?);
             }
         }
         for (&name, curve) in &curves {
             if !boundaries.iter().any(|boundary| boundary.name == name) {
-                boundaries.push(held_boundary(&mut mesh, curve, name, free, &contact.nodes));
+                boundaries.push(held_boundary(&mut mesh, curve, name, free, &contact.nodes)?);
             }
         }
         mesh.boundaries = boundaries;
@@ -254,9 +251,8 @@ fn counterface(
                 && (d - mean).abs() > ROUND * mean
             {
                 let message = format!(
-                    "the contact curve \"{}\" is not a circle about contact.center = [{}, {}]: \
-                     node {} lies {d:.6e} m from it, the mean is {mean:.6e} m. Correct \
-                     contact.center, or give the cylinder's contact.radius",
+                    "the contact curve \"{}\" is not a circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from it, the mean \
+                     is {mean:.6e} m. Correct contact.center, or give the cylinder's contact.radius",
                     specification.contact, center[0], center[1], mesh.labels[node as usize]
                 );
                 let part = BodyPart::Center;
@@ -289,76 +285,54 @@ fn contact_boundary(mesh: &mut Mesh, curve: &Curve, name: &str) -> Result<Bounda
                 Counterface::Cylinder { .. } => BodyPart::Contact,
             };
             let message = format!(
-                "the contact curve \"{name}\" does not face the counterface at node {} ({x:.6e}, \
-                 {y:.6e}) m. Leave that part out of the physical curve, or correct \
-                 contact.counterface, center or direction",
+                "the contact curve \"{name}\" does not face the counterface at node {} ({x:.6e}, {y:.6e}) m. Leave that part out of the \
+                 physical curve, or correct contact.counterface, center or direction",
                 mesh.labels[node as usize]
             );
             return Err(BodyError::Request { part, message });
         }
         lengths.push(length);
     }
-    let free = held_boundary(mesh, curve, name, BoundaryCondition::Free, &[]);
+    let free = held_boundary(mesh, curve, name, BoundaryCondition::Free, &[])?;
     Ok(Boundary { tributary_lengths: lengths, ..free })
 }
 
-/// Refuses a guide across neither axis of a node in contact, whose frame is that of the counterface: it would hold the node as a clamp,
-/// or along another line than the nodes beside it.
-fn refuse_slanted_hold(
-    mesh: &Mesh,
-    boundary: Option<&Boundary>,
-    contact: &[u32],
-) -> Result<(), BodyError> {
-    let held = boundary.into_iter().flat_map(|own| own.nodes.iter().zip(&own.normal_angles));
-    for (node, &normal) in held.filter(|(node, _)| contact.contains(node)) {
-        let direction = match boundary.map(|own| own.condition) {
-            Some(BoundaryCondition::Guide) => normal,
-            Some(BoundaryCondition::Fixed([true, false, _])) => 0.0,
-            Some(BoundaryCondition::Fixed([false, true, _])) => FRAC_PI_2,
-            _ => continue,
-        };
-        let turn = (direction - mesh.frame_angles()[*node as usize]).rem_euclid(FRAC_PI_2);
-        let off = turn.min(FRAC_PI_2 - turn);
-        if off > LARGEST_SLANT {
-            let name = boundary.map_or("", |own| &own.name);
-            let message = format!(
-                "boundaries.{name} holds node {} of the contact in a direction {:.1} degrees off the \
-                 contact's normal and tangent: such a node can be held along one of these alone. Hold the \
-                 curve by a \"support\" with a large normal_stiffness, or draw it perpendicular to the contact",
-                mesh.labels[*node as usize],
-                off.to_degrees()
-            );
-            let part = BodyPart::Boundary(name.to_owned());
-            return Err(BodyError::Request { part, message });
-        }
-    }
-    Ok(())
-}
-
-/// A boundary with its condition; a guide or a fixed direction turns the frames of its nodes, but for those of the contact.
+/// A boundary with its condition; a guide or a fixed direction turns the frames of its nodes, but for those of the contact. These it
+/// holds along one of their axes: across neither it would hold them as a clamp, or along another line than the nodes beside them.
 fn held_boundary(
     mesh: &mut Mesh,
     curve: &Curve,
     name: &str,
     condition: BoundaryCondition,
     contact: &[u32],
-) -> Boundary {
+) -> Result<Boundary, BodyError> {
     let weights = EdgeWeights::of(mesh, curve);
     let normal_angles = weights.normal_angles();
     if matches!(condition, BoundaryCondition::Guide | BoundaryCondition::Fixed(_)) {
         let mut angles = mesh.frame_angles().to_vec();
         let contact: BTreeSet<u32> = contact.iter().copied().collect();
         for (&node, &angle) in curve.nodes.iter().zip(&normal_angles) {
+            let own = if matches!(condition, BoundaryCondition::Fixed(_)) { 0.0 } else { angle };
+            let off = 0.5 * (2.0 * (own - angles[node as usize])).sin().abs().asin();
             if !contact.contains(&node) {
-                angles[node as usize] = match condition {
-                    BoundaryCondition::Fixed(_) => 0.0,
-                    _ => angle,
-                };
+                angles[node as usize] = own;
+            } else if off > LARGEST_SLANT
+                && !matches!(condition, BoundaryCondition::Fixed([true, true, _]))
+            {
+                let (label, degrees) = (mesh.labels[node as usize], off.to_degrees());
+                let message = format!(
+                    "boundaries.{name} holds node {label} of the contact {degrees:.1} degrees off the contact's normal and tangent: \
+                     draw it perpendicular to the contact, or hold it by a \"support\" of large normal_stiffness"
+                );
+                return Err(BodyError::Request {
+                    part: BodyPart::Boundary(name.to_owned()),
+                    message,
+                });
             }
         }
         mesh.frames = NodalFrames::Plane(angles);
     }
-    Boundary {
+    Ok(Boundary {
         name: name.to_owned(),
         nodes: curve.nodes.clone(),
         faces: curve.faces.clone(),
@@ -366,5 +340,5 @@ fn held_boundary(
         normal_angles,
         is_closed: curve.is_closed,
         condition,
-    }
+    })
 }

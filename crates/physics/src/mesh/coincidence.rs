@@ -72,8 +72,7 @@ pub(super) fn refuse_doubled_elements(file: &FileMesh) -> Result<(), BodyError> 
         format!("{} and {} at ({x:.6}, {y:.6})", first.label, e.label)
     });
     Err(BodyError::Body(format!(
-        "{} given twice (elements {}{}): remove the copies (Coherence Mesh; in Gmsh), and put each surface in one physical \
-         group",
+        "{} given twice (elements {}{}): remove the copies (Coherence Mesh; in Gmsh), and put each surface in one physical group",
         match doubled.len() {
             1 => "1 element is".to_owned(),
             count => format!("{count} elements are"),

@@ -73,8 +73,7 @@ impl Counterface {
         }
     }
 
-    /// Where a point stands along the surface: its angle about a cylinder's axis, rad; for a plane the distance
-    /// along its direction, m.
+    /// Where a point stands along the surface: its angle about a cylinder's axis, rad; for a plane the distance along its direction, m.
     pub fn place(&self, point: [f64; 2]) -> f64 {
         match *self {
             Self::Cylinder { center, .. } => (point[1] - center[1]).atan2(point[0] - center[0]),

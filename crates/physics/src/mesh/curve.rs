@@ -83,9 +83,8 @@ impl Curve {
         if let [_, second, ..] = self.pieces[..] {
             let (end, start) = (self.faces[second - 1].nodes[1], self.faces[second].nodes[0]);
             return Err(BodyError::Body(format!(
-                "the contact curve \"{name}\" is open: it is in {} pieces, one ends at node {} and \
-                 another begins at node {}. Put every edge between them into the physical curve, \
-                 or name a curve for each contact",
+                "the contact curve \"{name}\" is open: it is in {} pieces, one ends at node {} and another begins at node {}. Put every \
+                 edge between them into the physical curve, or name a curve for each contact",
                 self.pieces.len(),
                 labels[end as usize],
                 labels[start as usize]
@@ -110,9 +109,8 @@ impl Curve {
         match contact.nodes.iter().find(|node| opposite.nodes.contains(node)) {
             None => Ok(()),
             Some(&node) => Err(BodyError::Body(format!(
-                "\"{name}\" (contact.boundary) and \"{other}\" (contact.counter_boundary) share \
-                 node {}. Mesh the bodies apart, each with a curve of its own (in Gmsh without \
-                 Coherence or BooleanFragments)",
+                "\"{name}\" (contact.boundary) and \"{other}\" (contact.counter_boundary) share node {}. Mesh the bodies apart, each \
+                 with a curve of its own (in Gmsh without Coherence or BooleanFragments)",
                 labels[node as usize]
             ))),
         }

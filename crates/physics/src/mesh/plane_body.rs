@@ -116,9 +116,8 @@ fn check_size(file: &FileMesh, size: f64, scale: f64) -> Result<(), BodyError> {
     Err(BodyError::Request {
         part: BodyPart::Scale,
         message: format!(
-            "node {label} lies at {length:e} m, and no other one farther from the origin: a body \
-             of {SMALLEST:e} to {LARGEST:e} m is expected. Is the file damaged, or mesh.scale = \
-             {scale:e} wrong?"
+            "node {label} lies at {length:e} m, and no other one farther from the origin: a body of {SMALLEST:e} to {LARGEST:e} m is \
+             expected. Is the file damaged, or mesh.scale = {scale:e} wrong?"
         ),
     })
 }

@@ -204,9 +204,8 @@ impl Mesh {
             _ => String::new(),
         };
         BodyError::Body(format!(
-            "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid \
-             body, for sliding friction holds nothing. Give one of its boundaries ({}) \
-             condition = \"clamped\" under [boundaries.NAME], or springs under \
+            "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body, for sliding friction holds nothing. \
+             Give one of its boundaries ({}) condition = \"clamped\" under [boundaries.NAME], or springs under \
              [modifications.NAME]{unmerged}",
             if is_one { "the body" } else { "a part of the body that touches no other" },
             self.node_label(node),

@@ -6,12 +6,10 @@ use super::rim::Rim;
 use super::splitting::{Place, STEPS, Splitting, between};
 use frictionsim_formats::{CurveEdge, FileElement, FileMesh};
 
-/// The same body with every element split into four alike; nodes keep their numbers, new ones count on from the
-/// largest.
+/// The same body with every element split into four alike; nodes keep their numbers, new ones count on from the largest.
 ///
-/// Where an edge of the body, or between two of its regions, follows a smooth curve, the new nodes lie on the
-/// circle through its neighbours: arcs stay arcs to round-off. Elsewhere they lie on the old edge, a parabola where
-/// it is quadratic.
+/// Where an edge of the body, or between two of its regions, follows a smooth curve, the new nodes lie on the circle through its
+/// neighbours: arcs stay arcs to round-off. Elsewhere they lie on the old edge, a parabola where it is quadratic.
 ///
 /// # Errors
 /// [`BodyError::Body`] for a mesh that would have too many nodes, or of solid elements.

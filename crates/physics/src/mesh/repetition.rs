@@ -247,9 +247,8 @@ impl Cut {
                 let [faces, meet] =
                     if others.len() == 1 { ["face", "meets"] } else { ["faces", "meet"] };
                 Err(misfit(format!(
-                    "{} {faces} of the sector {meet} its copy turned by {degrees:.6} degrees with \
-                     other nodes (the first has the nodes {}). Mesh both cut faces alike (Periodic \
-                     Curve or Periodic Surface in Gmsh)",
+                    "{} {faces} of the sector {meet} its copy turned by {degrees:.6} degrees with other nodes (the first has the nodes \
+                     {}). Mesh both cut faces alike (Periodic Curve or Periodic Surface in Gmsh)",
                     others.len(),
                     labels.collect::<Vec<_>>().join(", ")
                 )))

@@ -136,9 +136,8 @@ fn boundaries(
 
 /// `∫ N_i (n . e_r,i) ds` of the element edges along a circle at a node.
 ///
-/// With `h` half a sector's angle: a straight edge gives `a sin h cos h` to each end; a quadratic edge
-/// through three points of the circle gives `(a / 3) sin h (2 - cos h)` to each end and
-/// `(4 a / 3) sin h` to its middle.
+/// With `h` half a sector's angle: a straight edge gives `a sin h cos h` to each end; a quadratic edge through three points of the circle
+/// gives `(a / 3) sin h (2 - cos h)` to each end and `(4 a / 3) sin h` to its middle.
 fn tributary_length(spec: &AnnulusSpecification, node: &SheetNode) -> f64 {
     let (sin, cos) = (PI / spec.circumferential_elements as f64).sin_cos();
     match (spec.element.is_quadratic(), node.half_step) {

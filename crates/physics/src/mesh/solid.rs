@@ -52,8 +52,7 @@ pub struct SolidSector {
 impl SolidSector {
     /// Generates the sector.
     ///
-    /// Radii of a ring that lie inside the face become radii of corner nodes: the nearest ones move there, the others
-    /// in proportion.
+    /// Radii of a ring that lie inside the face become radii of corner nodes: the nearest ones move there, the others in proportion.
     ///
     /// # Errors
     /// [`MeshError`] names the key whose value makes no mesh.

@@ -68,10 +68,9 @@ struct Kick {
 /// M (v_{n+1/2} - v_{n-1/2}) / dt = G^T lambda_n - K u_n - C v_{n-1/2},   u_{n+1} = u_n + dt v_{n+1/2}
 /// ```
 ///
-/// (equation (7) of Brunetti et al. with `beta_2 = 1/2`; the damping force is that of the last half step, which
-/// keeps the scheme explicit.) `K u` is carried as a running sum of `dt K v`, so that one product with `K v` serves
-/// the elastic force, the damping force and both energies. With
-/// `E_{n+1/2} = 1/2 v^T M v + 1/2 u_{n+1}^T K u_n` and `v_n` the mean of the two half steps,
+/// (equation (7) of Brunetti et al. with `beta_2 = 1/2`; the damping force is that of the last half step, which keeps the scheme explicit.)
+/// `K u` is carried as a running sum of `dt K v`, so that one product with `K v` serves the elastic force, the damping force and both
+/// energies. With `E_{n+1/2} = 1/2 v^T M v + 1/2 u_{n+1}^T K u_n` and `v_n` the mean of the two half steps,
 ///
 /// ```text
 /// E_{n+1/2} - E_{n-1/2} = dt v_n^T (G^T lambda_n - C v_{n-1/2})

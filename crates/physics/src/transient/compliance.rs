@@ -11,10 +11,9 @@ const NEWTON_STEPS: usize = 200;
 /// N = max(0, k w p + c w p'),   p = s (delta + N_0 / (k w)) - g_0 - u_n
 /// ```
 ///
-/// `p` is the compression of a node's spring, `w` its tributary length, `N_0` its force in steady sliding, `s` the share
-/// of the interference that is reached. The counterface goes as much further as the interface gives way under `N_0`, so
-/// that the base state is that of rigid contact whatever its stiffness, and small motions about it are those of the
-/// eigenvalue analysis.
+/// `p` is the compression of a node's spring, `w` its tributary length, `N_0` its force in steady sliding, `s` the share of the
+/// interference that is reached. The counterface goes as much further as the interface gives way under `N_0`, so that the base state is
+/// that of rigid contact whatever its stiffness, and small motions about it are those of the eigenvalue analysis.
 ///
 /// Force and motion obey the energy of the spring within each step: with `p` the mean compression at the half steps
 /// before and after, `U = k w max(0, p)^2 / 2`,

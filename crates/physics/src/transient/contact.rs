@@ -26,11 +26,10 @@ use std::ops::Range;
 /// N = m g / dt^2,   T* = m (V - v_t*) / dt,   T = min(max(T*, -mu N), mu N),
 /// ```
 ///
-/// stick where `|T*| <= mu N` (so that `v_t = V`, `Omega a` on a shaft, at `n + 1/2`), slip elsewhere; without penetration the
-/// point is open and both vanish. With two rows of slip `T` is a vector, projected on the disc of Coulomb's law. Linear
-/// kinematics: the normal does not turn with the point. Friction that falls with the slip speed is implicit in it, point by
-/// point: [`CoulombFriction::resolve`]. A contact with a stiffness has `N` from its spring instead; a tangential dashpot adds
-/// `- c_t w v_t` while the point is in contact.
+/// stick where `|T*| <= mu N` (so that `v_t = V`, `Omega a` on a shaft, at `n + 1/2`), slip elsewhere; without penetration the point is
+/// open and both vanish. With two rows of slip `T` is a vector, projected on the disc of Coulomb's law. Linear kinematics: the normal does
+/// not turn with the point. Friction that falls with the slip speed is implicit in it, point by point: [`CoulombFriction::resolve`]. A
+/// contact with a stiffness has `N` from its spring instead; a tangential dashpot adds `- c_t w v_t` while the point is in contact.
 ///
 /// Rows of an edge or a face on a rigid counterface are single dofs, which no other row has: each point stands alone and the
 /// multipliers are in closed form. Rows between bodies share dofs, and the points are solved one after the other until no

@@ -1,10 +1,9 @@
 //! Explicit dynamics of the disc against the rotating cylinder, from rest to limit cycle.
 //!
-//! [`CentralDifference`] is the time loop: half-step central differences with a lumped mass, and an
-//! energy balance that closes to round-off. Contact is by the forward increment Lagrange
-//! multipliers of [`LagrangeContact`]. It knows no files: an [`Observer`] gets a [`Sample`] at
-//! fixed intervals. [`Recorder`] is the observer that keeps what results need, and
-//! [`TransientAnalysis`] reads frequencies, growth and powers from it.
+//! [`CentralDifference`] is the time loop: half-step central differences with a lumped mass, and an energy balance that closes to
+//! round-off. Contact is by the forward increment Lagrange multipliers of [`LagrangeContact`]. It knows no files: an [`Observer`] gets a
+//! [`Sample`] at fixed intervals. [`Recorder`] is the observer that keeps what results need, and [`TransientAnalysis`] reads frequencies,
+//! growth and powers from it.
 
 mod analysis;
 mod boundary;

@@ -163,8 +163,7 @@ impl<'a> TransientModel<'a> {
         StepPlan::within(limit, frequency, settings)
     }
 
-    /// Bound of the decay rates that the dashpots of supports give, dof by dof, 1/s: the sums of the rows of `M^-1 C`
-    /// (Gershgorin).
+    /// Bound of the decay rates that the dashpots of supports give, dof by dof, 1/s: the sums of the rows of `M^-1 C` (Gershgorin).
     fn dashpot_rates(&self, operator: &dyn StiffnessOperator) -> Vec<f64> {
         let mut rates = vec![0.0; operator.dof_count()];
         let [_, dashpots] = assemble_supports(self.mesh());

@@ -55,8 +55,7 @@ impl Perturbation {
         match self.waves.iter().find(|wave| wave.harmonic > limit) {
             Some(wave) => {
                 let problem = format!(
-                    " holds {}, above {limit}, the highest harmonic that {elements} elements \
-                     around the circumference can carry",
+                    " holds {}, above {limit}, the highest harmonic that {elements} elements around the circumference can carry",
                     wave.harmonic
                 );
                 let fitting = format!("at most {limit}");

@@ -122,9 +122,8 @@ pub struct StepPlan {
 }
 
 impl StepPlan {
-    /// Chooses the step below a `limit` (s), that of the highest frequency (rad/s): the given one, or 0.95 of the limit, lowered
-    /// so that it divides the sample interval. It does not depend on the duration; the run is as many whole sample intervals as
-    /// lie within that.
+    /// Chooses the step below a `limit` (s), that of the highest frequency (rad/s): the given one, or 0.95 of the limit, lowered so that it
+    /// divides the sample interval. It does not depend on the duration; the run is as many whole sample intervals as lie within that.
     pub(super) fn within(
         limit: f64,
         largest_frequency: f64,
@@ -134,9 +133,8 @@ impl StepPlan {
             TimeStep::Auto => (SAFETY * limit).min(settings.sample_interval),
             TimeStep::Seconds(step) if step > limit => {
                 let problem = format!(
-                    " = {step:e} s is above the stability limit of {limit:.4e} s on this mesh \
-                     (largest frequency {largest_frequency:.4e} rad/s, damping included). Lower it, \
-                     or use \"auto\""
+                    " = {step:e} s is above the stability limit of {limit:.4e} s on this mesh (largest frequency {largest_frequency:.4e} \
+                     rad/s, damping included). Lower it, or use \"auto\""
                 );
                 let fitting = format!("at most {limit:.4e}");
                 return Err(TransientError::setting("time_step", fitting, problem));
@@ -147,8 +145,7 @@ impl StepPlan {
         // A millionth of slack: 2e-6 / 1e-7 must be 20 steps, not 21.
         if interval < wanted * (1.0 - 1e-6) {
             let problem = format!(
-                " = {interval:e} s is below the time step of {wanted:.4e} s: raise it to at least \
-                 the step"
+                " = {interval:e} s is below the time step of {wanted:.4e} s: raise it to at least the step"
             );
             let fitting = format!("at least {wanted:.4e}");
             return Err(TransientError::setting("sample_interval", fitting, problem));

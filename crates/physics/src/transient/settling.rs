@@ -3,10 +3,10 @@
 use super::StatusCounts;
 use super::recorder::{Recorder, SampleRow};
 use super::vibration::{
-    TwoFrequencies, dies_out, last_fifth, main_vibration, quarters, rms, series,
+    TwoFrequencies, creeps, dies_out, last_fifth, main_vibration, quarters, rms, series,
 };
 use crate::linalg::c64;
-use crate::signal::round_off_floor;
+use crate::signal::{round_off_floor, strongest_vibration};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -101,8 +101,7 @@ pub enum Unsettled {
     },
     /// The cylinder still expands, or the perturbation is still to come, within the last fifth.
     #[error(
-        "the run is still being set up in its last fifth, until {until:.3e} s: set transient.duration to {duration:.3e} s \
-         or more"
+        "the run is still being set up in its last fifth, until {until:.3e} s: set transient.duration to {duration:.3e} s or more"
     )]
     Starting {
         /// When that ends, s.
@@ -133,8 +132,8 @@ pub enum Unsettled {
 
 /// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no small vibration grows.
 ///
-/// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies. A modulation that is
-/// longer than a fifth of the run is not seen, and neither is growth from below round-off.
+/// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies; of what dies out as many periods
+/// are looked at. A modulation that is longer than a fifth of the run is not seen, and neither is growth from below round-off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settling {
     /// What the run ends in.
@@ -171,17 +170,16 @@ impl Settling {
     /// Reads a record.
     pub fn of(record: &Recorder) -> Self {
         let fifth = last_fifth(record);
+        let short = too_short(record, &fifth);
         let main = main_vibration(record, fifth.clone())
-            .filter(|_| !dies_out(record, &fifth, LARGEST_DRIFT));
-        match Self::judge(record, &fifth, main) {
+            .filter(|_| short.is_some() || !dies_out(record, &fifth, LARGEST_DRIFT));
+        let short = short.filter(|_| main.is_none());
+        match short.map_or_else(|| Self::judge(record, &fifth, main), Err) {
             Ok(settled) => settled,
             Err(reason) => Self {
                 state: EndState::Unsettled,
                 from: None,
-                drift: match reason {
-                    Unsettled::Drifting(drift) => Some(drift),
-                    _ => None,
-                },
+                drift: if let Unsettled::Drifting(drift) = reason { Some(drift) } else { None },
                 reason: Some(reason),
             },
         }
@@ -194,12 +192,9 @@ impl Settling {
     ) -> Result<Self, Unsettled> {
         // Length of a block, samples.
         let interval = record.sample_interval;
-        let (length, wanted) = match main {
-            Some((_, frequency)) => {
-                ((PERIODS / (frequency.abs() * interval)).ceil() as usize, FEWEST_BLOCKS)
-            }
-            None => (fifth.len() / QUIET_BLOCKS, QUIET_BLOCKS),
-        };
+        let periods = main.map(|(_, frequency)| (PERIODS / (frequency.abs() * interval)).ceil());
+        let quiet = (fifth.len() / QUIET_BLOCKS, QUIET_BLOCKS);
+        let (length, wanted) = periods.map_or(quiet, |samples| (samples as usize, FEWEST_BLOCKS));
         let length = length.max(QUIET_BLOCKS);
         let until = record.start_up_time;
         if fifth.len() < length.saturating_mul(wanted) {
@@ -226,18 +221,11 @@ impl Settling {
             }
             (found, _) => found?,
         };
-        match growing(record, fifth) {
-            Some(reason) => Err(reason),
-            None => Ok(Self {
-                state: match two {
-                    Some(two) => EndState::TwoFrequency(two),
-                    None => state(record, &record.rows[fifth.clone()], main),
-                },
-                from: Some(record.rows[from].time),
-                drift: Some(drift),
-                reason: None,
-            }),
-        }
+        growing(record, fifth).map_or(Ok(()), Err)?;
+        let rows = &record.rows[fifth.clone()];
+        let state = two.map_or_else(|| state(record, rows, main), EndState::TwoFrequency);
+        let (from, drift) = (Some(record.rows[from].time), Some(drift));
+        Ok(Self { state, from, drift, reason: None })
     }
 }
 
@@ -272,9 +260,10 @@ fn stationary(
         }
         end = block.start;
     }
-    match drift.largest() < LARGEST_DRIFT {
-        true => Ok((drift, from)),
-        false => Err(Unsettled::Drifting(drift)),
+    if drift.largest() < LARGEST_DRIFT {
+        Ok((drift, from))
+    } else {
+        Err(Unsettled::Drifting(drift))
     }
 }
 
@@ -299,6 +288,20 @@ fn state(record: &Recorder, rows: &[SampleRow], main: Option<(usize, f64)>) -> E
         None if record.surface_speed == 0.0 => EndState::AtRest,
         None => EndState::SteadySliding,
     }
+}
+
+/// Whether too few periods of what vibrates most, above round-off, lie in the last fifth to tell that it dies out, and that nothing grows
+/// below it: parts of a period are larger and smaller by its phase alone. What creeps to its end has no period.
+fn too_short(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
+    let followed = record.followed_harmonics().filter_map(|n| series(record, fifth.clone(), n));
+    let own = followed.max_by(|a, b| rms(a).total_cmp(&rms(b)))?;
+    // A frequency that cannot be read has too few samples.
+    let seconds = fifth.len() as f64 * record.sample_interval;
+    let needed = strongest_vibration(&own, 1.0 / record.sample_interval)
+        .map_or(2.0 * seconds, |own| FEWEST_BLOCKS as f64 * PERIODS / own.0.abs());
+    let floor = round_off_floor(record.largest_motion(fifth.clone()));
+    let is_short = seconds < needed && rms(&own) > floor && !creeps(&own);
+    is_short.then(|| Unsettled::TooShort { duration: rounded_up(SPARE * needed / END) })
 }
 
 /// A harmonic above round-off that grows from quarter to quarter.

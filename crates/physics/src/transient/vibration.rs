@@ -51,6 +51,14 @@ pub(super) fn main_vibration(record: &Recorder, range: Range<usize>) -> Option<(
     (amplitude > REMNANT * record.largest_motion(range)).then_some((harmonic, frequency))
 }
 
+/// Whether a series goes one way all over, in the means of its eighths.
+pub(super) fn creeps(series: &[c64]) -> bool {
+    let parts = series.chunks_exact((series.len() / 8).max(1));
+    let sums: Vec<c64> = parts.map(|own| own.iter().sum()).collect();
+    let way = (sums[sums.len() - 1] - sums[0]).conj();
+    sums.windows(2).all(|pair| ((pair[1] - pair[0]) * way).re > 0.0)
+}
+
 /// A followed harmonic, m.
 pub(super) fn amplitudes(
     record: &Recorder,
@@ -97,8 +105,7 @@ pub(super) fn dies_out(record: &Recorder, fifth: &Range<usize>, share: f64) -> b
 /// A stationary motion of two frequencies that no common fundamental has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoFrequencies {
-    /// That of the strongest line and that of the strongest one that is neither a multiple of it nor a harmonic of its
-    /// wave, Hz.
+    /// That of the strongest line and that of the strongest one that is neither a multiple of it nor a harmonic of its wave, Hz.
     pub frequencies_hz: [f64; 2],
     /// Largest over smallest envelope: half the range of the tangential displacement of the first contact node over a period
     /// of the first frequency.

@@ -5,8 +5,7 @@ use crate::fem::operator::scatter;
 use crate::transient::{Breakdown, TransientError};
 use serde::{Deserialize, Serialize};
 
-/// Relative energy residual beyond which the numbers are not to be trusted; honest runs stay ten million times
-/// below it.
+/// Relative energy residual beyond which the numbers are not to be trusted; honest runs stay ten million times below it.
 const RESIDUAL_LIMIT: f64 = 1e-6;
 
 /// What the energy balance of a run is made of, J/m.

@@ -33,8 +33,7 @@ impl<'a> CentralDifference<'a> {
     /// start is added to the velocity.
     ///
     /// # Errors
-    /// [`TransientError`] names the setting that does not fit, with its bound;
-    /// [`TransientError::ForeignState`] for fields of another size.
+    /// [`TransientError`] names the setting that does not fit, with its bound; [`TransientError::ForeignState`] for fields of another size.
     pub fn start_from(
         model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
@@ -93,9 +92,8 @@ impl<'a> CentralDifference<'a> {
         self.open_account();
     }
 
-    /// Another contact for the same body: friction law, speed and interference, of an assembly the friction of its first contact,
-    /// to which the others keep their ratio; for those who step one body at many operating points. What it touches with stays what
-    /// it is.
+    /// Another contact for the same body: friction law, speed and interference, of an assembly the friction of its first contact, to which
+    /// the others keep their ratio; for those who step one body at many operating points. What it touches with stays what it is.
     ///
     /// # Errors
     /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.

@@ -4,8 +4,7 @@ use crate::contact::ContactStatus;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 
-/// Powers that cross the contact edge, W for each metre of thickness, with every velocity the mean
-/// `v_n = (v_{n+1/2} + v_{n-1/2}) / 2`.
+/// Powers that cross the contact edge, W for each metre of thickness, with every velocity the mean `v_n = (v_{n+1/2} + v_{n-1/2}) / 2`.
 ///
 /// `external = stick + slide + contact_dissipated` holds term by term (equation (10) of Brunetti et al.). A
 /// node that starts or ends to stick within the step still slides in its mean velocity; that part is counted as
