@@ -168,9 +168,6 @@ impl Body {
     }
 
     /// The mesh of the body, of one in three dimensions that of its section across the axis.
-    ///
-    /// # Errors
-    /// [`MeshError`] of a mesh that cannot be generated.
     pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
         let generate =
             |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));

@@ -31,8 +31,7 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     let pressure = section.optional_number("pressure");
     let axes: Vec<HeldAxis> = section.choices("directions");
     // A value without effect is a mistake.
-    let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping \
-                   tangential_damping loss_factor";
+    let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping tangential_damping loss_factor";
     for (needed, needs, keys) in [
         (ConditionWord::Support, "support", springs),
         (ConditionWord::Fixed, "fixed", "directions"),

@@ -111,8 +111,7 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeLimit
         (None, None) => {
             refuse!(section, "max_frequency_hz", "cea.max_frequency_hz (or cea.modes) is missing";
                 "does not say which modes to find";
-                "add `max_frequency_hz = 17500.0` (all modes below it) or `modes = 28` (the lowest \
-                 ones)");
+                "add `max_frequency_hz = 17500.0` (all modes below it) or `modes = 28` (the lowest ones)");
             ModeLimit::MaxFrequency(f64::NAN)
         }
     }

@@ -198,8 +198,7 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
     refuse_if!(decay.is_some() && !section.has("static_friction_ratio"); section, "decay_speed",
         "contact.decay_speed has no effect without contact.static_friction_ratio";
         "friction does not fall";
-        "give static friction over kinetic, for example static_friction_ratio = 1.4, or leave \
-         decay_speed out");
+        "give static friction over kinetic, for example static_friction_ratio = 1.4, or leave decay_speed out");
     decay.filter(|decay| decay.static_ratio > 1.0)
 }
 

@@ -115,8 +115,7 @@ pub(super) fn rigid_counterface(section: &Section<'_>, is_pressed: bool) -> Rigi
         CounterfaceWord::Body => {
             refuse!(section, "counterface" => "= \"body\" is for two plane bodies";
                 "the mesh is of solid elements";
-                "name the surfaces that slide on each other under [contacts.NAME], as `surface` \
-                 and `counter`");
+                "name the surfaces that slide on each other under [contacts.NAME], as `surface` and `counter`");
             RigidShape::Plane
         }
     };

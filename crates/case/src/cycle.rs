@@ -93,8 +93,7 @@ impl Case {
     pub(super) fn refuse_what_has_no_cycle(&self) -> Result<(), CaseErrors> {
         self.require_steps(
             "limit cycles need \"quad4\"",
-            "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, \
-             which lumps the mass",
+            "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, which lumps the mass",
         )
     }
 

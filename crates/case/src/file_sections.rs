@@ -152,8 +152,7 @@ fn material_section(
                     let what =
                         format!("axis of the cylindrical orientation of {}", material.region);
                     let reason = format!(
-                        "axes are about the motion's axis here, there through {from:?} and {to:?}: \
-                         check it"
+                        "axes are about the motion's axis here, there through {from:?} and {to:?}: check it"
                     );
                     left_out.push(LeftOut::once(what, material.place.clone(), reason));
                     text("cylindrical")

@@ -226,8 +226,7 @@ fn materials(own: &Description<'_>, has_shaft: bool) -> Option<RegionMaterial> {
             "shaft" => refuse!(all, name,
                 "[materials.shaft] is for a deformable shaft, and the case has none";
                 "the annulus has one material";
-                "give geometry.shaft_inner_radius and mesh.shaft_radial_elements, or leave the \
-                 section out"),
+                "give geometry.shaft_inner_radius and mesh.shaft_radial_elements, or leave the section out"),
             _ => refuse!(all, name,
                 "[materials.{name}] is for a physical surface of a mesh file (mesh.file)";
                 "the annulus has one material";

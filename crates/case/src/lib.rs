@@ -141,18 +141,12 @@ pub struct Case {
 }
 
 impl Case {
-    /// Parses and validates the bytes of a case file under overrides.
-    ///
-    /// # Errors
-    /// [`CaseErrors`] with every error found.
+    /// Parses and validates the bytes of a case file under overrides: every error is found.
     pub fn parse(name: &str, bytes: &[u8], overrides: &[String]) -> Result<Self, CaseErrors> {
         Self::from_raw(RawCase::parse(name, bytes, overrides)?)
     }
 
     /// Validates a parsed case.
-    ///
-    /// # Errors
-    /// [`CaseErrors`] with every error found.
     pub fn from_raw(raw: RawCase) -> Result<Self, CaseErrors> {
         let case = Self::read(raw)?;
         sweep::check_values(&case)?;
@@ -160,9 +154,6 @@ impl Case {
     }
 
     /// Validates everything but the values that studies give to keys, as those of a case of a study.
-    ///
-    /// # Errors
-    /// [`CaseErrors`] with every error found.
     pub fn read(mut raw: RawCase) -> Result<Self, CaseErrors> {
         superelements::refuse_body(&raw)?;
         let (effective, taken) = taken::effective(&mut raw);
@@ -255,9 +246,6 @@ impl Case {
     }
 
     /// The warnings of the case and those of a command, as errors.
-    ///
-    /// # Errors
-    /// [`CaseErrors`] with every warning, if there is one.
     pub fn deny_warnings(&self, further: &[Diagnostic]) -> Result<(), CaseErrors> {
         let all = [self.warnings.as_slice(), further].concat();
         if all.is_empty() {

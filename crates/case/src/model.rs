@@ -92,8 +92,7 @@ fn plane_joint(own: &Description<'_>) -> (BodySpecification, Contact) {
     refuse_if!(own.is_solid(); own.mesh, "file",
         "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"";
         "triangles and quadrilaterals in the plane";
-        "give a plane formulation, a file with solid elements, or the radii of a body that is \
-         generated");
+        "give a plane formulation, a file with solid elements, or the radii of a body that is generated");
     (place, contact)
 }
 

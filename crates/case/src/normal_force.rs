@@ -101,8 +101,7 @@ fn solve(case: &mut Case, wanted: &Wanted) -> Result<bool, CaseErrors> {
     }
     Err(refusal!(case, &wanted.key,
         "{} = {target}: no interference presses with this force", wanted.key; "not reached";
-        "a surface that overlaps the counterface in the mesh presses already; one that nothing \
-         holds gives way"))
+        "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way"))
 }
 
 /// The normal force of a contact pushed in so far, less the one that is wanted.
@@ -143,9 +142,6 @@ impl Case {
     }
 
     /// Normal force of each contact without friction, N: the sum of its forces along its normals, none across a gap.
-    ///
-    /// # Errors
-    /// Why there is no base state.
     pub fn normal_forces(&self) -> Result<Vec<f64>, String> {
         let contact = SlidingContact { friction_coefficient: 0.0, ..self.contact.sliding };
         let law = self.contact.stiffness.law;

@@ -1,4 +1,5 @@
-//! Sections that an analysis needs, and bodies and laws that it does not take.
+//! Sections that an analysis needs, and bodies and laws that it does not take. A `require_` refuses a case without its
+//! section and says what to add.
 
 use super::checks::material_key;
 use super::value::table_of;
@@ -20,9 +21,6 @@ impl Case {
     }
 
     /// The complex eigenvalue analysis.
-    ///
-    /// # Errors
-    /// A case without `[cea]`, with what to add.
     pub fn require_cea(&self) -> Result<&Cea, CaseErrors> {
         let remedy = "[cea]\nmax_frequency_hz = 17500.0";
         self.required(&self.cea, "cea", "complex eigenvalue analysis", remedy)
@@ -60,8 +58,7 @@ impl Case {
             return Err(refusal!(self, "contact.normal_law",
                 "rotating waves are those of rigid contact, whose pressure is another one than on \
                  a contact that stiffens"; "stiffens with pressure";
-                "`cycle` seeks the motions of the whole mesh of such a disc; or leave \
-                 contact.normal_law out"));
+                "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"));
         }
         if self.contact.sliding.decay.is_none() {
             return Ok(());
@@ -90,9 +87,6 @@ impl Case {
     }
 
     /// The parameter study.
-    ///
-    /// # Errors
-    /// A case without `[sweep]`, with what to add.
     pub fn require_sweep(&self) -> Result<&Sweep, CaseErrors> {
         let key = self.contact_key("friction_coefficient");
         let remedy = format!("[sweep]\n{key} = [0.2, 0.3, 0.4]");
@@ -100,9 +94,6 @@ impl Case {
     }
 
     /// The frequency response.
-    ///
-    /// # Errors
-    /// A case without `[frf]`, with what to add.
     pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
         let remedy =
             "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
@@ -110,17 +101,11 @@ impl Case {
     }
 
     /// The convergence study.
-    ///
-    /// # Errors
-    /// A case without `[convergence]`, with what to add.
     pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
         self.required(&self.convergence, "convergence", "convergence study", "[convergence]")
     }
 
     /// The parameters to fit.
-    ///
-    /// # Errors
-    /// A case without `[fit]`, with what to add.
     pub fn require_fit(&self) -> Result<&Fit, CaseErrors> {
         let key = material_key(self, "poisson_ratio");
         let remedy = format!("[fit.parameters]\n{key} = [0.2, 0.45]");
@@ -128,9 +113,6 @@ impl Case {
     }
 
     /// The parameters that are uncertain.
-    ///
-    /// # Errors
-    /// A case without `[uncertainty]`, with what to add.
     pub fn require_uncertainty(&self) -> Result<&Uncertainty, CaseErrors> {
         let key = self.contact_key("friction_coefficient");
         let remedy = format!("[uncertainty.distributions]\n{key} = {{ log_normal = [0.3, 0.1] }}");

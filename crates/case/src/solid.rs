@@ -163,7 +163,6 @@ pub(super) fn conditions(
     let mut faces = SolidFace::ALL.into_iter().zip(&conditions);
     refuse_if!(contact == SolidContact::Inner && !faces.any(holds_along); section, "outer",
         "nothing holds the body along its axis"; "must hold a face axially";
-        "give the support axial_stiffness above 0, or hold the top or the bottom face along its \
-         normal");
+        "give the support axial_stiffness above 0, or hold the top or the bottom face along its normal");
     conditions
 }

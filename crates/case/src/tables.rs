@@ -117,8 +117,7 @@ fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
             (what, "a loss factor is zero or positive")
         } else if loss_factor > 1.0 {
             let what = format!(
-                "loss factor {loss_factor} is beyond 1, where half of the strain energy is \
-                lost in a sixth of a cycle"
+                "loss factor {loss_factor} is beyond 1, where half of the strain energy is lost in a sixth of a cycle"
             );
             (what, "at most 1; rubber has 0.1 to 1. Is it in percent?")
         } else {

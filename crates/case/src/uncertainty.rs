@@ -91,9 +91,8 @@ fn distribution(
     entry: &RawEntry,
 ) -> Option<(Distribution, [f64; 2])> {
     let key = &parameter.key;
-    let help = "a distribution is { normal = [mean, deviation] }, \
-    { log_normal = [median, deviation of the logarithm] } \
-                or { uniform = [from, to] }";
+    let help = "a distribution is { normal = [mean, deviation] }, { log_normal = [median, deviation of the logarithm] \
+    } or { uniform = [from, to] }";
     let at = &entry.item.at;
     let refuse = |what: String, label: &str| {
         refuse_at!(section, at, "{what}"; "{label}"; "{help}");
@@ -144,8 +143,7 @@ fn distribution(
             "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of the \
              natural logarithm. One of {b} spans {:.0} powers of ten", b / std::f64::consts::LN_10;
             "at most 3";
-            "a scatter of 10 % is {{ log_normal = [median, 0.1] }}; for a deviation in the unit of \
-             the key use normal");
+            "a scatter of 10 % is {{ log_normal = [median, 0.1] }}; for a deviation in the unit of the key use normal");
         return None;
     }
     let bound = parameter.bound();

@@ -58,7 +58,7 @@ impl SparsityPattern {
         x: MatRef<'_, f64>,
     ) -> [Mat<f64>; N] {
         // By rows, so that sums stay in registers: scattering by columns waits for its own stores.
-        self.by_lanes(x, |input, index| {
+        self.by_lanes([x], |[input], index| {
             let places = self.row_range(index);
             let nonzeros = places.map(|place| (place, self.row_columns()[place] as usize));
             lane_sums(values, input, nonzeros)
@@ -72,25 +72,22 @@ impl SparsityPattern {
         values: [&[f64]; N],
         x: MatRef<'_, f64>,
     ) -> [Mat<f64>; N] {
-        self.by_lanes(x, |input, index| lane_sums(values, input, self.column(index)))
+        self.by_lanes([x], |[input], index| lane_sums(values, input, self.column(index)))
     }
 
-    /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows
-    /// ([`Self::by_rows`]); for few columns, of which [`Self::multiply`] would interleave empty ones.
+    /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows ([`Self::by_rows`]).
     #[inline]
-    pub fn multiply_sum(&self, values: [&[f64]; 2], [x, y]: [MatRef<'_, f64>; 2]) -> Mat<f64> {
-        let mut image = Mat::zeros(self.dimension(), x.ncols());
-        for j in 0..x.ncols() {
-            let (x, y) = (column(x, j), column(y, j));
-            for (row, value) in column_mut(&mut image, j).iter_mut().enumerate() {
-                let places = self.row_range(row);
-                let columns = &self.row_columns()[places.clone()];
-                let [a, b] = values.map(|values| &values[places.clone()]);
-                let pairs = columns.iter().zip(a.iter().zip(b));
-                *value = pairs.map(|(&j, (a, b))| a * x[j as usize] + b * y[j as usize]).sum();
+    pub fn multiply_sum(&self, values: [&[f64]; 2], vectors: [MatRef<'_, f64>; 2]) -> Mat<f64> {
+        let [sum] = self.by_lanes(vectors, |[x, y], index| {
+            let mut sum = [0.0; LANES];
+            for place in self.row_range(index) {
+                let source = self.row_columns()[place] as usize;
+                sum = add_multiple(sum, values[0][place], x[source]);
+                sum = add_multiple(sum, values[1][place], y[source]);
             }
-        }
-        image
+            [sum]
+        });
+        sum
     }
 
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
@@ -100,30 +97,33 @@ impl SparsityPattern {
         y
     }
 
-    /// Applies `kernel(input, index)`, the entries `index` of the results, to interleaved groups of columns.
-    fn by_lanes<const N: usize>(
+    /// Applies `kernel(inputs, index)`, the entries `index` of the results, to interleaved groups of columns of one or several blocks.
+    fn by_lanes<const M: usize, const N: usize>(
         &self,
-        x: MatRef<'_, f64>,
-        kernel: impl Fn(&[[f64; LANES]], usize) -> [[f64; LANES]; N],
+        blocks: [MatRef<'_, f64>; M],
+        kernel: impl Fn([&[[f64; LANES]]; M], usize) -> [[f64; LANES]; N],
     ) -> [Mat<f64>; N] {
-        let n = self.dimension();
-        assert_eq!(x.nrows(), n, "vectors and matrix differ in length");
-        let mut results = [(); N].map(|()| Mat::zeros(n, x.ncols()));
-        let mut input = INTERLEAVED.take();
-        input.clear();
-        input.resize(n, [0.0; LANES]);
+        let (n, columns) = (self.dimension(), blocks[0].ncols());
+        assert!(blocks.iter().all(|x| x.nrows() == n), "vectors and matrix differ in length");
+        let mut results = [(); N].map(|()| Mat::zeros(n, columns));
+        let mut inputs = INTERLEAVED.take();
+        inputs.clear();
+        inputs.resize(M * n, [0.0; LANES]);
         let mut strips = [[[0.0; LANES]; STRIP]; N];
-        for first in (0..x.ncols()).step_by(LANES) {
-            let width = LANES.min(x.ncols() - first);
-            for lane in 0..width {
-                for (entry, value) in input.iter_mut().zip(column(x, first + lane)) {
-                    entry[lane] = *value;
+        for first in (0..columns).step_by(LANES) {
+            let width = LANES.min(columns - first);
+            for (x, input) in blocks.iter().zip(inputs.chunks_exact_mut(n.max(1))) {
+                for lane in 0..width {
+                    for (entry, value) in input.iter_mut().zip(column(*x, first + lane)) {
+                        entry[lane] = *value;
+                    }
                 }
             }
+            let own: [&[[f64; LANES]]; M] = std::array::from_fn(|m| &inputs[m * n..(m + 1) * n]);
             for start in (0..n).step_by(STRIP) {
                 let rows = start..n.min(start + STRIP);
                 for index in rows.clone() {
-                    let sums = kernel(&input, index);
+                    let sums = kernel(own, index);
                     for (strip, sum) in strips.iter_mut().zip(sums) {
                         strip[index - start] = sum;
                     }
@@ -138,7 +138,7 @@ impl SparsityPattern {
                 }
             }
         }
-        INTERLEAVED.set(input);
+        INTERLEAVED.set(inputs);
         results
     }
 }

@@ -40,7 +40,7 @@ macro_rules! plain {
     ($($kind:ty),+) => {$(impl Described for $kind {})+};
 }
 
-plain!(bool, i8, i64, u8, u32, u64, usize, f64, String, serde_json::Value);
+plain!(bool, i8, i64, u8, u32, u64, usize, f64, &str, String, serde_json::Value);
 
 impl Described for serde_json::Map<String, serde_json::Value> {
     fn describe(path: &str, keys: &mut Vec<Entry>) {

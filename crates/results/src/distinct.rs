@@ -17,6 +17,13 @@ pub fn distinct<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     grouped(items.into_iter().map(|item| (item, ()))).into_iter().map(|(item, _)| item).collect()
 }
 
+/// The items by a number of each, the smallest first; equal ones keep their order.
+pub fn sorted<T>(items: impl IntoIterator<Item = T>, number: impl FnMut(&T) -> f64) -> Vec<T> {
+    let mut items: Vec<T> = items.into_iter().collect();
+    frictionsim_physics::order::sort_by_number(&mut items, number);
+    items
+}
+
 /// Ascending numbers with runs drawn together: `1-4, 7`.
 pub fn number_ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|number, next| number + 1 == *next);

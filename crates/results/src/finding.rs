@@ -17,26 +17,6 @@ pub trait Finding: Serialize {
     fn figures(&self) -> Vec<Declaration<'_>>;
 }
 
-/// Declares what was found once: `field: type = "meaning", Always "label" Fixed(2);` is a field, a column of files and,
-/// with a label, one that people see. Without a meaning it is a field alone.
-macro_rules! finding {
-    ($(#[$meta:meta])* $name:ident, $columns:ident {
-        $($(#[$own:meta])* $field:ident: $type:ty
-            $(= $meaning:literal $(, $when:ident $label:literal $format:expr)?)?;)+
-    }) => {
-        $(#[$meta])*
-        pub struct $name {
-            $($(#[doc = $meaning])? $(#[$own])* pub $field: $type,)+
-        }
-
-        frictionsim_output::columns! {
-            pub(crate) $columns: own as $name;
-            $($($field: $meaning = own.$field.to_owned() $(, $when $label $format)?;)?)+
-        }
-    };
-}
-pub(crate) use finding;
-
 /// Writes the tables of a document that are files.
 pub fn write_tables(folder: &OutputFolder, document: &Document) -> Result<(), FolderError> {
     document.files().try_for_each(|table| write_table(folder, table))

@@ -1,16 +1,20 @@
 //! Tables, figure and page of an identified damping.
 
-mod figures;
-mod summary;
-
-pub use figures::{identification, unit_of};
-pub use summary::{FitSummary, IdentificationSummary, ModeSummary, ResponseSummary};
-
-use super::{FolderError, OutputFolder};
-use frictionsim_output::{Document, Section, Table, columns, write_rows};
+use crate::charts::palette::UNSTABLE;
+use crate::keys::keys;
+use crate::{FolderError, OutputFolder};
+use frictionsim_chart::{
+    Axis, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, SERIES, Stroke, extremes,
+    significant,
+};
+use frictionsim_output::{Document, Section, Table, columns, rounded, write_rows};
 use frictionsim_physics::linalg::c64;
 use frictionsim_signal::reader::NamedResponse;
-use frictionsim_signal::{ModalFit, RayleighFit};
+use frictionsim_signal::{
+    Estimate, FittedMode, FrequencyResponse, HalfPowerBand, Identification, ModalFit, RayleighFit,
+    ResonanceNote, ResponseQuantity,
+};
+use std::f64::consts::TAU;
 
 /// Name of the `[damping]` section in its folder.
 pub const DAMPING_BLOCK: &str = "damping.toml";
@@ -126,4 +130,251 @@ pub fn write_fits(
         folder.write(&name, |out| write_rows(out, FITTED, lines))?;
     }
     Ok(())
+}
+
+keys! {
+    /// Rayleigh coefficients of measured responses.
+    IdentificationSummary {
+        source: String = "name of the table of the responses";
+        quantity: String = "quantity of the first response";
+        has_phase: bool = "whether its phase is known";
+        lines: usize = "its number of lines";
+        responses: Vec<ResponseSummary> = "the responses";
+        #[serde(flatten)]
+        rayleigh: RayleighFit = "the coefficients";
+        reduced_chi_square: f64 = "scatter of the damping factors about equation (3) over what \
+            their errors explain, squared";
+        half_power: Option<RayleighFit> = "the coefficients from half-power factors alone";
+        modes: Vec<ModeSummary> = "modes by frequency";
+        unmatched_peaks_hz: Vec<f64> = "peaks of which the fit made no mode, Hz";
+        fit: FitSummary = "the fit of the responses";
+        notes: Vec<String> = "decisions of the reader";
+    }
+
+    /// One response and its noise.
+    ResponseSummary {
+        name: String = "name as in the table";
+        quantity: String = "receptance, mobility or accelerance";
+        lines: usize = "number of lines";
+        range_hz: [f64; 2] = "lowest and highest frequency, Hz";
+        relative_noise: f64 = "noise relative to the modulus";
+        additive_noise: f64 = "noise that does not depend on the response, its unit";
+    }
+
+    /// One mode with both estimates of its damping.
+    ModeSummary {
+        frequency_hz: f64 = "undamped natural frequency, Hz";
+        damping_factor: f64 = "damping factor";
+        frequency_interval_hz: [f64; 2] = "95 % interval, Hz";
+        damping_factor_interval: [f64; 2] = "95 % interval";
+        half_power: Option<HalfPowerBand> = "by the half-power points";
+        used: bool = "whether it enters the coefficients";
+        flag: Option<String> = "what is doubtful about it";
+    }
+
+    /// The fit of all responses.
+    FitSummary {
+        range_hz: [f64; 2] = "lowest and highest frequency used, Hz";
+        added_poles: usize = "poles added because the residual asked for them";
+        relative_noise: f64 = "noise of the first response relative to its modulus";
+        additive_noise: f64 = "noise of the first response that does not depend on it";
+        residual_correlation: f64 = "factor by which correlated residuals widen the variances";
+    }
+}
+
+impl IdentificationSummary {
+    /// The findings of a run.
+    pub fn new(
+        source: &str,
+        responses: &[NamedResponse],
+        found: &Identification,
+        notes: Vec<String>,
+    ) -> Self {
+        let (fit, first) = (&found.fit, &responses[0].response);
+        let described = responses.iter().zip(&fit.noise).map(|(named, noise)| {
+            let f = named.response.frequencies_hz();
+            ResponseSummary {
+                name: named.name.clone(),
+                quantity: named.response.quantity().name().to_owned(),
+                lines: f.len(),
+                range_hz: [f[0], f[f.len() - 1]],
+                relative_noise: noise.relative,
+                additive_noise: noise.additive,
+            }
+        });
+        Self {
+            source: source.to_owned(),
+            quantity: first.quantity().name().to_owned(),
+            has_phase: first.has_phase(),
+            lines: first.values().len(),
+            responses: described.collect(),
+            rayleigh: found.rayleigh,
+            reduced_chi_square: found.rayleigh.reduced_chi_square,
+            half_power: found.half_power_rayleigh,
+            modes: fit.modes.iter().map(ModeSummary::of).collect(),
+            unmatched_peaks_hz: found.unmatched.iter().map(|b| b.frequency_hz).collect(),
+            fit: FitSummary {
+                range_hz: [fit.range_hz.0, fit.range_hz.1],
+                added_poles: fit.added_poles,
+                relative_noise: fit.noise[0].relative,
+                additive_noise: fit.noise[0].additive,
+                residual_correlation: fit.correlation,
+            },
+            notes,
+        }
+    }
+
+    /// A `[damping]` section ready to paste into a case.
+    pub fn damping_block(&self) -> String {
+        let line = |key: &str, e: Estimate, unit: &str| {
+            let [value, low, high] = justified(e);
+            format!("{key} = {value} # {unit}, 95 % between {low} and {high}\n")
+        };
+        format!(
+            "[damping] # identified from {}\n{}{}",
+            self.source.replace(['\n', '\r'], " "),
+            line("mass_coefficient", self.rayleigh.mass_coefficient, "1/s"),
+            line("stiffness_coefficient", self.rayleigh.stiffness_coefficient, "s"),
+        )
+    }
+}
+
+impl ModeSummary {
+    fn of(mode: &FittedMode) -> Self {
+        let (f, zeta) = (mode.frequency_hz, mode.damping_factor);
+        Self {
+            frequency_hz: f.value,
+            damping_factor: zeta.value,
+            frequency_interval_hz: [f.low, f.high],
+            damping_factor_interval: [zeta.low, zeta.high],
+            half_power: mode.half_power,
+            used: mode.is_used(),
+            flag: flag(mode),
+        }
+    }
+}
+
+/// What a user should know of a mode, or nothing.
+fn flag(mode: &FittedMode) -> Option<String> {
+    let note = mode.half_power.and_then(|b| b.note);
+    Some(match (mode.overlaps_hz, note) {
+        (Some(other), _) => format!("close: overlaps the mode at {other:.1} Hz"),
+        (None, Some(ResonanceNote::Overlaps(other))) => {
+            format!("close: half-power band reaches that at {other:.1} Hz")
+        }
+        (None, Some(ResonanceNote::TooCoarse(lines))) => {
+            format!("coarse: {lines} lines in the half-power band")
+        }
+        (None, Some(ResonanceNote::OneSided)) => "no half-power point on one side".to_owned(),
+        (None, None) if mode.half_power.is_none() => "no peak: found by the fit".to_owned(),
+        (None, None) => return None,
+    })
+}
+
+/// Value and interval to the digits that the interval justifies, as TOML floats.
+fn justified(e: Estimate) -> [String; 3] {
+    let width = (e.high - e.low).abs().max(1e-6 * e.value.abs());
+    let digits = |x: f64| {
+        if x == 0.0 || !x.is_finite() || width == 0.0 {
+            return "0.0".to_owned();
+        }
+        // Two digits of the interval's width.
+        let decimals =
+            (x.abs().log10().floor() - width.log10().floor()).clamp(0.0, 8.0) as usize + 1;
+        format!("{:?}", rounded(x, decimals + 1))
+    };
+    [digits(e.value), digits(e.low), digits(e.high)]
+}
+
+/// Unit of a response.
+pub fn unit_of(quantity: ResponseQuantity) -> &'static str {
+    match quantity {
+        ResponseQuantity::Accelerance => "m/s²/N",
+        ResponseQuantity::Mobility => "m/s/N",
+        ResponseQuantity::Receptance => "m/N",
+    }
+}
+
+/// The first response with its fit and its half-power points, and the damping factors with the fitted curve of equation
+/// (3).
+pub fn identification(response: &FrequencyResponse, found: &Identification) -> Figure {
+    let frequencies = response.frequencies_hz();
+    let magnitude = response.magnitudes();
+    let fitted =
+        frequencies.iter().map(|f| found.fit.evaluate(0, *f).map_or(f64::NAN, |h| h.norm()));
+    let fitted: Vec<f64> = fitted.collect();
+    let highest = extremes(frequencies.iter().copied()).1;
+    let at = |frequency: f64| {
+        let index = frequencies.partition_point(|&f| f < frequency);
+        magnitude.get(index).or(magnitude.last()).copied().unwrap_or(f64::NAN)
+    };
+    let bands = found.fit.modes.iter().filter_map(|mode| mode.half_power);
+    let halves = bands.filter_map(|band| Some((band.frequency_hz, band.band_hz?)));
+    let halves = halves.flat_map(|(peak, [low, high])| {
+        // By definition they lie a factor sqrt(2) below the peak.
+        [low, high].map(|f| (f, at(peak) / std::f64::consts::SQRT_2))
+    });
+    let place = |mode: &FittedMode| (mode.frequency_hz.value, mode.damping_factor.value);
+    let tick = |mode: &FittedMode| {
+        Rule::vertical(place(mode).0).stroke(Stroke::dotted(INK, 0.5)).name("fitted mode")
+    };
+    let response = Panel::new(
+        Axis::kilohertz().tight(),
+        Axis::new("|*H*|", unit_of(response.quantity())).logarithmic(),
+    )
+    .height(150.0)
+    .layers(found.fit.modes.iter().map(tick))
+    .layer(Line::new(frequencies, &magnitude).solid(SERIES[0], 0.9).name("measured"))
+    .layer(Line::new(frequencies, &fitted).stroke(Stroke::dashed(SERIES[6], 0.7)).name("fitted"))
+    .layer(Points::new(halves).marker(Marker::Diamond, 1.3, UNSTABLE).name("half-power points"));
+    let (alpha, beta) = (found.rayleigh.mass_coefficient, found.rayleigh.stiffness_coefficient);
+    let omegas = (1..=300).map(|i| TAU * highest * f64::from(i) / 300.0);
+    let curve = |mass: f64, stiffness: f64| -> Vec<f64> {
+        // (3)
+        omegas.clone().map(|omega| 0.5 * (mass / omega + stiffness * omega)).collect()
+    };
+    let hertz: Vec<f64> = omegas.clone().map(|omega| omega / TAU).collect();
+    let line = |mass: f64, stiffness: f64| Line::new(&hertz, &curve(mass, stiffness));
+    let used = |is_used: bool| found.fit.modes.iter().filter(move |mode| mode.is_used() == is_used);
+    let top = 1.35 * extremes(found.fit.modes.iter().map(|mode| place(mode).1)).1;
+    let bars = used(true).map(|mode| {
+        let ((f, factor), reach) = (place(mode), 1.96 * mode.standard_error);
+        Line::through([(f, factor - reach), (f, factor + reach)]).solid(INK, 0.7)
+    });
+    let (low, high) = (curve(alpha.low, beta.low), curve(alpha.high, beta.high));
+    let band = Fill::between(&hertz, &low, &high, SERIES[0]);
+    // Bounds to a digit more than the coefficient, so that they do not round onto it.
+    let named = |symbol: &str, own: Estimate, unit: &str| {
+        let [low, high] = [own.low, own.high].map(|end| significant(end, 5));
+        format!("{symbol} = {} [{low}, {high}] {unit}", significant(own.value, 4))
+    };
+    let dashed = |colour| Stroke::dashed(colour, 0.9);
+    let damping = Panel::new(
+        Axis::kilohertz().between(0.0, highest),
+        Axis::new("damping factor *ζ*", "%").times(100.0).between(0.0, top),
+    )
+    .height(150.0)
+    .layer(band.opacity(0.2))
+    .layer(line(alpha.value, 0.0).stroke(dashed(SERIES[2])).name(named("*α*_{R}", alpha, "1/s")))
+    .layer(line(0.0, beta.value).stroke(dashed(SERIES[1])).name(named("*β*_{R}", beta, "s")))
+    .layer(
+        line(alpha.value, beta.value)
+            .solid(SERIES[0], 1.2)
+            .name("*ζ* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2"),
+    )
+    .layers(bars)
+    .layer(
+        Points::new(used(false).map(place))
+            .marker(Marker::Circle, 1.8, INK)
+            .name("factor not used"),
+    )
+    .layer(Points::new(used(true).map(place)).marker(Marker::Disc, 1.8, INK).name("fitted factor"));
+    Figure::new(
+        "identification",
+        "Measured and fitted response with half-power points (a). Damping factors of the fitted \
+         modes with 95 % intervals, and the curve of the identified coefficients (b).",
+    )
+    .columns(2)
+    .panel(response)
+    .panel(damping)
 }

@@ -13,6 +13,7 @@ mod finding;
 pub mod fit;
 pub mod identification;
 pub mod improve;
+mod keys;
 pub mod mac;
 pub mod matrices;
 pub mod mesh;
@@ -36,7 +37,7 @@ mod vtu;
 use distinct::{distinct, grouped};
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
-pub use distinct::number_ranges;
+pub use distinct::{number_ranges, sorted};
 pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, declared};
 pub use extent::Extent;
 pub use finding::{Finding, write_page, write_table, write_tables};

@@ -2,67 +2,48 @@
 
 use super::Finding;
 use super::drawing::Declaration;
+use crate::keys::keys;
 use frictionsim_chart::{Axis, ColourMap, Figure, Heat, INK, Marker, Panel, Points, Side};
-use frictionsim_output::{Described, Document, Section, Table, columns};
-use serde::Serialize;
+use frictionsim_output::{Document, Section, Table, columns};
 use std::f64::consts::TAU;
 
-/// `summary.json` of `mac`.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct MacSummary {
-    /// The measured shapes.
-    pub measurement: String,
-    /// The friction coefficient of the modes.
-    pub friction_coefficient: f64,
-    /// The shapes.
-    pub shapes: Vec<MacShape>,
-    /// The modes.
-    pub modes: Vec<MacMode>,
-    /// The criterion, a row for each shape, a column for each mode.
-    pub mac: Vec<Vec<f64>>,
-    /// The mode of each shape.
-    pub pairs: Vec<MacPair>,
-    /// What there is to say.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// `summary.json` of `mac`.
+    MacSummary {
+        measurement: String = "the measured shapes";
+        friction_coefficient: f64 = "the friction coefficient of the modes";
+        shapes: Vec<MacShape> = "the shapes";
+        modes: Vec<MacMode> = "the modes";
+        mac: Vec<Vec<f64>> = "the criterion, a row for each shape, a column for each mode";
+        pairs: Vec<MacPair> = "the mode of each shape";
+        notes: Vec<String> = "what there is to say";
+    }
 
-/// A measured shape.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct MacShape {
-    /// What the file calls it.
-    pub name: String,
-    /// Its frequency, Hz, where the file says it.
-    pub frequency_hz: Option<f64>,
-    /// Its points.
-    pub points: usize,
-    /// Those off the body, which are left out.
-    pub off_body: usize,
-    /// Largest distance of a point from its nearest node, m.
-    pub largest_distance_m: f64,
-}
+    /// A measured shape.
+    MacShape {
+        name: String = "what the file calls it";
+        frequency_hz: Option<f64> = "its frequency, Hz, where the file says it";
+        points: usize = "its points";
+        off_body: usize = "those off the body, which are left out";
+        largest_distance_m: f64 = "largest distance of a point from its nearest node, m";
+    }
 
-/// A mode of the model.
-#[derive(Clone, Copy, Debug, Described, Serialize)]
-pub struct MacMode {
-    /// Number by frequency, from 1.
-    pub mode: usize,
-    /// `Im(lambda) / 2 pi`, Hz.
-    pub frequency_hz: f64,
-    /// `Re(lambda) / 2 pi`, Hz.
-    pub real_hz: f64,
-    /// Nodal diameters; none without symmetry.
-    pub harmonic: Option<usize>,
-}
+    /// A mode of the model.
+    #[derive(Copy)]
+    MacMode {
+        mode: usize = "number by frequency, from 1";
+        frequency_hz: f64 = "`Im(lambda) / 2 pi`, Hz";
+        real_hz: f64 = "`Re(lambda) / 2 pi`, Hz";
+        harmonic: Option<usize> = "nodal diameters; none without symmetry";
+    }
 
-/// A shape and the mode that it is.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct MacPair {
-    /// Shape, from 1.
-    pub shape: usize,
-    /// Mode, from 1.
-    pub mode: usize,
-    /// Their criterion.
-    pub mac: f64,
+    /// A shape and the mode that it is.
+    #[derive(Copy)]
+    MacPair {
+        shape: usize = "shape, from 1";
+        mode: usize = "mode, from 1";
+        mac: f64 = "their criterion";
+    }
 }
 
 /// A shape, a mode, their criterion, and whether they are a pair.

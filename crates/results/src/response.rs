@@ -3,35 +3,29 @@
 use super::finding::write_table;
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
+use super::sorted;
+use crate::keys::keys;
 use frictionsim_chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
-use frictionsim_output::{Described, Document, Section, Table};
+use frictionsim_output::{Document, Section, Table};
 use frictionsim_physics::linalg::c64;
 use frictionsim_signal::reader::{self, NamedResponse};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
-use serde::Serialize;
 use std::io;
 
-/// `summary.json` of `frictionsim frf`.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
-pub struct ResponseSummary {
-    /// What was computed, in a sentence.
-    pub description: String,
-    /// Unknowns.
-    pub dofs: usize,
-    /// Frequencies.
-    pub lines: usize,
-    /// Method: `cyclic`, `direct` or `reduced`.
-    pub method: String,
-    /// Largest relative error at the check lines of a reduction.
-    pub largest_error: Option<f64>,
-    /// Vectors of a reduction.
-    pub basis_vectors: Option<usize>,
-    /// Largest backward error of a cyclic solution.
-    pub backward_error: Option<f64>,
-    /// Accelerance, mobility or receptance.
-    pub quantity: String,
-    /// Relative standard deviation of the noise added.
-    pub noise: f64,
+keys! {
+    /// `summary.json` of `frictionsim frf`.
+    #[derive(Default)]
+    ResponseSummary {
+        description: String = "what was computed, in a sentence";
+        dofs: usize = "unknowns";
+        lines: usize = "frequencies";
+        method: String = "method: `cyclic`, `direct` or `reduced`";
+        largest_error: Option<f64> = "largest relative error at the check lines of a reduction";
+        basis_vectors: Option<usize> = "vectors of a reduction";
+        backward_error: Option<f64> = "largest backward error of a cyclic solution";
+        quantity: String = "accelerance, mobility or receptance";
+        noise: f64 = "relative standard deviation of the noise added";
+    }
 }
 
 /// Name of the table of a response in its folder; `frictionsim identify` reads it.
@@ -116,12 +110,8 @@ fn maxima(magnitude: &[f64]) -> Vec<usize> {
         let near = &logs[i.saturating_sub(3)..(i + 4).min(logs.len())];
         near.iter().all(|value| *value <= logs[*i])
     };
-    let mut found: Vec<(f64, usize)> = peaks
-        .filter(is_high)
-        .map(|i| (prominence(magnitude, i), i))
-        .filter(|(rise, _)| *rise > least)
-        .collect();
-    frictionsim_physics::order::sort_by_number(&mut found, |a| -a.0);
+    let found = peaks.filter(is_high).map(|i| (prominence(magnitude, i), i));
+    let mut found = sorted(found.filter(|(rise, _)| *rise > least), |own| -own.0);
     found.truncate(MOST_MAXIMA);
     found.into_iter().map(|(_, place)| place).collect()
 }

@@ -3,12 +3,11 @@
 //! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an
 //! `Option` and null in JSON: JSON has neither NaN nor infinity.
 
-use super::finding::finding;
 use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
+use super::keys::keys;
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
-use frictionsim_output::Described;
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::transient::ContactPowers;
 use serde::Serialize;
@@ -17,13 +16,12 @@ use serde_json::Value;
 use std::fmt;
 use std::path::Path;
 
-/// Where along a parameter steady sliding loses its stability.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct CriticalValue {
-    /// Key of the case.
-    pub key: String,
-    /// Value, in its units.
-    pub value: f64,
+keys! {
+    /// Where along a parameter steady sliding loses its stability.
+    CriticalValue {
+        key: String = "key of the case";
+        value: f64 = "value, in its units";
+    }
 }
 
 impl CriticalValue {
@@ -39,9 +37,9 @@ impl fmt::Display for CriticalValue {
     }
 }
 
-finding! {
+keys! {
     /// Fractions of the contact nodes, averaged over the interval that a summary is of.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+    #[derive(Copy, Default)]
     StatusFractions, STATUS {
         stick: Option<f64> = "fraction of the contact that sticks", Always "stick" Percent(1);
         slip: Option<f64> = "fraction that slips", Always "slip" Percent(1);
@@ -57,24 +55,18 @@ impl StatusFractions {
     }
 }
 
-/// Mean powers of a whole disc, W; equations (9) to (12).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
-pub struct MeanPowers {
-    /// Of the motor.
-    pub external: Option<f64>,
-    /// Of sticking nodes.
-    pub stick: Option<f64>,
-    /// Of sliding nodes.
-    pub slide: Option<f64>,
-    /// Lost to friction.
-    pub contact_dissipated: Option<f64>,
-    /// Lost in the body.
-    pub material_damping: Option<f64>,
-    /// Of the normal contact forces.
-    pub normal_contact: Option<f64>,
-    /// Lost in the dashpots of a contact that has some.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_damping: Option<f64>,
+keys! {
+    /// Mean powers of a whole disc, W; equations (9) to (12).
+    #[derive(Copy, Default)]
+    MeanPowers {
+        external: Option<f64> = "of the motor";
+        stick: Option<f64> = "of sticking nodes";
+        slide: Option<f64> = "of sliding nodes";
+        contact_dissipated: Option<f64> = "lost to friction";
+        material_damping: Option<f64> = "lost in the body";
+        normal_contact: Option<f64> = "of the normal contact forces";
+        contact_damping?: f64 = "lost in the dashpots of a contact that has some";
+    }
 }
 
 impl MeanPowers {
@@ -92,13 +84,14 @@ impl MeanPowers {
     }
 }
 
-/// Amplitude ratios between which the winner of two waves changes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
-pub struct Bounds {
-    /// Largest ratio at which the first wave wins; without `high` it wins at every ratio tried.
-    pub low: Option<f64>,
-    /// Smallest ratio at which the second wins; without `low` it wins at every ratio tried.
-    pub high: Option<f64>,
+keys! {
+    /// Amplitude ratios between which the winner of two waves changes.
+    #[derive(Copy, Default)]
+    Bounds {
+        low: Option<f64> = "largest ratio at which the first wave wins; without `high` it wins at every ratio tried";
+        high: Option<f64>
+            = "smallest ratio at which the second wins; without `low` it wins at every ratio tried";
+    }
 }
 
 /// A number where there is one: JSON has neither NaN nor infinity, and nobody wants -0.0.

@@ -113,8 +113,7 @@ pub enum NoGrowth {
 /// they beat, and the stage found is one where they do not.
 ///
 /// # Errors
-/// [`NoGrowth`]: a record under 36 periods, nothing above round-off, no such interval, samples that are
-/// not finite.
+/// [`NoGrowth`]: a record under 36 periods, nothing above round-off, no such interval, samples that are not finite.
 pub fn exponential_stage(
     samples: &[f64],
     sampling_rate: f64,

@@ -1,9 +1,8 @@
 //! From frequency responses to modes and Rayleigh coefficients, in the order of the files.
 //!
-//! A response becomes peaks with half-power bands ([`half_power()`]). They start the fit of one
-//! modal model to all responses ([`fit_modes`]). Its model functions are in `basis`, the weighted
-//! problem in `least_squares`, its noise in `noise`. The damping factors give the coefficients
-//! ([`fit_rayleigh`]). [`identify`] is the whole way.
+//! A response becomes peaks with half-power bands ([`half_power()`]). They start the fit of one modal model to all
+//! responses ([`fit_modes`]). Its model functions are in `basis`, the weighted problem in `least_squares`, its noise in
+//! `noise`. The damping factors give the coefficients ([`fit_rayleigh`]). [`identify`] is the whole way.
 
 mod basis;
 mod fit;

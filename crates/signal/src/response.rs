@@ -57,9 +57,6 @@ impl FrequencyResponse {
     }
 
     /// A response of which, without a phase, the moduli of the real parts alone count.
-    ///
-    /// # Errors
-    /// As [`FrequencyResponse::new`].
     pub fn measured(
         frequencies_hz: Vec<f64>,
         mut values: Vec<c64>,

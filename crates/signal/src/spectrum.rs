@@ -37,9 +37,8 @@ pub fn amplitude_spectrum(
 /// Amplitude spectrum by Welch's method: root mean square over blocks of `block` samples, half
 /// overlapping, each as in [`amplitude_spectrum`].
 ///
-/// The mean of the whole signal is removed first; a tail shorter than half a block is not used. Noise
-/// reads `sqrt(4 S / (T s))` for a density `S`, with `T` the length of a block and `s` about 1: longer
-/// blocks lower it beside a line.
+/// The mean of the whole signal is removed first; a tail shorter than half a block is not used. Noise reads `sqrt(4 S /
+/// (T s))` for a density `S`, with `T` the length of a block and `s` about 1: longer blocks lower it beside a line.
 ///
 /// # Errors
 /// [`SignalError`] for a signal shorter than one block, a block under 4 samples, a sample that is not

@@ -1,13 +1,12 @@
 //! Studies of a case: what is computed at which points, and what is compared between them.
 //!
-//! A [`SweepPlan`] deals the points of a parameter study out to shards, each point a case of its
-//! own. [`eigenvalues`] sweeps over friction; [`response`] excites the model at one node;
-//! [`transient`] steps through time. [`cycle`] finds limit cycles directly and [`basin`] which of
-//! two wins; [`convergence`] compares the levels of a refinement. [`improve`] finds what silences
-//! unstable modes; [`mac`] compares measured shapes with modes. [`matrices`] exports what the
-//! eigenvalue analysis solves and [`superelement`] solves matrices from elsewhere. [`fit`] finds
-//! parameters from measured modes; [`uncertainty`] draws samples of rough ones. [`tangent_options`]
-//! is how a case takes the tangent of steady sliding. Nothing here touches a file or the terminal.
+//! A [`SweepPlan`] deals the points of a parameter study out to shards, each point a case of its own. [`eigenvalues`]
+//! sweeps over friction; [`response`] excites the model at one node; [`transient`] steps through time. [`cycle`] finds
+//! limit cycles directly and [`basin`] which of two wins; [`convergence`] compares the levels of a refinement.
+//! [`improve`] finds what silences unstable modes; [`mac`] compares measured shapes with modes. [`matrices`] exports
+//! what the eigenvalue analysis solves and [`superelement`] solves matrices from elsewhere. [`fit`] finds parameters
+//! from measured modes; [`uncertainty`] draws samples of rough ones. [`tangent_options`] is how a case takes the
+//! tangent of steady sliding. Nothing here touches a file or the terminal.
 
 pub mod basin;
 pub mod convergence;

@@ -31,8 +31,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
     let case = &case;
     if case.body.tables().next().is_some() {
         let refusal = case.loss_error(
-            "the files hold one problem, and a modulus over frequency is another one at each \
-             frequency",
+            "the files hold one problem, and a modulus over frequency is another one at each frequency",
             "not written",
             "give the material one modulus and a loss factor",
         );

@@ -29,9 +29,6 @@ pub struct Preflight {
 }
 
 /// Finds out whether the commands that a case is for can run on a machine with so much memory, bytes.
-///
-/// # Errors
-/// What those commands would refuse as bad input.
 pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     let mut found = Preflight {
         cost: case.cost(),

@@ -81,8 +81,7 @@ impl<'a> FrequencyStudy<'a> {
             FrfMethod::Cyclic if case.body.has_sectors() && !case.responds_by_harmonics(frf) => {
                 // Without contact a disc and its shaft are two bodies.
                 return Err(StudyError::Case(refusal!(case, "frf.method",
-                    "frf.method = \"cyclic\" takes one body, and without contact disc and shaft \
-                     are two";
+                    "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are two";
                     "disc and shaft do not touch here";
                     "use \"auto\", \"direct\" or \"reduced\"")));
             }
@@ -278,8 +277,7 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         return Ok(());
     }
     Err(refusal!(case, "frf.boundary",
-        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady sliding to \
-         respond around";
+        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady sliding to respond around";
         "the speed is 0"; "give a speed, however small, or use \"clamped\" or \"free\""))
 }
 

@@ -5,6 +5,7 @@ use frictionsim_case::{FreeSystem, ModeLimit};
 use frictionsim_physics::cea::quadratic_modes;
 use frictionsim_physics::linalg::{MarketMatrix, Mat};
 use frictionsim_results::matrices::{FreeSpectrum, FreeSpectrumSummary};
+use frictionsim_results::sorted;
 use std::f64::consts::TAU;
 
 /// The oscillating modes that a case asks for, out of all eigenvalues of its matrices.
@@ -16,9 +17,9 @@ pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
     let [mass, damping, stiffness] = [&own.mass, &own.damping, &own.stiffness].map(dense);
     let all = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref())?;
     let total = all.len();
-    let mut modes: Vec<_> = all.into_iter().filter(|mode| mode.eigenvalue.im > 0.0).collect();
+    let oscillating = all.into_iter().filter(|mode| mode.eigenvalue.im > 0.0);
+    let mut modes = sorted(oscillating, |mode| mode.eigenvalue.im);
     let overdamped = total - modes.len();
-    frictionsim_physics::order::sort_by_number(&mut modes, |a| a.eigenvalue.im);
     match system.modes {
         ModeLimit::Lowest(count) => modes.truncate(count),
         ModeLimit::MaxFrequency(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),

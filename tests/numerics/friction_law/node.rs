@@ -27,13 +27,31 @@ fn the_force_on_a_node_is_that_of_the_slip_that_it_leads_to() {
                 assert!(slip.abs() < 1e-15 && found.force.abs() <= largest);
             } else {
                 assert!(slip * free > 0.0 && free.abs() * inertia > largest);
-                // The mean velocity of the step, unless the slip turns round.
+                // The mean velocity of the step, from rest where the slip turns round.
                 let turns = before * slip < 0.0;
-                let speed = if turns { slip } else { 0.5 * (before + slip) };
+                let speed = if turns { 0.5 * slip } else { 0.5 * (before + slip) };
                 let law = 0.3 * normal * DECAY.share(speed) * slip.signum();
                 assert!((found.force - law).abs() < 1e-12 * largest, "{free} {slip}");
             }
         }
+    }
+}
+
+/// Theory: at the turn from stick to slip the force is continuous in the slip velocity before, whose sign is one of rounding there.
+#[test]
+fn rounding_of_a_node_that_stuck_does_not_choose_its_force() {
+    let (inertia, normal) = (8800.0, 2000.0);
+    for free in [0.0955, 0.1, 0.3, -0.1] {
+        let of = |before: f64| resolve(inertia, free, before, normal).force;
+        let still = of(0.0);
+        for before in [1e-17, -1e-17] {
+            assert!((of(before) / still - 1.0).abs() < 1e-14, "{free} {before}");
+        }
+        let surface = [1e-17, -1e-17].map(|before| {
+            let node = Slipping { inertia, free_slip: [free, 0.0], slip_before: [before, before] };
+            LAW.resolve_point(&node, normal).force[0]
+        });
+        assert!(surface.iter().all(|own| (own / still - 1.0).abs() < 1e-14), "{free} {surface:?}");
     }
 }
 

@@ -105,8 +105,7 @@ pub(super) fn interference(case: &Case) -> Option<Diagnostic> {
     let (what, label) = if delta > LARGEST_INTERFERENCE * a {
         let share = delta / a;
         let what = format!(
-            "is {share:.3} times {name} = {a} m: a model of small displacements holds below \
-             {LARGEST_INTERFERENCE}"
+            "is {share:.3} times {name} = {a} m: a model of small displacements holds below {LARGEST_INTERFERENCE}"
         );
         (what, "more than 5 %")
     } else {

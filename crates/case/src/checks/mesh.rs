@@ -70,6 +70,5 @@ pub(super) fn element_shape(case: &Case) -> Option<Diagnostic> {
          nodes {} at ({:.6}, {:.6}) m. Below {SMALLEST_JACOBIAN} an element is badly \
          shaped", quality.worst_jacobian, first_of(labels, 9), sum(0) / count, sum(1) / count;
         "a badly shaped element";
-        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near \
-         it are not reliable"))
+        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable"))
 }

@@ -51,8 +51,7 @@ pub(super) fn start(case: &Case) -> Option<Diagnostic> {
         let what = "needs a constant friction coefficient";
         (what, "friction falls with speed", "set contact.static_friction_ratio = 1.0")
     } else if case.contact.stiffness.law.is_some() {
-        let what = "is a rotating wave of rigid contact, whose pressure is another one than on a \
-                    contact that stiffens";
+        let what = "is a rotating wave of rigid contact, whose pressure is another one than on a contact that stiffens";
         (what, "contact.normal_law is not linear", "leave contact.normal_law out")
     } else {
         return None;
@@ -76,8 +75,7 @@ pub(super) fn seeds(case: &Case) -> Option<Limit> {
         let said = diagnosis!(case, key,
             "{key}: a seed of {largest:e} m/s is {share:.1e} times the speed of waves in the \
              material, {speed:.1e} m/s: its strains are not small"; "metres per second?";
-            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of \
-             the slip speed");
+            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of the slip speed");
         Limit { is_possible: share <= 1.0, said }
     })
 }
@@ -108,9 +106,8 @@ pub(super) fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
     };
     (stiffness > most).then(|| {
         diagnosis!(case, &springs.key(),
-            "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} \
-             s, resolves on this mesh, about {most:.1e} Pa/m. The status of contact nodes would \
-             flicker";
+            "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, resolves on this \
+             mesh, about {most:.1e} Pa/m. The status of contact nodes would flicker";
             "nearly rigid"; "{}, or a smaller transient.time_step", case.rigid_remedy(&springs))
     })
 }

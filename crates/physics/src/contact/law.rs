@@ -131,7 +131,8 @@ impl CoulombFriction {
     /// ```
     ///
     /// with `v` the mean of `w` and of the slip velocity half a step ago (second order in time, and the dissipation
-    /// `T v` is the law's), or `w` itself where the slip turns round.
+    /// `T v` is the law's), or of `w` and zero where the node stuck or the slip turns round: both are one at rest, so
+    /// that rounding of a node that stuck does not choose the law.
     ///
     /// `w* = free_slip`. With `c = N mu dt / m` slip solves `w + c (1 + (q - 1) e^{-v / v_c}) = |w*|`, convex in `w`:
     /// monotone, with one root at most, where `N |mu'(0)| < m / dt`. Beyond that a node can obey the law in stick and
@@ -160,12 +161,9 @@ impl CoulombFriction {
             };
         }
         // The mean velocity obeys the same equation with twice the inertia.
-        let before = node.slip_before * sense;
-        let (inertia, free) = if fall < 1.0 && before >= 0.0 {
-            (2.0 * inertia, 0.5 * (free + before))
-        } else {
-            (inertia, free)
-        };
+        let before = (node.slip_before * sense).max(0.0);
+        let (inertia, free) =
+            if fall < 1.0 { (2.0 * inertia, 0.5 * (free + before)) } else { (inertia, free) };
         let pull = self.cone(normal) / inertia;
         let highest = free - pull;
         // From the last slip where the function is monotone, else from the right of its largest root.

@@ -8,12 +8,16 @@ use super::{Boundary, BoundaryCondition, BoundaryFace, Chord, Counterface, Mesh,
 use frictionsim_formats::FileMesh;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::FRAC_PI_2;
 
 /// Relative distance from a circle up to which nodes lie on it.
 const ROUND: f64 = 1e-4;
 /// Largest angle between a plane and the contact curve from its first node to its last, degrees: a face that is tilted
 /// more touches at a corner alone.
 const LARGEST_TILT: f64 = 10.0;
+/// Largest angle between what a guide holds at a node in contact and the axes of that contact, rad: what rounded coordinates make. The
+/// force that it takes from the contact is the square of that.
+const LARGEST_SLANT: f64 = 0.01;
 /// Names that a message lists.
 const NAMED: usize = 10;
 
@@ -95,6 +99,7 @@ impl Mesh {
             }
             let curve = find(name, BodyPart::Boundary(name.clone()))?;
             boundaries.push(held_boundary(&mut mesh, curve, name, *condition, &contact.nodes));
+            refuse_slanted_hold(&mesh, boundaries.last(), &contact.nodes)?;
         }
         if let Some(name) = &specification.opposite {
             let curve = find(name, BodyPart::Opposite)?;
@@ -295,6 +300,39 @@ fn contact_boundary(mesh: &mut Mesh, curve: &Curve, name: &str) -> Result<Bounda
     }
     let free = held_boundary(mesh, curve, name, BoundaryCondition::Free, &[]);
     Ok(Boundary { tributary_lengths: lengths, ..free })
+}
+
+/// Refuses a guide across neither axis of a node in contact, whose frame is that of the counterface: it would hold the node as a clamp,
+/// or along another line than the nodes beside it.
+fn refuse_slanted_hold(
+    mesh: &Mesh,
+    boundary: Option<&Boundary>,
+    contact: &[u32],
+) -> Result<(), BodyError> {
+    let held = boundary.into_iter().flat_map(|own| own.nodes.iter().zip(&own.normal_angles));
+    for (node, &normal) in held.filter(|(node, _)| contact.contains(node)) {
+        let direction = match boundary.map(|own| own.condition) {
+            Some(BoundaryCondition::Guide) => normal,
+            Some(BoundaryCondition::Fixed([true, false, _])) => 0.0,
+            Some(BoundaryCondition::Fixed([false, true, _])) => FRAC_PI_2,
+            _ => continue,
+        };
+        let turn = (direction - mesh.frame_angles()[*node as usize]).rem_euclid(FRAC_PI_2);
+        let off = turn.min(FRAC_PI_2 - turn);
+        if off > LARGEST_SLANT {
+            let name = boundary.map_or("", |own| &own.name);
+            let message = format!(
+                "boundaries.{name} holds node {} of the contact in a direction {:.1} degrees off the \
+                 contact's normal and tangent: such a node can be held along one of these alone. Hold the \
+                 curve by a \"support\" with a large normal_stiffness, or draw it perpendicular to the contact",
+                mesh.labels[*node as usize],
+                off.to_degrees()
+            );
+            let part = BodyPart::Boundary(name.to_owned());
+            return Err(BodyError::Request { part, message });
+        }
+    }
+    Ok(())
 }
 
 /// A boundary with its condition; a guide or a fixed direction turns the frames of its nodes, but for those of the contact.

@@ -208,8 +208,8 @@ fn springs(over: &OverRings<'_>, stiffness: &dyn Fn(f64) -> f64) -> Triplets {
     let component = over.sector.specification.contact.face().normal_component();
     let mut sum = Triplets::default();
     for element in over.sector.contact_elements() {
-        let span = over.pressed_span(&element);
-        for point in face_points(over.sector, &element, span, over.rule) {
+        let spans = over.pressed_spans(&element).into_iter();
+        for point in spans.flat_map(|span| face_points(over.sector, &element, span, over.rule)) {
             let approach = over.along(&element, point.along).max(0.0);
             let row = &point.rows[component];
             sum.push_product(point.area * stiffness(approach), row, row);

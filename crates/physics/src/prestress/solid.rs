@@ -78,13 +78,13 @@ impl SolidSliding {
         self.approaches_over(sector).along(element, along).max(0.0)
     }
 
-    /// The part of an element of the face that is pressed, see [`face_points`]. Of quadratic elements in
+    /// The parts of an element of the face that are pressed, see [`face_points`]. Of quadratic elements in
     /// rigid contact it is all.
-    fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
+    fn pressed_spans(&self, sector: &SolidSector, element: &FaceElement) -> Vec<[f64; 2]> {
         match self.law {
-            None if self.rule == FaceRule::Integrated => WHOLE_ELEMENT,
-            None => self.pressures_over(sector).pressed_span(element),
-            Some(_) => self.approaches_over(sector).pressed_span(element),
+            None if self.rule == FaceRule::Integrated => vec![WHOLE_ELEMENT],
+            None => self.pressures_over(sector).pressed_spans(element),
+            Some(_) => self.approaches_over(sector).pressed_spans(element),
         }
     }
 
@@ -94,10 +94,9 @@ impl SolidSliding {
         let mut state = PressedState::default();
         let (mut points, mut forces, mut springs) = (Vec::new(), Vec::new(), Vec::new());
         for element in sector.contact_elements() {
-            let span = self.pressed_span(sector, &element);
-            for FacePoint { area, radius, along, rows } in
-                face_points(sector, &element, span, self.rule)
-            {
+            let spans = self.pressed_spans(sector, &element).into_iter();
+            let own = spans.flat_map(|span| face_points(sector, &element, span, self.rule));
+            for FacePoint { area, radius, along, rows } in own {
                 let (speed, friction) = self.friction(radius);
                 let pressure = self.pressure_along(sector, &element, along);
                 points.push(Point {
@@ -241,12 +240,13 @@ impl<'a> OverRings<'a> {
         linear + (1.0 - along * along) * (middle - 0.5 * (from + to))
     }
 
-    /// The part of an element along which values are positive, between the roots of the parabola
-    /// through them; of a lumped element the ends that have such values.
-    pub fn pressed_span(&self, element: &FaceElement) -> [f64; 2] {
+    /// The parts of an element along which values are positive, between the roots of the parabola through them: both ends where its
+    /// middle is not. Of a lumped element it is the ends that have such values, in one part.
+    pub fn pressed_spans(&self, element: &FaceElement) -> Vec<[f64; 2]> {
         let [from, middle, to] = self.of_element(element);
         if self.rule != FaceRule::Integrated {
-            return [(-1.0, from), (1.0, to)].map(|(at, own)| if own > 0.0 { at } else { 0.0 });
+            let ends = [(-1.0, from), (1.0, to)];
+            return vec![ends.map(|(at, own)| if own > 0.0 { at } else { 0.0 })];
         }
         // Between the ends and what roots of c + b s + a s^2 are within.
         let (a, b, c) = (0.5 * (from + to) - middle, 0.5 * (to - from), middle);
@@ -255,8 +255,7 @@ impl<'a> OverRings<'a> {
         places.retain(|place: &f64| place.abs() <= 1.0);
         places.sort_by(f64::total_cmp);
         let is_pressed = |part: &&[f64]| self.along(element, 0.5 * (part[0] + part[1])) > 0.0;
-        let parts: Vec<&[f64]> = places.windows(2).filter(is_pressed).collect();
-        parts.first().zip(parts.last()).map_or([0.0; 2], |(first, last)| [first[0], last[1]])
+        places.windows(2).filter(is_pressed).map(|part| [part[0], part[1]]).collect()
     }
 }
 

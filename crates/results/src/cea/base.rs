@@ -1,39 +1,29 @@
 //! The steady sliding state that the eigenvalues belong to.
 
 use crate::extent::Extent;
+use crate::keys::keys;
 use crate::vtu::Field;
-use crate::{BodyStress, ShownBody};
-use frictionsim_output::{Described, Table, columns, significant};
+use crate::{BodyStress, ShownBody, sorted};
+use frictionsim_output::{Table, columns, significant};
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::mesh::{Counterface, Mesh};
-use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
-/// The steady sliding state at one friction coefficient in a few numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct BaseState {
-    /// Friction coefficient.
-    pub friction_coefficient: f64,
-    /// Contact nodes in slip.
-    pub slipping: usize,
-    /// Contact nodes that stick.
-    pub sticking: usize,
-    /// Contact nodes without contact.
-    pub open: usize,
-    /// Contact pressure, smallest and largest, Pa.
-    pub pressure_pa: [f64; 2],
-    /// Friction traction with the sign of that in `prestress.csv`, smallest and largest, Pa.
-    pub shear_pa: [f64; 2],
-    /// Friction torque on a cylinder, of the whole thickness, N m.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub torque_n_m: Option<f64>,
-    /// Friction force on a plane, of the whole thickness, N.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drag_n: Option<f64>,
-    /// Power that the counterface puts in, W.
-    pub power_w: f64,
-    /// What torque, force and power are of.
-    pub extent: Extent,
+keys! {
+    /// The steady sliding state at one friction coefficient in a few numbers.
+    #[derive(Copy)]
+    BaseState {
+        friction_coefficient: f64 = "friction coefficient";
+        slipping: usize = "contact nodes in slip";
+        sticking: usize = "contact nodes that stick";
+        open: usize = "contact nodes without contact";
+        pressure_pa: [f64; 2] = "contact pressure, smallest and largest, Pa";
+        shear_pa: [f64; 2] = "friction traction with the sign of that in `prestress.csv`, smallest and largest, Pa";
+        torque_n_m?: f64 = "friction torque on a cylinder, of the whole thickness, N m";
+        drag_n?: f64 = "friction force on a plane, of the whole thickness, N";
+        power_w: f64 = "power that the counterface puts in, W";
+        extent: Extent = "what torque, force and power are of";
+    }
 }
 
 impl BaseState {
@@ -186,8 +176,7 @@ impl BaseField {
                 // The angle of round-off below zero is zero.
                 *angle = if TAU - turned < 1e-9 { 0.0 } else { turned };
             }
-            frictionsim_physics::order::sort_by_number(&mut places, |a| a.1);
-            return places;
+            return sorted(places, |own| own.1);
         }
         for i in 1..places.len() {
             let step = places[i].1 - places[i - 1].1;

@@ -5,6 +5,7 @@ use super::mode_name::{ModeName, NUMBERS};
 use super::{BaseField, CeaReport};
 use crate::charts::SolidView;
 use crate::folder::{FolderError, OutputFolder};
+use crate::sorted;
 use crate::vtu::{EncodedMesh, Field, write_vtu};
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use frictionsim_output::{Table, columns, fixed};
@@ -83,9 +84,7 @@ fn fastest<'a>(report: &CeaReport<'_>, all: &'a [ModeFeed]) -> Vec<&'a ModeFeed>
         let mode = point.and_then(|point| point.modes.get(own.mode.mode - 1));
         mode.map_or(0.0, |mode| mode.growth_rate())
     };
-    let mut modes: Vec<&ModeFeed> = all.iter().collect();
-    frictionsim_physics::order::sort_by_number(&mut modes, |a| -growth(a));
-    modes
+    sorted(all, |own| -growth(own))
 }
 
 /// Growth for each area of the contact: lines along a plane edge, pictures of the surfaces of solid bodies.
@@ -97,9 +96,8 @@ pub(super) fn figure(
     let modes = fastest(report, all);
     let friction = modes.first()?.mode.friction_coefficient;
     let caption = format!(
-        "Where the contact feeds the unstable modes at friction {friction}: growth rate for \
-        each area of the surface; red \
-         feeds, blue takes. The sum over the surface is the contact's part in the budget."
+        "Where the contact feeds the unstable modes at friction {friction}: growth rate for each area of the surface; \
+        red feeds, blue takes. The sum over the surface is the contact's part in the budget."
     );
     Some(match report.body.is_assembly() {
         true => pictures(report.body.mesh, field, &modes, caption),
@@ -133,8 +131,7 @@ fn lines(
             (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
         }
     };
-    let mut order: Vec<usize> = (0..field.contact.len()).collect();
-    frictionsim_physics::order::sort_by_number(&mut order, |&a| along(&field.contact[a].place));
+    let order = sorted(0..field.contact.len(), |&at| along(&field.contact[at].place));
     let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
     let mut panel =
         Panel::new(x, y).height(150.0).layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)));

@@ -205,8 +205,7 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
         true => (
             format!("branch-n{n}-{rank}-{way}"),
             format!(
-                "Harmonic {n}, branch {rank}, travelling {way} the rotor, at several friction \
-                 coefficients."
+                "Harmonic {n}, branch {rank}, travelling {way} the rotor, at several friction coefficients."
             ),
         ),
         false => (

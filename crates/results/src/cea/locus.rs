@@ -124,9 +124,8 @@ fn figure_of(report: &CeaReport<'_>, plane: Panel) -> Figure {
             "Eigenvalues in the complex plane as friction rises; no branch turns unstable.";
         return Figure::new("locus", caption).panel(plane);
     }
-    let caption = "Eigenvalues in the complex plane as friction rises (a); branches that turn \
-        unstable have the number of their mode. The friction interval in which each of them is \
-        unstable, from its critical friction (b).";
+    let caption = "Eigenvalues in the complex plane as friction rises (a); branches that turn unstable have the number \
+        of their mode. The friction interval in which each of them is unstable, from its critical friction (b).";
     Figure::new("locus", caption).weighted(&[1.35, 1.0]).panel(plane).panel(stability_bars(report))
 }
 

@@ -2,7 +2,6 @@
 
 mod base;
 mod branches;
-mod coupling;
 mod feed;
 mod figures;
 mod files;

@@ -1,11 +1,11 @@
 //! The name of a mode in tables of what is read from it.
 
-use crate::finding::finding;
+use crate::keys::keys;
 use frictionsim_output::{Column, parted};
 
-finding! {
+keys! {
     /// A mode of one friction value, as its table numbers it.
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Copy)]
     ModeName, NAMES {
         friction_coefficient: f64 = "friction coefficient";
         mode: usize = "number by frequency at that friction, from 1";

@@ -110,9 +110,8 @@ pub(super) fn surfaces(
     let largest = tractions.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let axis = || Axis::new(what, "Pa").prefixed().between(0.0, largest);
     let caption = format!(
-        "Base state: {what} on each contact surface, seen from outside; grey where it is open. \
-        The other surface slides \
-         over it along the arrow."
+        "Base state: {what} on each contact surface, seen from outside; grey where it is open. The other surface \
+        slides over it along the arrow."
     );
     let arrows = field.surfaces.iter().map(|(contact, _)| arrow(field, contact));
     let arrows: Vec<[[f64; 3]; 2]> = arrows.collect();

@@ -3,14 +3,15 @@
 use super::branches::Branch;
 use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, ModeFeed};
-use crate::finding::finding;
-use crate::{distinct, grouped};
+use crate::keys::keys;
+use crate::{distinct, grouped, sorted};
 use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
-use frictionsim_output::{Cell, Table, columns, fixed};
+use frictionsim_output::{Cell, Described, Table, columns, fixed};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// What a contribution comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
 pub enum Source {
     /// The material damping of a region.
     Part,
@@ -33,9 +34,8 @@ impl From<Source> for Cell {
     }
 }
 
-finding! {
+keys! {
     /// The share of one part, support or contact in a mode.
-    #[derive(Clone, Debug, PartialEq)]
     Contribution, CONTRIBUTIONS {
         /// The mode.
         mode: ModeName;
@@ -103,8 +103,8 @@ impl Reading {
     /// feeds and what takes.
     pub(super) fn sentences(&self, friction: f64, most: usize) -> Vec<String> {
         let own = self.couplings.iter().filter(|row| row.mode.friction_coefficient == friction);
-        let mut unstable = grouped(own.map(|row| (row.mode, row)));
-        frictionsim_physics::order::sort_by_number(&mut unstable, |(_, own)| -own[0].growth_rate);
+        let unstable = grouped(own.map(|row| (row.mode, row)));
+        let unstable = sorted(unstable, |(_, own)| -own[0].growth_rate);
         let modes = unstable.iter().take(most);
         modes.map(|(mode, own)| self.sentence(mode, own)).collect()
     }
@@ -151,11 +151,9 @@ impl Reading {
 
     /// The branches that reach the largest growth rates, the fastest first.
     fn fastest(&self) -> Vec<Branch> {
-        let couplings = self.couplings.iter();
-        let mut fastest =
-            grouped(couplings.map(|own| (branch_of_mode(&own.mode), own.growth_rate)));
+        let rates = self.couplings.iter().map(|own| (branch_of_mode(&own.mode), own.growth_rate));
         let largest = |rates: &[f64]| rates.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        frictionsim_physics::order::sort_by_number(&mut fastest, |(_, rates)| -largest(rates));
+        let fastest = sorted(grouped(rates), |(_, rates)| -largest(rates));
         fastest.into_iter().map(|(branch, _)| branch).collect()
     }
 }

@@ -1,7 +1,8 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use super::mode_name::travels;
-use crate::finding::finding;
+use crate::keys::keys;
+use crate::sorted;
 use frictionsim_output::{Format, Table, columns, fixed};
 use frictionsim_physics::linalg::c64;
 use std::f64::consts::TAU;
@@ -15,9 +16,8 @@ pub struct SensitivityReport {
     pub rows: Vec<SensitivityRow>,
 }
 
-finding! {
+keys! {
     /// Derivatives of one eigenvalue.
-    #[derive(Clone, Debug, PartialEq)]
     SensitivityRow, ROWS {
         friction_coefficient: f64 = "friction coefficient";
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
@@ -25,10 +25,13 @@ finding! {
         direction: Option<i8>
             = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         /// Eigenvalue, rad/s.
+        #[serde(skip)]
         eigenvalue: c64;
         /// `d lambda / d parameter`, in the order of the parameters; `None` of one that the branch does not have.
+        #[serde(skip)]
         derivatives: Vec<Option<c64>>;
         /// Where the branch turns unstable first.
+        #[serde(skip)]
         onset: Option<OnsetRates>;
     }
 }
@@ -53,13 +56,10 @@ impl SensitivityReport {
     /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
     fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
         let given = row.derivatives.iter().zip(&self.parameters);
-        let mut changes: Vec<(&str, c64)> = given
-            .filter_map(|(derivative, (name, value))| {
-                Some((name.as_str(), (*derivative)? * (0.01 * value)))
-            })
-            .collect();
-        frictionsim_physics::order::sort_by_number(&mut changes, |a| -a.1.re.abs());
-        changes
+        let changes = given.filter_map(|(derivative, (name, value))| {
+            Some((name.as_str(), (*derivative)? * (0.01 * value)))
+        });
+        sorted(changes, |own| -own.1.re.abs())
     }
 
     /// `sensitivities.csv`, one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
@@ -93,8 +93,7 @@ impl SensitivityReport {
     /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest
     /// first.
     pub(super) fn tables(&self, most: usize) -> Vec<Table> {
-        let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
-        frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.eigenvalue.re);
+        let rows = sorted(&self.rows, |own| -own.eigenvalue.re);
         rows.into_iter().take(most).map(|row| self.changes(row)).collect()
     }
 

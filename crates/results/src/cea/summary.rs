@@ -2,71 +2,51 @@
 
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
-use crate::finding::finding;
+use crate::keys::keys;
 use crate::summary::present;
-use frictionsim_output::{Column, Described, parted};
+use frictionsim_output::{Column, parted};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::f64::consts::TAU;
 
-/// `summary.json` of `frictionsim cea`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct CeaSummary {
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// `cyclic` or `sparse`.
-    pub method: String,
-    /// What was asked for, in words.
-    pub selection: String,
-    /// Most modes at one friction value.
-    pub modes: usize,
-    /// Friction values of the tables.
-    pub friction_values: usize,
-    /// Modes and unstable modes at each.
-    pub unstable_counts: Vec<UnstableCount>,
-    /// Crossings into instability, lowest first.
-    pub critical_frictions: Vec<CriticalFriction>,
-    /// Largest relative residual of any eigenpair.
-    pub largest_residual: Option<f64>,
-    /// The modes at the case's own friction coefficient, where it is one of those solved.
-    pub modes_at_friction: Option<Vec<ModeSummary>>,
-    /// The modes that grow at each friction value of the tables.
-    pub unstable_modes: Vec<UnstableMode>,
-    /// Steady sliding at the case's own friction coefficient.
-    pub base_state: BaseState,
-    /// What the solver has to say.
-    pub notes: Vec<String>,
-    /// Fraction of the contact nodes that are open, where some may be.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_open_fraction: Option<f64>,
-    /// Counts of the modes by the argument principle, where they were asked for.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub mode_counts: Vec<CountSummary>,
-}
+keys! {
+    /// `summary.json` of `frictionsim cea`.
+    CeaSummary {
+        dofs: usize = "unknowns of the eigenproblem";
+        method: String = "`cyclic` or `sparse`";
+        selection: String = "what was asked for, in words";
+        modes: usize = "most modes at one friction value";
+        friction_values: usize = "friction values of the tables";
+        unstable_counts: Vec<UnstableCount> = "modes and unstable modes at each";
+        critical_frictions: Vec<CriticalFriction> = "crossings into instability, lowest first";
+        largest_residual: Option<f64> = "largest relative residual of any eigenpair";
+        modes_at_friction: Option<Vec<ModeSummary>>
+            = "the modes at the case's own friction coefficient, where it is one of those solved";
+        unstable_modes: Vec<UnstableMode>
+            = "the modes that grow at each friction value of the tables";
+        base_state: BaseState = "steady sliding at the case's own friction coefficient";
+        notes: Vec<String> = "what the solver has to say";
+        contact_open_fraction?: f64
+            = "fraction of the contact nodes that are open, where some may be";
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        mode_counts: Vec<CountSummary>
+            = "counts of the modes by the argument principle, where they were asked for";
+    }
 
-/// The modes at one friction value, counted independently of the list.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct CountSummary {
-    /// The friction coefficient.
-    pub friction_coefficient: f64,
-    /// Frequencies between which was counted, Hz.
-    pub frequencies_hz: [f64; 2],
-    /// Growth rates between which was counted, 1/s.
-    pub growth_rates: [f64; 2],
-    /// Eigenvalues counted; none where that failed.
-    pub counted: Option<i64>,
-    /// Modes known there.
-    pub known: usize,
-    /// Those of them that only a search found that the count gave rise to.
-    pub recovered: usize,
-    /// Whether the two are the same.
-    pub is_complete: bool,
-    /// Frequency and growth rate (Hz, 1/s) about which the missing ones lie.
-    pub missing_near: Option<[f64; 2]>,
-    /// Why there is no count.
-    pub failure: Option<String>,
-    /// Determinants that were taken.
-    pub determinants: usize,
+    /// The modes at one friction value, counted independently of the list.
+    CountSummary {
+        friction_coefficient: f64 = "the friction coefficient";
+        frequencies_hz: [f64; 2] = "frequencies between which was counted, Hz";
+        growth_rates: [f64; 2] = "growth rates between which was counted, 1/s";
+        counted: Option<i64> = "eigenvalues counted; none where that failed";
+        known: usize = "modes known there";
+        recovered: usize = "those of them that only a search found that the count gave rise to";
+        is_complete: bool = "whether the two are the same";
+        missing_near: Option<[f64; 2]>
+            = "frequency and growth rate (Hz, 1/s) about which the missing ones lie";
+        failure: Option<String> = "why there is no count";
+        determinants: usize = "determinants that were taken";
+    }
 }
 
 impl CountSummary {
@@ -86,20 +66,17 @@ impl CountSummary {
     }
 }
 
-/// Modes at one friction value.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
-pub struct UnstableCount {
-    /// The friction coefficient.
-    pub friction_coefficient: f64,
-    /// Modes.
-    pub modes: usize,
-    /// Those that grow.
-    pub unstable: usize,
-}
+keys! {
+    /// Modes at one friction value.
+    #[derive(Copy, Deserialize)]
+    UnstableCount {
+        friction_coefficient: f64 = "the friction coefficient";
+        modes: usize = "modes";
+        unstable: usize = "those that grow";
+    }
 
-finding! {
     /// Where a branch turns unstable, and where it is stable again.
-    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    #[derive(Copy, Deserialize)]
     CriticalFriction, ONSETS {
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
             IfAny "n" Count;
@@ -114,14 +91,10 @@ finding! {
             IfAny "stable again above" Fixed(6);
         restabilized_frequency_hz: Option<f64> = "frequency there",
             IfAny "frequency there" Fixed(2);
-        unstable_from_start: bool
-            = "whether it is unstable at the lowest friction solved already";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        lost_after: Option<f64> = "friction coefficient between which and critical_friction it \
+        unstable_from_start: bool = "whether it is unstable at the lowest friction solved already";
+        lost_after?: f64 = "friction coefficient between which and critical_friction it \
             turns unstable, where it was lost";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        mesh_error: Option<f64>
-            = "estimate of the critical friction less that on an ever finer mesh",
+        mesh_error?: f64 = "estimate of the critical friction less that on an ever finer mesh",
             IfAny "error of the mesh" Scientific(1);
     }
 }
@@ -129,9 +102,9 @@ finding! {
 /// Those that a sweep lists too.
 pub(crate) const SWEPT_ONSETS: &[Column<CriticalFriction>] = parted(ONSETS, "mesh_error").0;
 
-finding! {
+keys! {
     /// A mode at the friction coefficient of the case.
-    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    #[derive(Copy, Deserialize)]
     ModeSummary, OWN_MODES {
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
         branch: usize = "rank within the harmonic, else among all, from 1";
@@ -141,11 +114,9 @@ finding! {
         frequency_hz: f64 = "imaginary part over 2 pi";
         unstable: bool = "whether it grows";
         contact_share: Option<f64> = "share of the kinetic energy at the contact";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        axial_share: Option<f64>
+        axial_share?: f64
             = "share of the kinetic energy along the axis, of a body in three dimensions";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        mesh_error: Option<f64> = "estimate of the frequency less that on an ever finer mesh, Hz";
+        mesh_error?: f64 = "estimate of the frequency less that on an ever finer mesh, Hz";
     }
 }
 
@@ -169,9 +140,9 @@ impl ModeSummary {
     }
 }
 
-finding! {
+keys! {
     /// A mode that grows, where it was found, and from when it does.
-    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    #[derive(Copy, Deserialize)]
     UnstableMode, UNSTABLE {
         friction_coefficient: f64 = "friction coefficient", Always "friction" Plain;
         mode: usize = "number by frequency at that friction, from 1", Always "mode" Count;

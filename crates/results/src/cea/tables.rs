@@ -1,7 +1,7 @@
 //! Tables and sentences of an eigenvalue analysis.
 
 use super::branches::branch_of;
-use super::coupling::sentences;
+use super::branches::sentences;
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
 use super::{BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution};
 use super::{direction_name, feed};
@@ -302,9 +302,8 @@ fn decisive(report: &CeaReport<'_>, view: View) -> Section {
     };
     let tables = sensitivities.as_ref().map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));
     let explained = (!tables.is_empty()).then(|| {
-        "Sensitivities: a positive change of the growth rate brings a mode nearer to squeal or \
-         makes it grow faster. A negative one holds it back. They hold for small changes; \
-         sensitivities.csv has those of every mode."
+        "Sensitivities: a positive change of the growth rate brings a mode nearer to squeal or makes it grow faster. A \
+         negative one holds it back. They hold for small changes; sensitivities.csv has those of every mode."
             .to_owned()
     });
     section.text(coupled).text(read).text(explained).tables(tables)

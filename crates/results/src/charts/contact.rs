@@ -101,8 +101,7 @@ pub fn contact_figure(body: &ShownBody<'_>, own: &ContactInstant<'_>) -> Figure 
     let names = ("counterface", "tangential velocity");
     let [traction, velocity] = contact_panels(own, false, names);
     let caption = format!(
-        "{subject} along the contact edge: tractions (a), velocity (b), on a ground coloured by \
-         status."
+        "{subject} along the contact edge: tractions (a), velocity (b), on a ground coloured by status."
     );
     let traction = traction.caption(own.instant.clone());
     Figure::new(own.name.clone(), caption).shared_x().panel(traction).panel(velocity)

@@ -5,9 +5,9 @@ mod figures;
 pub use figures::overlaid;
 
 use super::sweep::{cell, join};
-use super::{Manifest, Page, distinct};
-use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, unit_of};
-use serde::Serialize;
+use super::{Manifest, Page, distinct, sorted};
+use crate::keys::keys;
+use frictionsim_output::{Cell, Document, Format, Section, Table, columns, unit_of};
 use serde_json::Value;
 
 /// A finished run.
@@ -22,22 +22,19 @@ pub struct ComparedRun {
     pub page: Option<Page>,
 }
 
-/// A number that every run has.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SharedQuantity {
-    /// Dotted path in the summaries; entries of lists are named by what they are of.
-    pub path: String,
-    /// Its value in each run: a number, or whether something is so.
-    pub values: Vec<Value>,
-}
+keys! {
+    /// A number that every run has.
+    SharedQuantity {
+        path: String
+            = "dotted path in the summaries; entries of lists are named by what they are of";
+        values: Vec<Value> = "its value in each run: a number, or whether something is so";
+    }
 
-/// `summary.json` of `frictionsim compare`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ComparisonSummary {
-    /// The runs.
-    pub runs: Vec<String>,
-    /// Numbers that all of them have.
-    pub quantities: Vec<SharedQuantity>,
+    /// `summary.json` of `frictionsim compare`.
+    ComparisonSummary {
+        runs: Vec<String> = "the runs";
+        quantities: Vec<SharedQuantity> = "numbers that all of them have";
+    }
 }
 
 /// Keys that say what an entry of a list is of.
@@ -215,12 +212,9 @@ fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
     let differs = |shared: &&SharedQuantity| !shared.is_equal() && !shared.is_cost();
     let mut found: Vec<&SharedQuantity> =
         first_of(quantities).into_iter().filter(differs).collect();
-    let mut others: Vec<&SharedQuantity> = quantities
-        .iter()
-        .filter(|shared| found.iter().all(|known| known.path != shared.path))
-        .filter(differs)
-        .collect();
-    frictionsim_physics::order::sort_by_number(&mut others, |a| -a.largest_relative());
+    let is_other = |shared: &&SharedQuantity| found.iter().all(|own| own.path != shared.path);
+    let others = quantities.iter().filter(is_other).filter(differs);
+    let others = sorted(others, |own| -own.largest_relative());
     found.extend(others);
     found
 }

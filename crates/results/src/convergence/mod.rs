@@ -1,12 +1,13 @@
 //! Results of a convergence study.
 
 mod estimate;
-mod figures;
 
+use crate::drawing::Declaration;
+use crate::keys::keys;
+use crate::summary::present;
+use crate::{Finding, distinct};
 pub use estimate::{Verdict, estimate};
-
-use super::drawing::Declaration;
-use super::{Finding, summary::present};
+use frictionsim_chart::{Axis, Figure, Line, MUTED, Panel, Points, Rule, Stroke, look};
 use frictionsim_output::{Described, Document, Format, Section, Table, columns};
 use serde::Serialize;
 
@@ -30,27 +31,19 @@ impl Refinement {
     }
 }
 
-/// A quantity over the levels of its series.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct Quantity {
-    /// Name, with the mode it belongs to.
-    pub name: String,
-    /// Unit; empty for a pure number.
-    pub unit: String,
-    /// One value for each level, where there is one.
-    pub values: Vec<Option<f64>>,
-    /// What the values say.
-    pub verdict: String,
-    /// Observed order.
-    pub order: Option<f64>,
-    /// Value extrapolated after Richardson.
-    pub extrapolated: Option<f64>,
-    /// Values less that one.
-    pub errors: Option<Vec<Option<f64>>>,
-    /// Largest less smallest value of the three finest levels.
-    pub spread: Option<f64>,
-    /// Whether it is of a mode that does not grow.
-    pub is_minor: bool,
+keys! {
+    /// A quantity over the levels of its series.
+    Quantity {
+        name: String = "name, with the mode it belongs to";
+        unit: String = "unit; empty for a pure number";
+        values: Vec<Option<f64>> = "one value for each level, where there is one";
+        verdict: String = "what the values say";
+        order: Option<f64> = "observed order";
+        extrapolated: Option<f64> = "value extrapolated after Richardson";
+        errors: Option<Vec<Option<f64>>> = "values less that one";
+        spread: Option<f64> = "largest less smallest value of the three finest levels";
+        is_minor: bool = "whether it is of a mode that does not grow";
+    }
 }
 
 impl Quantity {
@@ -99,30 +92,22 @@ impl Quantity {
     }
 }
 
-/// One analysis over refinements of one kind.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct Series {
-    /// Analysis, with the family of its limit cycles.
-    pub analysis: String,
-    /// `mesh` or `time-step`.
-    pub refinement: Refinement,
-    /// Name of each level: `90 x 18`, or the time step.
-    pub levels: Vec<String>,
-    /// Element size, m, or time step, s, of each level, strictly falling.
-    pub sizes: Vec<f64>,
-    /// Wall time of each level, s; levels run side by side.
-    pub wall_s: Vec<f64>,
-    /// What else there is to say.
-    pub notes: Vec<String>,
-    /// The quantities.
-    pub quantities: Vec<Quantity>,
-}
+keys! {
+    /// One analysis over refinements of one kind.
+    Series {
+        analysis: String = "analysis, with the family of its limit cycles";
+        refinement: Refinement = "`mesh` or `time-step`";
+        levels: Vec<String> = "name of each level: `90 x 18`, or the time step";
+        sizes: Vec<f64> = "element size, m, or time step, s, of each level, strictly falling";
+        wall_s: Vec<f64> = "wall time of each level, s; levels run side by side";
+        notes: Vec<String> = "what else there is to say";
+        quantities: Vec<Quantity> = "the quantities";
+    }
 
-/// `summary.json` of `frictionsim convergence`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ConvergenceSummary {
-    /// What was studied.
-    pub series: Vec<Series>,
+    /// `summary.json` of `frictionsim convergence`.
+    ConvergenceSummary {
+        series: Vec<Series> = "what was studied";
+    }
 }
 
 /// A quantity on a level of a series.
@@ -232,6 +217,84 @@ impl Finding for ConvergenceSummary {
     }
 
     fn figures(&self) -> Vec<Declaration<'_>> {
-        vec![Box::new(|| Some(figures::convergence(&self.series)))]
+        vec![Box::new(|| Some(convergence(&self.series)))]
     }
+}
+
+/// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the
+/// orders that the three finest levels show.
+fn convergence(series: &[Series]) -> Figure {
+    let panels = series.iter().flat_map(|series| [changes(series), orders(series)]);
+    Figure::new(
+        "convergence",
+        "Relative change of every quantity from each level to the next (left). Observed orders of \
+         convergence from the three finest levels (right), for each study.",
+    )
+    .columns(2)
+    .panels(panels)
+    .note("a quantity whose changes do not fall has no order, and none is shown")
+}
+
+fn changes(series: &Series) -> Panel {
+    let groups = groups(series);
+    let size = match series.refinement {
+        Refinement::Mesh => Axis::new("element size", "m"),
+        Refinement::TimeStep => Axis::new("time step", "s"),
+    };
+    let lines = series.quantities.iter().filter_map(|quantity| {
+        let values = quantity.values.iter().map(|value| value.unwrap_or(f64::NAN));
+        let values: Vec<f64> = values.collect();
+        let largest = values.iter().map(|v| v.abs()).fold(0.0, f64::max);
+        let index = groups.iter().position(|group| *group == group_of(quantity))?;
+        let pairs = series.sizes.iter().zip(values.windows(2));
+        let changes = pairs.map(|(&size, pair)| (size, (pair[1] - pair[0]).abs() / largest));
+        let line = Line::through(changes.filter(|(_, change)| *change > 0.0));
+        Some(line.solid(look(index).0, 0.6).marked(look(index).1, 1.2).name(groups[index]))
+    });
+    Panel::new(size.prefixed().logarithmic(), Axis::new("relative change", "–").decades(10.0))
+        .height(130.0)
+        .caption(series.heading())
+        .legend()
+        .layers(lines)
+}
+
+fn orders(series: &Series) -> Panel {
+    let groups = groups(series);
+    let count = groups.len();
+    let row = |index: usize| (count - index) as f64 - 0.5;
+    let names = groups.iter().enumerate().map(|(index, group)| (row(index), (*group).to_owned()));
+    let y = Axis::new("", "").between(0.0, count.max(1) as f64).ticks(names);
+    let points = groups.iter().enumerate().map(|(index, group)| {
+        let own: Vec<f64> = series
+            .quantities
+            .iter()
+            .filter(|q| group_of(q) == *group)
+            .filter_map(|q| q.order)
+            .collect();
+        // Side by side within the row, in the order of the list.
+        let place = |k: usize| row(index) + 0.6 * (0.5 - (k as f64 + 0.5) / own.len() as f64);
+        let points: Vec<(f64, f64)> =
+            own.iter().enumerate().map(|(k, &order)| (order, place(k))).collect();
+        Points::new(points).marker(look(index).1, 1.6, look(index).0)
+    });
+    let rules =
+        [1.0, 2.0, 3.0, 4.0].map(|order| Rule::vertical(order).stroke(Stroke::dotted(MUTED, 0.6)));
+    Panel::new(Axis::new("observed order", "–").including(0.0).including(2.5), y)
+        .height(130.0)
+        .layers(rules)
+        .layers(points)
+}
+
+/// What quantities have in common: the same property of several modes, else the same unit.
+fn group_of(quantity: &Quantity) -> &str {
+    match (quantity.name.split_once(", "), quantity.unit.as_str()) {
+        (Some((property, _)), _) => property,
+        (None, "Hz") => "frequency",
+        (None, "W") => "power",
+        (None, _) => "fractions and shares",
+    }
+}
+
+fn groups(series: &Series) -> Vec<&str> {
+    distinct(series.quantities.iter().map(group_of))
 }

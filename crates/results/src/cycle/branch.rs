@@ -2,6 +2,7 @@
 
 use super::record::CycleMotion;
 use crate::extent::Extent;
+use crate::keys::keys;
 use crate::summary::MeanPowers;
 use frictionsim_chart::extremes;
 use frictionsim_output::{Described, columns};
@@ -10,11 +11,12 @@ use serde::{Deserialize, Serialize};
 
 /// A cycle of a branch.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct BranchRow {
+pub struct BranchRow {
     /// The parameter, in units of its key.
     pub value: f64,
     /// Circumferential harmonic of a wave.
     pub harmonic: Option<usize>,
+    /// Its motion.
     pub motion: CycleMotion,
     /// What a motion of the whole mesh misses its start by.
     pub residual: Option<f64>,
@@ -22,6 +24,7 @@ pub(crate) struct BranchRow {
     pub periods: Option<usize>,
     /// Growth rate of the leading perturbation, 1/s, where it is known.
     pub growth_rate: Option<f64>,
+    /// Whether it is stable, where that is known.
     pub verdict: Option<Verdict>,
     /// Whether the branch turns back here, of motions of the whole mesh.
     pub is_fold: Option<bool>,
@@ -54,62 +57,48 @@ columns! {
         = row.is_fold;
 }
 
-/// The limit cycles of one harmonic or mode.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
-pub struct FamilyRecord {
-    /// Circumferential harmonic; 0 of a body without rotating waves, whose cycles have a mode.
-    pub harmonic: usize,
-    /// Onset of that harmonic at which the cycles are born, from 1.
-    pub onset: usize,
-    /// The mode that leads to the cycles of a body without rotating waves.
-    #[serde(default)]
-    pub mode: Option<usize>,
-    /// Critical friction and frequency (Hz) of every onset.
-    pub onsets: Vec<[f64; 2]>,
-    /// Frequency (Hz) and amplitude (m) of the cycle at the case's own operating point.
-    pub cycle: Option<[f64; 2]>,
-    /// Its branch.
-    pub branch: Option<BranchRecord>,
-}
+keys! {
+    /// The limit cycles of one harmonic or mode.
+    #[derive(Deserialize)]
+    FamilyRecord {
+        harmonic: usize = "circumferential harmonic; 0 of a body without rotating waves, whose cycles have a mode";
+        onset: usize = "onset of that harmonic at which the cycles are born, from 1";
+        #[serde(default)]
+        mode: Option<usize> = "the mode that leads to the cycles of a body without rotating waves";
+        onsets: Vec<[f64; 2]> = "critical friction and frequency (Hz) of every onset";
+        cycle: Option<[f64; 2]>
+            = "frequency (Hz) and amplitude (m) of the cycle at the case's own operating point";
+        branch: Option<BranchRecord> = "its branch";
+    }
 
-/// Cycles along a branch, in its order.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
-pub struct BranchRecord {
-    /// Case key of the parameter.
-    pub key: String,
-    /// The parameter at each cycle, in units of the key.
-    pub values: Vec<f64>,
-    /// The case's own value.
-    pub own_value: f64,
-    /// Main frequency, Hz.
-    pub frequency_hz: Vec<f64>,
-    /// Amplitude along the counterface, m.
-    pub amplitude: Vec<f64>,
-    /// Fractions that stick, slip, are open.
-    pub status: [Vec<f64>; 3],
-    /// Powers relative to the external one: stick, slide, dissipated in the contact, material damping, normal contact.
-    pub shares: [Vec<f64>; 5],
-    /// What powers are of.
-    #[serde(default)]
-    pub extent: Extent,
-    /// Power of the counterface, W or W/m.
-    #[serde(default)]
-    pub external: Vec<f64>,
-    /// Whether the cycle is stable, where that is known.
-    pub stable: Vec<Option<bool>>,
-    /// Growth rate of its leading perturbation, 1/s, where it is known.
-    pub growth_rate: Vec<Option<f64>>,
-    /// Parameter values at which the branch turns back.
-    pub folds: Vec<f64>,
-    /// Values at which steady sliding loses its stability, where these were looked for.
-    #[serde(default)]
-    pub sliding_onsets: Vec<f64>,
-    /// Where cycles live beside stable sliding.
-    #[serde(default)]
-    pub coexistence: Vec<[f64; 2]>,
-    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
-    #[serde(default)]
-    pub threshold: Option<[f64; 2]>,
+    /// Cycles along a branch, in its order.
+    #[derive(Default, Deserialize)]
+    BranchRecord {
+        key: String = "case key of the parameter";
+        values: Vec<f64> = "the parameter at each cycle, in units of the key";
+        own_value: f64 = "the case's own value";
+        frequency_hz: Vec<f64> = "main frequency, Hz";
+        amplitude: Vec<f64> = "amplitude along the counterface, m";
+        status: [Vec<f64>; 3] = "fractions that stick, slip, are open";
+        shares: [Vec<f64>; 5] = "powers relative to the external one: stick, slide, dissipated in \
+            the contact, material damping, normal contact";
+        #[serde(default)]
+        extent: Extent = "what powers are of";
+        #[serde(default)]
+        external: Vec<f64> = "power of the counterface, W or W/m";
+        stable: Vec<Option<bool>> = "whether the cycle is stable, where that is known";
+        growth_rate: Vec<Option<f64>>
+            = "growth rate of its leading perturbation, 1/s, where it is known";
+        folds: Vec<f64> = "parameter values at which the branch turns back";
+        #[serde(default)]
+        sliding_onsets: Vec<f64>
+            = "values at which steady sliding loses its stability, where these were looked for";
+        #[serde(default)]
+        coexistence: Vec<[f64; 2]> = "where cycles live beside stable sliding";
+        #[serde(default)]
+        threshold: Option<[f64; 2]> = "amplitude (m) and velocity of the kick (m/s) of the \
+            unstable cycle between stable sliding and the case's own";
+    }
 }
 
 impl FamilyRecord {
@@ -162,36 +151,29 @@ impl BranchRecord {
     }
 }
 
-/// A branch of limit cycles.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
-pub struct BranchSummary {
-    /// Case key of the parameter.
-    pub key: String,
-    /// Cycles.
-    pub cycles: usize,
-    /// Smallest and largest value of the parameter.
-    pub range: Option<[f64; 2]>,
-    /// Values at which it turns back, in its order.
-    pub folds: Vec<f64>,
-    /// Why it ends, at either end.
-    pub ends: [String; 2],
-    /// Where stability changes between folds: the value; of waves an object.
-    pub stability_changes: Vec<StabilityChangeSummary>,
-    /// What else there is to a branch of waves.
-    #[serde(flatten)]
-    pub waves: Option<WaveBranch>,
-    /// What else there is to one of motions of the whole mesh.
-    #[serde(flatten)]
-    pub motions: Option<MotionBranch>,
-    /// The case's own value of the parameter, in units of its key.
-    #[serde(skip)]
-    pub(super) own_value: f64,
-    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
-    #[serde(skip)]
-    pub(super) threshold: Option<[f64; 2]>,
-    /// Its cycles, in its order.
-    #[serde(skip)]
-    pub(super) rows: Vec<BranchRow>,
+keys! {
+    /// A branch of limit cycles.
+    #[derive(Default)]
+    BranchSummary {
+        key: String = "case key of the parameter";
+        cycles: usize = "cycles";
+        range: Option<[f64; 2]> = "smallest and largest value of the parameter";
+        folds: Vec<f64> = "values at which it turns back, in its order";
+        ends: [String; 2] = "why it ends, at either end";
+        stability_changes: Vec<StabilityChangeSummary>
+            = "where stability changes between folds: the value; of waves an object";
+        #[serde(flatten)]
+        waves: Option<WaveBranch> = "what else there is to a branch of waves";
+        #[serde(flatten)]
+        motions: Option<MotionBranch> = "what else there is to one of motions of the whole mesh";
+        #[serde(skip)]
+        own_value: f64 = "the case's own value of the parameter, in units of its key";
+        #[serde(skip)]
+        threshold: Option<[f64; 2]> = "amplitude (m) and velocity of the kick (m/s) of the \
+            unstable cycle between stable sliding and the case's own";
+        #[serde(skip)]
+        rows: Vec<BranchRow> = "its cycles, in its order";
+    }
 }
 
 impl BranchSummary {
@@ -215,22 +197,19 @@ impl BranchSummary {
     }
 }
 
-/// What only branches of waves have.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct WaveBranch {
-    /// Speed from which on no node sticks, rpm.
-    pub saturation_speed_rpm: Option<f64>,
-    /// Dense factorizations spent.
-    pub factorizations: usize,
-}
+keys! {
+    /// What only branches of waves have.
+    WaveBranch {
+        saturation_speed_rpm: Option<f64> = "speed from which on no node sticks, rpm";
+        factorizations: usize = "dense factorizations spent";
+    }
 
-/// What only branches of motions of the whole mesh have.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
-pub struct MotionBranch {
-    /// Values at which steady sliding loses its stability.
-    pub onsets: Vec<f64>,
-    /// Where cycles live beside stable sliding.
-    pub coexistence: Vec<[f64; 2]>,
+    /// What only branches of motions of the whole mesh have.
+    #[derive(Default)]
+    MotionBranch {
+        onsets: Vec<f64> = "values at which steady sliding loses its stability";
+        coexistence: Vec<[f64; 2]> = "where cycles live beside stable sliding";
+    }
 }
 
 /// Where a branch changes its stability.
@@ -243,15 +222,14 @@ pub enum StabilityChangeSummary {
     By(ModeOfChange),
 }
 
-/// The mode by which a wave changes its stability.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct ModeOfChange {
-    /// Value of the parameter.
-    pub at: f64,
-    /// Circumferential harmonic of the mode that starts or ceases to grow.
-    pub harmonic: usize,
-    /// Its frequency, Hz.
-    pub frequency_hz: f64,
-    /// Whether the wave gives way to a motion of two frequencies: a Neimark-Sacker bifurcation.
-    pub to_two_frequencies: bool,
+keys! {
+    /// The mode by which a wave changes its stability.
+    #[derive(Copy)]
+    ModeOfChange {
+        at: f64 = "value of the parameter";
+        harmonic: usize = "circumferential harmonic of the mode that starts or ceases to grow";
+        frequency_hz: f64 = "its frequency, Hz";
+        to_two_frequencies: bool = "whether the wave gives way to a motion of two frequencies: a \
+            Neimark-Sacker bifurcation";
+    }
 }

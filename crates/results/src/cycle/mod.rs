@@ -2,7 +2,6 @@
 
 mod branch;
 mod branches;
-mod curve;
 mod fields;
 mod figures;
 mod motions;

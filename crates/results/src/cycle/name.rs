@@ -1,5 +1,6 @@
 //! What leads to a limit cycle: a wave of a disc and its onset, or a mode of any other body.
 
+use crate::keys::keys;
 use frictionsim_output::Described;
 use frictionsim_physics::cycle::{Family, Onset};
 use serde::Serialize;
@@ -16,35 +17,25 @@ pub enum CycleName {
     Mode(ModeOfCycle),
 }
 
-/// A mode, and what it leads to.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ModeOfCycle {
-    /// The mode.
-    #[serde(flatten)]
-    pub mode: ModeSummary,
-    /// Mode that has led to the same cycle before.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub same_as: Option<usize>,
-    /// Value of the parameter of `cycle.continuation` at which the mode grows, where none does at the case's own.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sought_from: Option<f64>,
-}
+keys! {
+    /// A mode, and what it leads to.
+    ModeOfCycle {
+        #[serde(flatten)]
+        mode: ModeSummary = "the mode";
+        same_as?: usize = "mode that has led to the same cycle before";
+        sought_from?: f64 = "value of the parameter of `cycle.continuation` at which the \
+            mode grows, where none does at the case's own";
+    }
 
-/// A wave and its onset.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct WaveOfCycle {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
-    /// Onset of that harmonic at which it is born, from 1.
-    pub onset: usize,
-    /// Critical friction coefficient of that onset.
-    pub critical_friction: Option<f64>,
-    /// Its direction.
-    pub direction: Option<i8>,
-    /// Points along the phase.
-    pub phases: usize,
-    /// Every onset of the harmonic.
-    pub onsets: Vec<OnsetSummary>,
+    /// A wave and its onset.
+    WaveOfCycle {
+        harmonic: usize = "circumferential harmonic";
+        onset: usize = "onset of that harmonic at which it is born, from 1";
+        critical_friction: Option<f64> = "critical friction coefficient of that onset";
+        direction: Option<i8> = "its direction";
+        phases: usize = "points along the phase";
+        onsets: Vec<OnsetSummary> = "every onset of the harmonic";
+    }
 }
 
 impl WaveOfCycle {
@@ -104,17 +95,15 @@ impl fmt::Display for CycleName {
     }
 }
 
-/// Where a wave starts to grow.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct OnsetSummary {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
-    /// +1 with the rotor, -1 against it.
-    pub direction: i8,
-    /// Critical friction coefficient.
-    pub critical_friction: f64,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
+keys! {
+    /// Where a wave starts to grow.
+    #[derive(Copy)]
+    OnsetSummary {
+        harmonic: usize = "circumferential harmonic";
+        direction: i8 = "+1 with the rotor, -1 against it";
+        critical_friction: f64 = "critical friction coefficient";
+        frequency_hz: f64 = "frequency, Hz";
+    }
 }
 
 impl From<&Onset> for OnsetSummary {
@@ -128,15 +117,14 @@ impl From<&Onset> for OnsetSummary {
     }
 }
 
-/// A mode of steady sliding.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct ModeSummary {
-    /// Number by frequency, from 1, at the case's own friction coefficient.
-    pub mode: usize,
-    /// Frequency, Hz.
-    pub mode_frequency_hz: f64,
-    /// Growth rate, 1/s.
-    pub growth_rate_per_s: f64,
+keys! {
+    /// A mode of steady sliding.
+    #[derive(Copy)]
+    ModeSummary {
+        mode: usize = "number by frequency, from 1, at the case's own friction coefficient";
+        mode_frequency_hz: f64 = "frequency, Hz";
+        growth_rate_per_s: f64 = "growth rate, 1/s";
+    }
 }
 
 /// `mode 15`.

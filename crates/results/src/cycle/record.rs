@@ -2,69 +2,51 @@
 
 use super::name::CycleName;
 use super::verdicts::Perturbation;
-use crate::finding::finding;
+use crate::keys::keys;
 use crate::summary::{MeanPowers, StatusFractions, present};
-use frictionsim_output::Described;
 use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
-use serde::Serialize;
 
-/// A limit cycle.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
-pub struct CycleMotion {
-    /// Frequency, Hz.
-    pub main_frequency_hz: f64,
-    /// Fractions of the contact nodes.
-    pub status: StatusFractions,
-    /// Mean powers.
-    pub power_w: MeanPowers,
-    /// Residual of the energy balance, relative to the external power.
-    pub balance_residual: f64,
-    /// Amplitude along the counterface, m: of the wave's own harmonic. On other bodies half the range of the contact
-    /// node that moves most.
-    pub amplitude_m: Option<f64>,
-    /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
-    pub velocity_level_db: Option<f64>,
-    /// Amplitudes along the counterface, m: of a wave the harmonics 0 to 8 around the contact edge. On other bodies the
-    /// harmonics 1, 2, ... in time, root mean square over the contact nodes.
-    pub harmonics: Vec<f64>,
-    /// What else there is to a motion that was stepped in time.
-    #[serde(flatten)]
-    pub stepped: Option<SteppedMotion>,
-}
+keys! {
+    /// A limit cycle.
+    #[derive(Default)]
+    CycleMotion {
+        main_frequency_hz: f64 = "frequency, Hz";
+        status: StatusFractions = "fractions of the contact nodes";
+        power_w: MeanPowers = "mean powers";
+        balance_residual: f64 = "residual of the energy balance, relative to the external power";
+        amplitude_m: Option<f64> = "amplitude along the counterface, m: of the wave's own \
+            harmonic. On other bodies half the range of the contact node that moves most";
+        velocity_level_db: Option<f64>
+            = "level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB";
+        harmonics: Vec<f64> = "amplitudes along the counterface, m: of a wave the harmonics 0 to 8 around the contact \
+            edge. On other bodies the harmonics 1, 2, ... in time, root mean square over the contact nodes";
+        #[serde(flatten)]
+        stepped: Option<SteppedMotion> = "what else there is to a motion that was stepped in time";
+    }
 
-/// A motion of the whole mesh that was stepped in time.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SteppedMotion {
-    /// What the motion misses its start by after a period, relative to its amplitude.
-    pub residual: f64,
-    /// Periods stepped to find it.
-    pub periods: usize,
-    /// Steps of a period.
-    pub steps: usize,
-    /// Label of the contact node that moves most along the counterface.
-    pub contact_node: usize,
-    /// Velocity of a kick that tips stable sliding into this cycle: `2 pi f` times the amplitude of the unstable cycle
-    /// between both, m/s.
-    pub kick_velocity: Option<f64>,
-    /// Estimate of the sound that it radiates, of a body with flat faces.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sound: Option<Sound>,
-    /// Harmonics in which the motion is told.
-    pub harmonic_count: usize,
-    /// Share of the vibration of the contact nodes that these leave.
-    pub harmonic_remainder: f64,
-    /// Harmonics that leave less than a thousandth.
-    #[serde(skip)]
-    pub harmonics_needed: usize,
+    /// A motion of the whole mesh that was stepped in time.
+    SteppedMotion {
+        residual: f64
+            = "what the motion misses its start by after a period, relative to its amplitude";
+        periods: usize = "periods stepped to find it";
+        steps: usize = "steps of a period";
+        contact_node: usize = "label of the contact node that moves most along the counterface";
+        kick_velocity: Option<f64> = "velocity of a kick that tips stable sliding into this cycle: \
+            `2 pi f` times the amplitude of the unstable cycle between both, m/s";
+        sound?: Sound = "estimate of the sound that it radiates, of a body with flat faces";
+        harmonic_count: usize = "harmonics in which the motion is told";
+        harmonic_remainder: f64 = "share of the vibration of the contact nodes that these leave";
+        #[serde(skip)]
+        harmonics_needed: usize = "harmonics that leave less than a thousandth";
+    }
 }
 
 /// A perturbation, of a wave with the value of the parameter of its branch.
 pub(super) type Exponent = (Option<f64>, Perturbation);
 
-finding! {
+keys! {
     /// A contact node over the period.
-    #[derive(Clone, Debug, PartialEq)]
     ContactNode, CONTACT_NODES {
         node: usize = "number of the node";
         x_m: f64 = "its place";

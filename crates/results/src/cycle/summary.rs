@@ -6,39 +6,32 @@ use super::record::{CycleMotion, Exponent, ShownCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::extent::Extent;
+use crate::keys::keys;
 use crate::summary::CriticalValue;
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::periodic::PeriodicMotion;
 use serde::Serialize;
 
-/// `summary.json` of `frictionsim cycle`.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct CycleSummary {
-    /// Whether nothing looked at grows.
-    pub steady_sliding_stable: bool,
-    /// Where the search has started.
-    #[serde(flatten)]
-    pub origin: Origin,
-    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating
-    /// point.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub critical_value: Option<CriticalValue>,
-    /// What powers are of, in the tables too.
-    pub extent: Extent,
-    /// The cycles that were sought, each with its motion or why there is none.
-    pub cycles: Vec<SoughtCycle>,
-    /// Motions of two waves that live together.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub two_waves: Vec<TwoWaveSummary>,
-    /// What there is to say.
-    pub notes: Vec<String>,
-    /// The branches, where no tables hold them: at a point of a study.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub curves: Option<Vec<FamilyRecord>>,
-    /// Friction coefficient of the case.
-    #[serde(skip)]
-    pub friction_coefficient: f64,
+keys! {
+    /// `summary.json` of `frictionsim cycle`.
+    CycleSummary {
+        steady_sliding_stable: bool = "whether nothing looked at grows";
+        #[serde(flatten)]
+        origin: Origin = "where the search has started";
+        critical_value?: CriticalValue = "where along the parameter of the case sliding \
+            loses its stability, where it is stable at its own operating point";
+        extent: Extent = "what powers are of, in the tables too";
+        cycles: Vec<SoughtCycle>
+            = "the cycles that were sought, each with its motion or why there is none";
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        two_waves: Vec<TwoWaveSummary> = "motions of two waves that live together";
+        notes: Vec<String> = "what there is to say";
+        curves?: Vec<FamilyRecord>
+            = "the branches, where no tables hold them: at a point of a study";
+        #[serde(skip)]
+        friction_coefficient: f64 = "friction coefficient of the case";
+    }
 }
 
 impl CycleSummary {
@@ -116,36 +109,26 @@ pub enum Origin {
     },
 }
 
-/// A limit cycle that was sought.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SoughtCycle {
-    /// What leads to it.
-    #[serde(flatten)]
-    pub name: CycleName,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// The cycle, where there is one that no other has led to before.
-    #[serde(flatten)]
-    pub cycle: Option<CycleMotion>,
-    /// That there is none because steady sliding is stable against the wave.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub absent: Option<String>,
-    /// Why none was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error: Option<String>,
-    /// What a transient says of it, where one was asked for.
-    pub confirmation: Option<ConfirmationSummary>,
-    /// Its stability, where it was asked for.
-    pub stability: Option<StabilitySummary>,
-    /// Its branch over the case's parameter.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub branch: Option<BranchSummary>,
-    /// Its motion, which tables and figures show.
-    #[serde(skip)]
-    pub(super) motion: Option<PeriodicMotion>,
-    /// Its exponents or multipliers, where they are known.
-    #[serde(skip)]
-    pub(super) exponents: Option<Vec<Exponent>>,
+keys! {
+    /// A limit cycle that was sought.
+    SoughtCycle {
+        #[serde(flatten)]
+        name: CycleName = "what leads to it";
+        wall_s: f64 = "wall time, s";
+        #[serde(flatten)]
+        cycle: Option<CycleMotion>
+            = "the cycle, where there is one that no other has led to before";
+        absent?: String = "that there is none because steady sliding is stable against the wave";
+        error?: String = "why none was found";
+        confirmation: Option<ConfirmationSummary>
+            = "what a transient says of it, where one was asked for";
+        stability: Option<StabilitySummary> = "its stability, where it was asked for";
+        branch?: BranchSummary = "its branch over the case's parameter";
+        #[serde(skip)]
+        motion: Option<PeriodicMotion> = "its motion, which tables and figures show";
+        #[serde(skip)]
+        exponents: Option<Vec<Exponent>> = "its exponents or multipliers, where they are known";
+    }
 }
 
 impl SoughtCycle {

@@ -1,52 +1,42 @@
 //! Motions of two frequencies: words, table, summary, curves.
 
+use crate::keys::keys;
 use frictionsim_chart::{INK, Line, Stroke};
-use frictionsim_output::{Described, Table, columns, significant};
+use frictionsim_output::{Table, columns, significant};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{BranchEnd, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch};
-use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// What two waves that may live together come to: a motion of two frequencies, or nothing.
-#[derive(Clone, Debug, Default, Described, Serialize)]
-pub struct TwoWaveSummary {
-    /// Harmonics of both waves.
-    pub harmonics: [usize; 2],
-    /// Frequencies, Hz.
-    pub frequencies_hz: Option<[f64; 2]>,
-    /// Amplitudes of the tangential displacement of the edge, m.
-    pub amplitudes_m: Option<[f64; 2]>,
-    /// Fractions of the edge that stick, slip, are open, over time.
-    pub status: Option<[f64; 3]>,
-    /// Points along both phases.
-    pub points: Option<[usize; 2]>,
-    /// Power of the rotor, W.
-    pub external_w: Option<f64>,
-    /// Residual of the energy balance, relative to it.
-    pub balance_residual: Option<f64>,
-    /// Frequencies of a transient that started on it, Hz.
-    pub transient_frequencies_hz: Option<[f64; 2]>,
-    /// Whether these are its own within a thousandth.
-    pub is_confirmed: Option<bool>,
-    /// Values of the parameter at which the weaker wave vanishes, in units of its key.
-    pub births: Vec<f64>,
-    /// Why the branch ends, at either end.
-    pub ends: Option<[String; 2]>,
-    /// Why there is none.
-    pub error: Option<String>,
-    /// Key of the parameter of its branch, where one was asked for.
-    #[serde(skip)]
-    pub key: Option<&'static str>,
-    /// The motions of the branch in its order, or the motion alone.
-    #[serde(skip)]
-    pub rows: Vec<TwoWaveRow>,
-    /// The whole field over one period of the first wave; the second is elsewhere by then.
-    #[serde(skip)]
-    pub frames: Vec<MotionFrame>,
+keys! {
+    /// What two waves that may live together come to: a motion of two frequencies, or nothing.
+    #[derive(Default)]
+    TwoWaveSummary {
+        harmonics: [usize; 2] = "harmonics of both waves";
+        frequencies_hz: Option<[f64; 2]> = "frequencies, Hz";
+        amplitudes_m: Option<[f64; 2]> = "amplitudes of the tangential displacement of the edge, m";
+        status: Option<[f64; 3]> = "fractions of the edge that stick, slip, are open, over time";
+        points: Option<[usize; 2]> = "points along both phases";
+        external_w: Option<f64> = "power of the rotor, W";
+        balance_residual: Option<f64> = "residual of the energy balance, relative to it";
+        transient_frequencies_hz: Option<[f64; 2]>
+            = "frequencies of a transient that started on it, Hz";
+        is_confirmed: Option<bool> = "whether these are its own within a thousandth";
+        births: Vec<f64>
+            = "values of the parameter at which the weaker wave vanishes, in units of its key";
+        ends: Option<[String; 2]> = "why the branch ends, at either end";
+        error: Option<String> = "why there is none";
+        #[serde(skip)]
+        key: Option<&'static str> = "key of the parameter of its branch, where one was asked for";
+        #[serde(skip)]
+        rows: Vec<TwoWaveRow> = "the motions of the branch in its order, or the motion alone";
+        #[serde(skip)]
+        frames: Vec<MotionFrame>
+            = "the whole field over one period of the first wave; the second is elsewhere by then";
+    }
 }
 
 /// A motion of two waves along a branch.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TwoWaveRow {
     /// The parameter, in units of its key.
     pub value: f64,

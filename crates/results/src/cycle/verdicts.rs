@@ -1,6 +1,6 @@
 //! What a transient and small perturbations say of a limit cycle.
 
-use crate::finding::finding;
+use crate::keys::keys;
 use crate::summary::{StatusFractions, present};
 use frictionsim_output::Described;
 use frictionsim_physics::cycle::{Confirmation, FloquetMultiplier, FloquetMultipliers, Verdict};
@@ -29,24 +29,18 @@ pub enum ConfirmationSummary {
     },
 }
 
-/// A transient that started on a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ConfirmationRun {
-    /// Length of the run in periods of the cycle.
-    pub periods: usize,
-    /// Whether it still is on the cycle.
-    pub agrees: bool,
-    /// Frequency, Hz; none if it has stopped to vibrate.
-    pub main_frequency_hz: Option<f64>,
-    /// Its harmonic, of a wave that still vibrates.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub main_harmonic: Option<usize>,
-    /// Fractions of contact nodes.
-    pub status: StatusFractions,
-    /// Power of the counterface.
-    pub power_w: ExternalPower,
-    /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
-    pub e_folds: f64,
+keys! {
+    /// A transient that started on a cycle.
+    ConfirmationRun {
+        periods: usize = "length of the run in periods of the cycle";
+        agrees: bool = "whether it still is on the cycle";
+        main_frequency_hz: Option<f64> = "frequency, Hz; none if it has stopped to vibrate";
+        main_harmonic?: usize = "its harmonic, of a wave that still vibrates";
+        status: StatusFractions = "fractions of contact nodes";
+        power_w: ExternalPower = "power of the counterface";
+        e_folds: f64 = "e-folds of the leading perturbation over the run; negative where it \
+            decays, 0 where it is not known";
+    }
 }
 
 impl ConfirmationSummary {
@@ -64,11 +58,12 @@ impl ConfirmationSummary {
     }
 }
 
-/// Power of the counterface alone.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct ExternalPower {
-    /// Mean power, W.
-    pub external: Option<f64>,
+keys! {
+    /// Power of the counterface alone.
+    #[derive(Copy)]
+    ExternalPower {
+        external: Option<f64> = "mean power, W";
+    }
 }
 
 /// Stability of a cycle, or why it is not known.
@@ -94,21 +89,15 @@ impl StabilitySummary {
     }
 }
 
-/// Stability of a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct KnownStability {
-    /// `stable`, `unstable` or `undecided`.
-    pub verdict: String,
-    /// The same as a flag; none if undecided.
-    pub is_stable: Option<bool>,
-    /// Circumferential harmonics that grow, of a wave.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub growing_harmonics: Option<Vec<usize>>,
-    /// The leading perturbation.
-    pub leading: Option<Perturbation>,
-    /// Modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shift: Option<f64>,
+keys! {
+    /// Stability of a cycle.
+    KnownStability {
+        verdict: String = "`stable`, `unstable` or `undecided`";
+        is_stable: Option<bool> = "the same as a flag; none if undecided";
+        growing_harmonics?: Vec<usize> = "circumferential harmonics that grow, of a wave";
+        leading: Option<Perturbation> = "the leading perturbation";
+        shift?: f64 = "modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time";
+    }
 }
 
 impl KnownStability {
@@ -126,30 +115,21 @@ impl KnownStability {
     }
 }
 
-finding! {
+keys! {
     /// A small perturbation of a cycle: an exponent of a wave, a multiplier of a motion that was stepped in time.
-    #[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
+    #[derive(Default)]
     Perturbation, EXPONENTS {
-        #[serde(skip_serializing_if = "Option::is_none")]
-        class: Option<usize> = "class of the harmonics that it holds, of a wave";
+        class?: usize = "class of the harmonics that it holds, of a wave";
         growth_rate_per_s: f64 = "growth rate";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        wave_frequency_rad_per_s: Option<f64> = "frequency in the frame of the wave";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        harmonic: Option<usize>
-            = "circumferential harmonic at which it moves the edge most, of a wave";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        frequency_hz: Option<f64> = "frequency in the fixed frame, of a wave";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        beat_hz: Option<f64>
+        wave_frequency_rad_per_s?: f64 = "frequency in the frame of the wave";
+        harmonic?: usize = "circumferential harmonic at which it moves the edge most, of a wave";
+        frequency_hz?: f64 = "frequency in the fixed frame, of a wave";
+        beat_hz?: f64
             = "distance of its frequency from the nearest harmonic, of motions of the whole mesh";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        modulus: Option<f64> = "modulus of its multiplier, of motions of the whole mesh";
-        #[serde(skip_serializing_if = "Option::is_none")]
-        argument_rad: Option<f64> = "argument of its multiplier, of motions of the whole mesh";
+        modulus?: f64 = "modulus of its multiplier, of motions of the whole mesh";
+        argument_rad?: f64 = "argument of its multiplier, of motions of the whole mesh";
         /// What it leads to where it grows.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        leads_to: Option<String>;
+        leads_to?: String;
         uncertainty_per_s: Option<f64> = "uncertainty of the growth rate";
     }
 }

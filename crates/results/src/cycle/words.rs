@@ -179,9 +179,8 @@ impl SoughtCycle {
     fn sound_sentence(&self) -> Option<String> {
         let sound = self.cycle.as_ref()?.stepped.as_ref()?.sound.as_ref()?;
         Some(format!(
-            "sound power {:.1} dB over 1e-12 W, an estimate by the Rayleigh integral over {:.4} \
-             m2 of flat faces. Each is in an infinite rigid baffle, and harmonics count up to 20 \
-             kHz",
+            "sound power {:.1} dB over 1e-12 W, an estimate by the Rayleigh integral over {:.4} m2 of flat faces. Each \
+             is in an infinite rigid baffle, and harmonics count up to 20 kHz",
             sound.level_db, sound.area_m2,
         ))
     }
@@ -207,8 +206,7 @@ impl SoughtCycle {
         let [stick, slip, open] =
             [run.status.stick, run.status.slip, run.status.open].map(|own| own.unwrap_or(0.0));
         Some(format!(
-            "{verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open \
-             {open:.3}, power {:.2}",
+            "{verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, power {:.2}",
             run.periods,
             run.main_frequency_hz.unwrap_or(0.0),
             run.power_w.external.unwrap_or(0.0),

@@ -4,9 +4,9 @@ mod spectrum;
 
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
-use super::finding::finding;
 use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
+use super::keys::keys;
 use super::npz::NpzArchive;
 use super::summary::{Head, object};
 use frictionsim_output::{Described, Entry, columns, significant, write_rows};
@@ -74,9 +74,8 @@ impl Described for MatrixRole {
     }
 }
 
-finding! {
+keys! {
     /// One unknown. Its node has the number that the user knows, its direction is along global axes.
-    #[derive(Clone, Debug, PartialEq)]
     ExportedUnknown, UNKNOWN {
         unknown: usize = "row and column of the matrices, from 0";
         node: usize = "number of its node";
@@ -138,48 +137,35 @@ impl ExportedSystem {
     }
 }
 
-/// Where a matrix is written, and how large it is.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MatrixEntry {
-    /// Its name.
-    pub name: String,
-    /// What it is.
-    pub role: MatrixRole,
-    /// Unit of its entries.
-    pub unit: String,
-    /// Number of rows.
-    pub rows: usize,
-    /// Number of columns.
-    pub columns: usize,
-    /// Number of entries.
-    pub entries: usize,
-    /// Matrix Market file.
-    pub matrix_market: String,
-    /// File for `scipy.sparse.load_npz`; none of matrices at one friction coefficient.
-    pub npz: Option<String>,
-}
+keys! {
+    /// Where a matrix is written, and how large it is.
+    MatrixEntry {
+        name: String = "its name";
+        role: MatrixRole = "what it is";
+        unit: String = "unit of its entries";
+        rows: usize = "number of rows";
+        columns: usize = "number of columns";
+        entries: usize = "number of entries";
+        matrix_market: String = "matrix Market file";
+        npz: Option<String>
+            = "file for `scipy.sparse.load_npz`; none of matrices at one friction coefficient";
+    }
 
-/// `summary.json` of `frictionsim matrices`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MatricesSummary {
-    /// Number of unknowns.
-    pub dofs: usize,
-    /// What the matrices are put together to.
-    pub equation: String,
-    /// What `lambda` is measured in, and what all of this is measured for.
-    pub units: String,
-    /// Friction coefficient about which the matrices are given.
-    pub friction_coefficient: f64,
-    /// Friction coefficients between which the matrices hold.
-    pub friction_range: [f64; 2],
-    /// `[alpha, beta]` where `C = alpha M + beta K` exactly.
-    pub proportional_damping: Option<[f64; 2]>,
-    /// The files.
-    pub matrices: Vec<MatrixEntry>,
-    /// Table of the unknowns; none of matrices at one friction coefficient.
-    pub unknowns: Option<String>,
-    /// Table of the contact points; none of matrices at one friction coefficient.
-    pub contact: Option<String>,
+    /// `summary.json` of `frictionsim matrices`.
+    MatricesSummary {
+        dofs: usize = "number of unknowns";
+        equation: String = "what the matrices are put together to";
+        units: String = "what `lambda` is measured in, and what all of this is measured for";
+        friction_coefficient: f64 = "friction coefficient about which the matrices are given";
+        friction_range: [f64; 2] = "friction coefficients between which the matrices hold";
+        proportional_damping: Option<[f64; 2]>
+            = "`[alpha, beta]` where `C = alpha M + beta K` exactly";
+        matrices: Vec<MatrixEntry> = "the files";
+        unknowns: Option<String>
+            = "table of the unknowns; none of matrices at one friction coefficient";
+        contact: Option<String>
+            = "table of the contact points; none of matrices at one friction coefficient";
+    }
 }
 
 impl MatrixRole {

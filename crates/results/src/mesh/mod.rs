@@ -1,17 +1,16 @@
 //! Results of `mesh`: statistics, VTU, picture.
 
 mod plane;
-mod plane_figure;
 mod solid;
-mod solid_figure;
 
+pub use plane::figure as plane_figure;
 pub use plane::{BoundaryStatistics, MeshStatistics, RegionStatistics, write_revolution};
-pub use plane_figure::figure as plane_figure;
+pub use solid::figure as solid_figure;
 pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
-pub use solid_figure::figure as solid_figure;
 
 use super::folder::{FolderError, OutputFolder};
 use super::vtu::{EncodedMesh, Field, write_vtu};
+use crate::keys::keys;
 use frictionsim_chart::literal;
 use frictionsim_output::{Described, Document, Format, Section, fixed, significant};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh, MeshQuality};
@@ -47,17 +46,14 @@ impl<S: Measured> MeshSummary<S> {
     }
 }
 
-/// Counts of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MeshSize {
-    /// Nodes.
-    pub nodes: usize,
-    /// Elements.
-    pub elements: usize,
-    /// Unknowns: two for each node in the plane, three in space.
-    pub dofs: usize,
-    /// Nodes of the contact edge, or of the surfaces that slide on others.
-    pub contact_nodes: usize,
+keys! {
+    /// Counts of a mesh.
+    MeshSize {
+        nodes: usize = "nodes";
+        elements: usize = "elements";
+        dofs: usize = "unknowns: two for each node in the plane, three in space";
+        contact_nodes: usize = "nodes of the contact edge, or of the surfaces that slide on others";
+    }
 }
 
 impl MeshSize {

@@ -1,72 +1,56 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
-use super::{Measured, MeshSize, condition_name, write_nodes};
-use crate::finding::finding;
+use super::{Measured, MeshSize, REGION_COLOURS, condition_name, write_nodes};
 use crate::folder::{FolderError, OutputFolder};
-use frictionsim_output::{Described, Format, Section, Table};
-use frictionsim_physics::mesh::{
-    AnnulusMesh, Mesh, MeshQuality, SolidContact, SolidFace, SolidSector,
+use crate::keys::keys;
+use frictionsim_chart::{
+    Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES, TextStyle,
+    literal,
 };
-use serde::Serialize;
+use frictionsim_output::{Format, Section, Table};
+use frictionsim_physics::mesh::{
+    AnnulusMesh, Boundary, BoundaryCondition, Mesh, MeshQuality, SolidContact, SolidFace,
+    SolidSector,
+};
 
-/// Size and quality of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MeshStatistics {
-    /// Counts.
-    #[serde(flatten)]
-    pub size: MeshSize,
-    /// Layers of bricks over the thickness of a body in three dimensions. Edges, quality and areas are of its plane
-    /// section then.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial_elements: Option<usize>,
-    /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nodes_per_sector: Option<usize>,
-    /// Sizes and shapes of the elements.
-    #[serde(flatten)]
-    pub shape: MeshQuality,
-    /// Edges of one element alone that belong to no named boundary, of a mesh file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unnamed_free_edges: Option<usize>,
-    /// Area of the mesh, m2.
-    pub area_m2: f64,
-    /// Its relative difference to the annulus.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub area_error: Option<f64>,
-    /// Elements for each shear wavelength at the highest frequency of the case, where it has one: the largest edge
-    /// counts.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements_per_wavelength: Option<f64>,
-    /// Contact nodes for each such wave, where they are farthest apart on average.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_nodes_per_wave: Option<f64>,
-    /// Regions with their elements and areas.
-    pub regions: Vec<RegionStatistics>,
-    /// Boundaries with their nodes and lengths; faces of a body of revolution with their areas.
-    pub boundaries: Vec<BoundaryStatistics>,
-}
+keys! {
+    /// Size and quality of a mesh.
+    MeshStatistics {
+        #[serde(flatten)]
+        size: MeshSize = "counts";
+        axial_elements?: usize = "layers of bricks over the thickness of a body in three \
+            dimensions. Edges, quality and areas are of its plane section then";
+        nodes_per_sector?: usize = "on the annulus, nodes of one ray of corner nodes: node \
+            `1 + j (nodes_per_sector) + i`";
+        #[serde(flatten)]
+        shape: MeshQuality = "sizes and shapes of the elements";
+        unnamed_free_edges?: usize
+            = "edges of one element alone that belong to no named boundary, of a mesh file";
+        area_m2: f64 = "area of the mesh, m2";
+        area_error?: f64 = "its relative difference to the annulus";
+        elements_per_wavelength?: f64 = "elements for each shear wavelength at the highest \
+            frequency of the case, where it has one: the largest edge counts";
+        contact_nodes_per_wave?: f64
+            = "contact nodes for each such wave, where they are farthest apart on average";
+        regions: Vec<RegionStatistics> = "regions with their elements and areas";
+        boundaries: Vec<BoundaryStatistics> = "boundaries with their nodes and lengths; faces of a \
+            body of revolution with their areas";
+    }
 
-finding! {
     /// One region of a mesh.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     RegionStatistics, REGIONS {
         name: String = "its name", Always "region" Plain;
         elements: usize = "its elements", Always "elements" Count;
         area_m2: f64 = "its area", Always "area" Scientific(6);
     }
-}
 
-finding! {
     /// One boundary of a mesh.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     BoundaryStatistics, BOUNDARIES {
         name: String = "its name", Always "boundary" Plain;
         nodes: usize = "its nodes", Always "nodes" Count;
         length_m: Option<f64> = "its length, around a face of a body of revolution",
             IfAny "length" Scientific(6);
-        #[serde(skip_serializing_if = "Option::is_none")]
-        area_m2: Option<f64> = "its area, of a face of a body of revolution",
-            IfAny "area" Scientific(6);
+        area_m2?: f64 = "its area, of a face of a body of revolution", IfAny "area" Scientific(6);
         condition: String = "what holds it, in a word", Always "condition" Plain;
     }
 }
@@ -206,4 +190,115 @@ pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(
     let mesh = sector.whole();
     let edge = (0..mesh.node_count()).map(edge_of).collect();
     write_nodes(folder, &mesh, edge, &[])
+}
+
+/// Most normals drawn.
+const MOST_NORMALS: usize = 48;
+
+/// A point of a curve that is none, where the curve breaks.
+const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+
+/// Elements by region, boundaries with their names, normals of the contact edge, probes (node numbers from 1).
+pub fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
+    let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
+    let [low, high] = Window::window(&mesh.plane_nodes(), 0.1);
+    let size = high[0] - low[0];
+    let known = probes.iter().filter(|&&probe| (1..=mesh.node_count()).contains(&probe));
+    let known: Vec<(usize, (f64, f64))> =
+        known.map(|&probe| (probe, place(probe as u32 - 1))).collect();
+    let labels = known.iter().map(|(probe, at)| {
+        Label::new(*at, mesh.node_label(probe - 1).to_string()).moved(4.0, -4.0)
+    });
+    let longest = mesh.quality().largest_edge_m;
+    let boundaries = || mesh.boundaries.iter().enumerate();
+    // The contact edge lies on its counterface: it is drawn last.
+    let (contact, others): (Vec<_>, Vec<_>) = boundaries().partition(|own| own.0 == mesh.contact);
+    let edges = others.into_iter().chain(contact).filter_map(|own| edge(mesh, own, longest));
+    // Names are for the curves of a file; those of the annulus go without saying.
+    let names = boundaries().filter(|_| !mesh.is_cyclic);
+    let names = names.filter_map(|(_, boundary)| {
+        let middle = boundary.nodes.get(boundary.nodes.len() / 2)?;
+        let style = TextStyle::new(6.75).bold().with_halo();
+        Some(Label::new(place(*middle), literal(&boundary.name)).style(style))
+    });
+    let axis = |name: &str, i: usize| Axis::new(name, "mm").times(1e3).between(low[i], high[i]);
+    let panel = Panel::new(axis("*x*", 0), axis("*y*", 1))
+        .equal()
+        .plain()
+        .height(420.0)
+        .layers(elements(mesh))
+        .layers(edges)
+        .layer(normals(mesh, 0.035 * size))
+        .layer(
+            Points::new(known.iter().map(|probe| probe.1))
+                .marker(Marker::Disc, 2.0, INK)
+                .name("probes"),
+        )
+        .layers(names)
+        .layers(labels);
+    Figure::new("mesh", super::caption(title)).panel(panel)
+}
+
+/// Nodes around an element, mid-side nodes between their corners.
+fn outline(mesh: &Mesh, element: usize) -> Vec<[f64; 2]> {
+    let nodes = mesh.element_outline(element).into_iter();
+    nodes.map(|node| mesh.plane_node(node as usize)).collect()
+}
+
+/// The edges of the elements, region by region.
+fn elements(mesh: &Mesh) -> Vec<Line> {
+    let counts = (0..mesh.regions.len().max(1)).map(|region| {
+        let own = (0..mesh.element_count()).filter(move |&element| mesh.region(element) == region);
+        let count = own.clone().count();
+        let rings = own.flat_map(|element| {
+            let ring = outline(mesh, element);
+            let again = ring.first().copied();
+            let points = ring.into_iter().chain(again).map(|[x, y]| (x, y));
+            points.chain([GAP]).collect::<Vec<_>>()
+        });
+        let name = match (mesh.regions.len(), mesh.regions.get(region)) {
+            (2.., Some(name)) => format!("{}: {count} elements", literal(name)),
+            _ => format!("{count} elements, {} nodes", mesh.node_count()),
+        };
+        let colour = REGION_COLOURS[region % REGION_COLOURS.len()];
+        Line::through(rings).solid(colour, 0.25).name(name)
+    });
+    counts.collect()
+}
+
+/// A boundary that is held, loaded or touched.
+fn edge(mesh: &Mesh, (b, boundary): (usize, &Boundary), longest: f64) -> Option<Line> {
+    let (colour, name) = match boundary.condition {
+        _ if b == mesh.contact => (SERIES[1], "contact edge"),
+        _ if Some(b) == mesh.opposite => (SERIES[5], "counterface edge"),
+        BoundaryCondition::Clamped => (SERIES[0], "clamped edge"),
+        BoundaryCondition::Support(_) => (SERIES[2], "supported edge"),
+        BoundaryCondition::Guide | BoundaryCondition::Fixed(_) => (SERIES[3], "guided edge"),
+        BoundaryCondition::Pressure(_) => (SERIES[4], "pressed edge"),
+        BoundaryCondition::Free => return None,
+    };
+    // A gap where a curve goes on in another piece.
+    let again = boundary.nodes.first().filter(|_| boundary.is_closed);
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for &node in boundary.nodes.iter().chain(again) {
+        let [x, y] = mesh.plane_node(node as usize);
+        let is_far =
+            points.last().is_some_and(|last| (x - last.0).hypot(y - last.1) > 2.0 * longest);
+        points.extend(is_far.then_some(GAP));
+        points.push((x, y));
+    }
+    Some(Line::through(points).solid(colour, 1.4).name(name))
+}
+
+/// Arrows along the outward normals of the contact edge.
+fn normals(mesh: &Mesh, length: f64) -> Line {
+    let edge = mesh.contact_edge();
+    let all: Vec<_> = edge.nodes.iter().zip(&edge.normal_angles).collect();
+    let step = all.len().div_ceil(MOST_NORMALS).max(1);
+    let arrows = all.into_iter().step_by(step).flat_map(|(&node, angle)| {
+        let [x, y] = mesh.plane_node(node as usize);
+        let (sin, cos) = angle.sin_cos();
+        [(x, y), (x + length * cos, y + length * sin), GAP]
+    });
+    Line::through(arrows).solid(INK, 0.6).arrows(1).name("outward normal of the contact edge")
 }

@@ -1,55 +1,40 @@
 //! Results of `mesh` for solid bodies of a mesh file.
 
-use super::{Measured, MeshSize, role_of};
-use crate::finding::finding;
-use frictionsim_output::{Described, Section, Table};
-use frictionsim_physics::mesh::{Mesh, MeshQuality};
-use serde::Serialize;
+use super::{Measured, MeshSize, REGION_COLOURS, role_of};
+use crate::charts::{MovingBody, SolidView};
+use crate::keys::keys;
+use frictionsim_chart::{Figure, Motion, MotionState, Panel, SERIES, Surface, literal};
+use frictionsim_output::{Section, Table};
+use frictionsim_physics::mesh::{BoundaryFace, Mesh, MeshQuality};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Size and quality of the mesh of solid bodies.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SolidMeshStatistics {
-    /// Counts; unknowns with those that are held.
-    #[serde(flatten)]
-    pub size: MeshSize,
-    /// Elements of each kind.
-    pub elements_by_kind: BTreeMap<String, usize>,
-    /// Parts that no element connects.
-    pub bodies: usize,
-    /// Least coordinates, m.
-    pub lowest_m: [f64; 3],
-    /// Largest coordinates, m.
-    pub highest_m: [f64; 3],
-    /// Sizes and shapes of the elements.
-    #[serde(flatten)]
-    pub shape: MeshQuality,
-    /// Centre of the element that has it, m.
-    pub worst_element_at_m: [f64; 3],
-    /// Volume, m3.
-    pub volume_m3: f64,
-    /// Mass, kg.
-    pub mass_kg: f64,
-    /// Regions with their elements, volumes and masses.
-    pub regions: Vec<SolidRegion>,
-    /// Named surfaces and sets of nodes.
-    pub boundaries: Vec<SolidBoundary>,
-}
+keys! {
+    /// Size and quality of the mesh of solid bodies.
+    SolidMeshStatistics {
+        #[serde(flatten)]
+        size: MeshSize = "counts; unknowns with those that are held";
+        elements_by_kind: BTreeMap<String, usize> = "elements of each kind";
+        bodies: usize = "parts that no element connects";
+        lowest_m: [f64; 3] = "least coordinates, m";
+        highest_m: [f64; 3] = "largest coordinates, m";
+        #[serde(flatten)]
+        shape: MeshQuality = "sizes and shapes of the elements";
+        worst_element_at_m: [f64; 3] = "centre of the element that has it, m";
+        volume_m3: f64 = "volume, m3";
+        mass_kg: f64 = "mass, kg";
+        regions: Vec<SolidRegion> = "regions with their elements, volumes and masses";
+        boundaries: Vec<SolidBoundary> = "named surfaces and sets of nodes";
+    }
 
-finding! {
     /// One region of solid bodies.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     SolidRegion, REGIONS {
         name: String = "its name", Always "region" Plain;
         elements: usize = "its elements", Always "elements" Count;
         volume_m3: f64 = "its volume", Always "volume" Scientific(6);
         mass_kg: f64 = "its mass", Always "mass" Fixed(6);
     }
-}
 
-finding! {
     /// One named surface of solid bodies.
-    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
     SolidBoundary, BOUNDARIES {
         name: String = "its name", Always "boundary" Plain;
         nodes: usize = "its nodes", Always "nodes" Count;
@@ -140,4 +125,89 @@ fn boundaries_of(mesh: &Mesh, roles: &BTreeMap<usize, &'static str>) -> Vec<Soli
         condition: role_of(mesh, b, roles).to_owned(),
     });
     boundaries.collect()
+}
+
+/// Colour of the boundaries of each kind, in the order of the legend; the last one of faces that nothing is said of.
+const CONDITION_COLOURS: [(&str, &str); 9] = [
+    (SERIES[1], "contact"),
+    (SERIES[5], "counterface"),
+    (SERIES[4], "pressure"),
+    (SERIES[0], "clamped"),
+    (SERIES[3], "fixed"),
+    ("#8c5bb0", "guide"),
+    (SERIES[2], "support"),
+    ("#b8a038", "tie"),
+    ("#d0d0d0", "free"),
+];
+
+/// Regions and boundaries, each seen from the front and turned over.
+pub fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Figure {
+    let regions = mesh.regions.iter().enumerate().map(|(r, name)| {
+        let colour = REGION_COLOURS[r % REGION_COLOURS.len()];
+        (colour, literal(name))
+    });
+    let regions: Vec<(&'static str, String)> = regions.collect();
+    let region = |face: &BoundaryFace| mesh.region(face.element as usize);
+    let conditions = conditions_of_faces(mesh, roles);
+    let condition = |face: &BoundaryFace| {
+        let found = conditions.get(&sorted(face));
+        found.copied().unwrap_or(CONDITION_COLOURS.len() - 1)
+    };
+    let legend = CONDITION_COLOURS.iter().enumerate().map(|(k, entry)| {
+        let is_there = k + 1 == CONDITION_COLOURS.len() || conditions.values().any(|&c| c == k);
+        let name = if is_there { entry.1 } else { "" };
+        (entry.0, name.to_owned())
+    });
+    let legend: Vec<(&'static str, String)> = legend.collect();
+    let views = [SolidView::new(mesh), SolidView::turned_over(mesh)];
+    let words = ["from the front", "turned over"];
+    let by_region = views.iter().zip(words).map(|(view, from)| {
+        let surface = view.parts(region, regions.clone());
+        panel(surface, format!("regions, {from}"))
+    });
+    let by_condition = views.iter().zip(words).map(|(view, from)| {
+        let surface = view.parts(condition, legend.clone());
+        panel(surface, format!("boundaries, {from}"))
+    });
+    let body = MovingBody::of_surface(mesh, true);
+    let colours =
+        [("regions", body.parts(region, &regions)), ("boundaries", body.parts(condition, &legend))];
+    let states =
+        colours.map(|(name, kind)| MotionState { name: name.to_owned(), frequency_hz: 0.0, kind });
+    Figure::new("mesh", super::caption(title))
+        .columns(2)
+        .panels(by_region.chain(by_condition))
+        .motion(Motion { states: states.to_vec(), ..body.at_rest() })
+}
+
+fn panel(surface: Surface, caption: String) -> Panel {
+    let panel = Panel::plane(surface.window(0.05)).height(210.0);
+    panel.caption(caption).layer(surface)
+}
+
+/// The kind of each face of a boundary that holds, loads or touches, by its nodes. A face of several boundaries is of
+/// the first kind.
+fn conditions_of_faces(
+    mesh: &Mesh,
+    roles: &BTreeMap<usize, &'static str>,
+) -> BTreeMap<Vec<u32>, usize> {
+    let mut kinds: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
+    for (b, boundary) in mesh.boundaries.iter().enumerate() {
+        let name = role_of(mesh, b, roles);
+        let Some(kind) = CONDITION_COLOURS.iter().position(|entry| entry.1 == name) else {
+            continue;
+        };
+        for face in &boundary.faces {
+            let known = kinds.entry(sorted(face)).or_insert(kind);
+            *known = kind.min(*known);
+        }
+    }
+    kinds
+}
+
+/// The nodes of a face in rising order, which name it.
+fn sorted(face: &BoundaryFace) -> Vec<u32> {
+    let mut nodes = face.nodes.clone();
+    nodes.sort_unstable();
+    nodes
 }

@@ -1,96 +1,66 @@
 //! Summary of `signal`, as it is written, printed and reported.
 
-use frictionsim_output::Described;
+use crate::keys::keys;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_signal::{ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
-use serde::Serialize;
 
 /// Largest distance of a line from a mode that it is said to belong to, relative to the line.
 pub const MODE_TOLERANCE: f64 = 0.03;
 
-/// What was found in a record.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SignalSummary {
-    /// Name of the table.
-    pub source: String,
-    /// Sampling rate, Hz.
-    pub sampling_rate_hz: f64,
-    /// Samples of each channel.
-    pub samples: usize,
-    /// Friction coefficient of the modes, where a case was given.
-    pub friction_coefficient: Option<f64>,
-    /// Largest relative distance of a line from a mode named beside it.
-    pub mode_tolerance: f64,
-    /// The channels.
-    pub channels: Vec<ChannelSummary>,
-    /// Decisions of the reader.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// What was found in a record.
+    SignalSummary {
+        source: String = "name of the table";
+        sampling_rate_hz: f64 = "sampling rate, Hz";
+        samples: usize = "samples of each channel";
+        friction_coefficient: Option<f64>
+            = "friction coefficient of the modes, where a case was given";
+        mode_tolerance: f64 = "largest relative distance of a line from a mode named beside it";
+        channels: Vec<ChannelSummary> = "the channels";
+        notes: Vec<String> = "decisions of the reader";
+    }
 
-/// What was found in one channel.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ChannelSummary {
-    /// Name as in the table.
-    pub name: String,
-    /// Interval from which the peaks are taken, s.
-    pub interval_s: [f64; 2],
-    /// Smallest distance of two peaks, Hz.
-    pub resolution_hz: f64,
-    /// Blocks that the spectrum is a mean of.
-    pub averages: usize,
-    /// Strongest peak that is no superharmonic, Hz.
-    pub main_frequency_hz: Option<f64>,
-    /// Peaks, strongest first.
-    pub peaks: Vec<PeakSummary>,
-    /// The exponential stage, if there is one.
-    pub growth: Option<ExponentialStage>,
-    /// Why there is none.
-    pub no_growth: Option<String>,
-    /// The mode that the channel vibrates in: one that can squeal.
-    pub mode: Option<ModeSummary>,
-    /// The unstable mode nearest to the vibration, and its distance.
-    pub nearest_unstable_mode: Option<NearestMode>,
-}
+    /// What was found in one channel.
+    ChannelSummary {
+        name: String = "name as in the table";
+        interval_s: [f64; 2] = "interval from which the peaks are taken, s";
+        resolution_hz: f64 = "smallest distance of two peaks, Hz";
+        averages: usize = "blocks that the spectrum is a mean of";
+        main_frequency_hz: Option<f64> = "strongest peak that is no superharmonic, Hz";
+        peaks: Vec<PeakSummary> = "peaks, strongest first";
+        growth: Option<ExponentialStage> = "the exponential stage, if there is one";
+        no_growth: Option<String> = "why there is none";
+        mode: Option<ModeSummary> = "the mode that the channel vibrates in: one that can squeal";
+        nearest_unstable_mode: Option<NearestMode>
+            = "the unstable mode nearest to the vibration, and its distance";
+    }
 
-/// A line of the spectrum, and the mode beside it.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct PeakSummary {
-    /// The line.
-    #[serde(flatten)]
-    pub line: SpectralLine,
-    /// Mode within the tolerance: an unstable one before a stable one.
-    pub nearest_mode: Option<ModeSummary>,
-}
+    /// A line of the spectrum, and the mode beside it.
+    PeakSummary {
+        #[serde(flatten)]
+        line: SpectralLine = "the line";
+        nearest_mode: Option<ModeSummary>
+            = "mode within the tolerance: an unstable one before a stable one";
+    }
 
-/// A mode of the case.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ModeSummary {
-    /// Number by frequency, from 1.
-    pub mode: usize,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// Growth rate, 1/s.
-    pub growth_rate_per_s: f64,
-    /// Circumferential harmonic; none on a body without symmetry.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub harmonic: Option<usize>,
-    /// Branch of that harmonic, or of the body.
-    pub branch: usize,
-    /// +1 with the rotor, -1 against it, 0 standing; none on a body without symmetry.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction: Option<i8>,
-    /// Whether it grows.
-    pub unstable: bool,
-}
+    /// A mode of the case.
+    ModeSummary {
+        mode: usize = "number by frequency, from 1";
+        frequency_hz: f64 = "frequency, Hz";
+        growth_rate_per_s: f64 = "growth rate, 1/s";
+        harmonic?: usize = "circumferential harmonic; none on a body without symmetry";
+        branch: usize = "branch of that harmonic, or of the body";
+        direction?: i8
+            = "+1 with the rotor, -1 against it, 0 standing; none on a body without symmetry";
+        unstable: bool = "whether it grows";
+    }
 
-/// A mode and how far it is away.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct NearestMode {
-    /// The mode.
-    #[serde(flatten)]
-    pub mode: ModeSummary,
-    /// Distance relative to the frequency of the vibration.
-    pub distance: f64,
+    /// A mode and how far it is away.
+    NearestMode {
+        #[serde(flatten)]
+        mode: ModeSummary = "the mode";
+        distance: f64 = "distance relative to the frequency of the vibration";
+    }
 }
 
 impl NearestMode {

@@ -21,9 +21,8 @@ pub enum FolderError {
     Busy(PathBuf),
     /// No space left.
     #[error(
-        "no room left: {} was not written, because the disk is full or a quota or file size limit \
-         is reached. Files finished before are whole. Make room, or choose another folder with \
-         --out",
+        "no room left: {} was not written, because the disk is full or a quota or file size limit is reached. Files \
+         finished before are whole. Make room, or choose another folder with --out",
         .0.display()
     )]
     DiskFull(PathBuf),

@@ -51,8 +51,7 @@ pub(crate) fn try_lock(path: &Path) -> Result<(Lock, Company), FolderError> {
     Ok((Lock(file), company))
 }
 
-/// Holds the folder's lock shared, after `enter` has run: under the exclusive lock if no other
-/// process is there.
+/// Holds the folder's lock shared, after `enter` has run: under the exclusive lock if no other process is there.
 pub(crate) fn share(
     path: &Path,
     enter: impl FnOnce(Company) -> Result<(), FolderError>,

@@ -1,31 +1,24 @@
 //! Manifest of a result: program, case and inputs.
 
-use frictionsim_output::Described;
-use serde::{Deserialize, Serialize};
+use crate::keys::keys;
+use serde::Deserialize;
 
-/// Everything needed to make a result again; part of every summary and of the output folder.
-///
-/// Holds no time of day: the same run writes the same manifest.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Described, Serialize, Deserialize)]
-pub struct Manifest {
-    /// Program name.
-    pub program: String,
-    /// Program version.
-    pub version: String,
-    /// Subcommand.
-    pub command: String,
-    /// Case file as the user named it.
-    pub case_file: String,
-    /// Text of the case file.
-    pub case_text: String,
-    /// SHA-256 of the effective case, overrides included.
-    pub case_hash: String,
-    /// Overrides `KEY=VALUE` in the order given.
-    pub overrides: Vec<String>,
-    /// Worker threads.
-    pub threads: usize,
-    /// SIMD level that the kernels ran with.
-    pub simd: String,
+keys! {
+    /// Everything needed to make a result again; part of every summary and of the output folder.
+    ///
+    /// Holds no time of day: the same run writes the same manifest.
+    #[derive(Default, Eq, Deserialize)]
+    Manifest {
+        program: String = "program name";
+        version: String = "program version";
+        command: String = "subcommand";
+        case_file: String = "case file as the user named it";
+        case_text: String = "text of the case file";
+        case_hash: String = "SHA-256 of the effective case, overrides included";
+        overrides: Vec<String> = "overrides `KEY=VALUE` in the order given";
+        threads: usize = "worker threads";
+        simd: String = "SIMD level that the kernels ran with";
+    }
 }
 
 impl Manifest {

@@ -54,8 +54,7 @@ fn inflated<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
 /// Reads the record of a folder.
 ///
 /// # Errors
-/// [`FolderError::Unusable`] if it is missing, damaged or of another version; those of the file
-/// system.
+/// [`FolderError::Unusable`] if it is missing, damaged or of another version; those of the file system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
     let unusable = |reason: String| FolderError::no_results(folder, reason);
     let bytes = read_existing(&folder.join(T::FILE))?;

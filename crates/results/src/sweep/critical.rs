@@ -4,6 +4,7 @@ use super::record::{PointRecord, listed};
 use crate::cea::{CriticalFriction, arrow};
 use crate::charts::palette::STABLE;
 use crate::parameter::parameter_axis;
+use crate::sorted;
 use frictionsim_chart::{Axis, Figure, Fill, Label, Line, Panel, Scale, look};
 use std::collections::BTreeSet;
 
@@ -26,8 +27,7 @@ pub fn critical_friction(records: &[PointRecord], highest: f64) -> Option<Figure
         let onsets = record.summaries.get("cea")?.get("critical_frictions");
         Some((record.swept.get(key)?.as_f64()?, listed::<CriticalFriction>(onsets)))
     };
-    let mut points: Vec<_> = records.iter().filter_map(point).collect();
-    frictionsim_physics::order::sort_by_number(&mut points, |a| a.0);
+    let mut points = sorted(records.iter().filter_map(point), |own| own.0);
     points.dedup_by(|a, b| a.0 == b.0);
     if points.len() < 2 {
         return None;

@@ -109,8 +109,7 @@ impl Drop for Claim {
 }
 
 impl SweepFolder {
-    /// Takes the folder for a run of `points` (numbers from 1) out of `count`, creating it where it
-    /// is missing.
+    /// Takes the folder for a run of `points` (numbers from 1) out of `count`, creating it where it is missing.
     ///
     /// # Errors
     /// [`FolderError::OtherCase`] and [`FolderError::Unusable`] unless `start` is [`Start::Over`];

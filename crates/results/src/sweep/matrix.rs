@@ -68,8 +68,7 @@ impl<'a> OperatingMatrix<'a> {
         let fastest = modes.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
         if let Some((condition, mode)) = fastest {
             text += &format!(
-                "; the fastest, {} Hz, grows by {} 1/s at friction {} of the eigenvalue analysis, \
-                 point {} ({})",
+                "; the fastest, {} Hz, grows by {} 1/s at friction {} of the eigenvalue analysis, point {} ({})",
                 fixed(mode.frequency_hz, 1),
                 fixed(mode.growth_rate_per_s, 1),
                 condition.friction_coefficient,

@@ -191,8 +191,7 @@ impl Layout {
     }
 
     fn caption(&self) -> String {
-        let mut caption = "Unstable modes under the operating conditions of the study: frequency, \
-        marked by growth rate"
+        let mut caption = "Unstable modes under the operating conditions of the study: frequency, marked by growth rate"
             .to_owned();
         if self.panel_count() > PANELS {
             caption += &format!(

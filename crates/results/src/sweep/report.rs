@@ -4,10 +4,10 @@ use super::PointRecord;
 use super::matrix::OperatingMatrix;
 use super::swept::{heads, of_points};
 use super::table::cell;
+use crate::keys::keys;
 use crate::{grouped, number_ranges};
 use frictionsim_chart::extremes;
-use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, significant};
-use serde::Serialize;
+use frictionsim_output::{Cell, Document, Format, Section, Table, columns, significant};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
@@ -78,40 +78,27 @@ pub struct SweepReport<'a> {
     pub wall_s: f64,
 }
 
-/// `summary.json` of `frictionsim sweep`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SweepSummary {
-    /// Swept keys.
-    pub swept: Vec<String>,
-    /// Analyses at each point.
-    pub analyses: Vec<String>,
-    /// Points of the whole sweep.
-    pub points: usize,
-    /// Finished points.
-    pub finished: usize,
-    /// Points that this process ran; absent if it only gathered.
-    pub ran: Option<usize>,
-    /// Points that failed.
-    pub failed: Vec<FailedPoint>,
-    /// Numbers of those that are not finished.
-    pub missing: Vec<usize>,
-    /// Time that the points kept cores busy, s.
-    pub core_s: f64,
-    /// Points done in an hour of one core.
-    pub points_per_core_hour: Option<f64>,
-    /// What to know before points are compared.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// `summary.json` of `frictionsim sweep`.
+    SweepSummary {
+        swept: Vec<String> = "swept keys";
+        analyses: Vec<String> = "analyses at each point";
+        points: usize = "points of the whole sweep";
+        finished: usize = "finished points";
+        ran: Option<usize> = "points that this process ran; absent if it only gathered";
+        failed: Vec<FailedPoint> = "points that failed";
+        missing: Vec<usize> = "numbers of those that are not finished";
+        core_s: f64 = "time that the points kept cores busy, s";
+        points_per_core_hour: Option<f64> = "points done in an hour of one core";
+        notes: Vec<String> = "what to know before points are compared";
+    }
 
-/// A point that failed, and why.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct FailedPoint {
-    /// Its number, from 1.
-    pub point: usize,
-    /// Swept keys and their values.
-    pub swept: Map<String, Value>,
-    /// Why.
-    pub error: Option<String>,
+    /// A point that failed, and why.
+    FailedPoint {
+        point: usize = "its number, from 1";
+        swept: Map<String, Value> = "swept keys and their values";
+        error: Option<String> = "why";
+    }
 }
 
 impl SweepSummary {

@@ -78,8 +78,7 @@ pub fn read_checkpoint(
     let checkpoint: Checkpoint = decoded(&bytes).map_err(|defect| {
         unusable(match defect {
             Defect::Version(found) => format!(
-                "has format {found}, this version reads format {}: resume with the version that \
-                 wrote it, or {again}",
+                "has format {found}, this version reads format {}: resume with the version that wrote it, or {again}",
                 Checkpoint::VERSION
             ),
             Defect::Damage(reason) => {

@@ -107,9 +107,8 @@ pub(super) fn energy(run: &RecordedRun<'_>) -> Figure {
         .layers([&total, &strain, &kinetic].map(|course| course.line(&times, 1.0)));
     Figure::new(
         "energy",
-        "Energy flows: acceleration, contact status, external power and its parts, and the power \
-         balance of the body. External power is the sum of what is dissipated, stored energy and \
-         the residual of the balance.",
+        "Energy flows: acceleration, contact status, external power and its parts, and the power balance of the body. \
+         External power is the sum of what is dissipated, stored energy and the residual of the balance.",
     )
     .shared_x()
     .panels(acceleration)

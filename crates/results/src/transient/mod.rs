@@ -6,7 +6,6 @@ mod figures;
 mod files;
 mod run;
 mod signals;
-mod stages;
 mod summary;
 mod tables;
 

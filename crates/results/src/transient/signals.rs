@@ -1,7 +1,7 @@
 //! Figures of the probes' signals and of the harmonics of the contact edge.
 
 use super::run::RecordedRun;
-use super::stages::stages;
+use super::run::stages;
 use crate::charts::{
     ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
     with_stages,
@@ -200,8 +200,7 @@ impl RecordedRun<'_> {
                  the rates of the eigenvalue analysis."
             }
             (false, true) => {
-                "Growth of the tangential vibration of the contact edge, with the rate of the \
-                 eigenvalue analysis."
+                "Growth of the tangential vibration of the contact edge, with the rate of the eigenvalue analysis."
             }
             (false, false) => {
                 "Vibration of the contact edge about its final mean; there is no linear stage."

@@ -2,6 +2,7 @@
 
 use super::RecordedRun;
 use crate::extent::Extent;
+use crate::keys::keys;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;
 use frictionsim_physics::transient::{
@@ -10,101 +11,66 @@ use frictionsim_physics::transient::{
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// `summary.json` of `frictionsim transient`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct TransientSummary {
-    /// Whether the run reached its end, or stopped because it had settled.
-    pub finished: bool,
-    /// Steps done.
-    pub steps: u64,
-    /// Time step, s.
-    pub time_step_s: f64,
-    /// Time of the last sample, s.
-    pub end_time_s: f64,
-    /// Largest stable step, s.
-    pub stability_limit_s: f64,
-    /// `omega_max`, rad/s.
-    pub largest_frequency_rad_per_s: f64,
-    /// `cyclic` or `sparse`.
-    pub operator: String,
-    /// State at the start.
-    pub initial: String,
-    /// Velocity that was added.
-    pub perturbation: PerturbationSummary,
-    /// Elements times steps for each second of stepping.
-    pub element_steps_per_s: f64,
-    /// Largest energy balance residual.
-    pub max_balance_residual: f64,
-    /// Whether amplitude, frequency and status drift by less than 1 % over the last fifth of the run.
-    pub settled: bool,
-    /// Since when, s.
-    pub settled_from_s: Option<f64>,
-    /// `limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, `separated` or `unsettled`.
-    pub end_state: String,
-    /// Both frequencies of a motion of two, the stronger first, Hz; absent otherwise.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequencies_hz: Option<[f64; 2]>,
-    /// Largest over smallest envelope of a motion of two frequencies over the last fifth; absent otherwise.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub envelope_ratio: Option<f64>,
-    /// Why it is unsettled.
-    pub unsettled_because: Option<String>,
-    /// Drift over the last fifth.
-    pub drift: Option<Drift>,
-    /// Main frequency over the last fifth, Hz; absent where nothing vibrates.
-    pub main_frequency_hz: Option<f64>,
-    /// Harmonic of that vibration.
-    pub main_harmonic: Option<usize>,
-    /// Its root mean square, tangential displacement of the contact edge, m.
-    pub main_amplitude_m: Option<f64>,
-    /// Fractions of contact nodes over the last fifth.
-    pub status: StatusFractions,
-    /// Mean powers over the last fifth.
-    pub power_w: MeanPowers,
-    /// What powers, energies and forces are of, in the tables too.
-    pub extent: Extent,
-    /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is
-    /// none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ambiguous_friction: Option<f64>,
-    /// Steps in which the forces between two bodies had not converged; absent where there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unconverged_steps: Option<u64>,
-    /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m; empty for a body
-    /// without symmetry.
-    pub harmonics: Vec<f64>,
-    /// The same of all harmonics `n >= 1` above a thousandth of the largest, by `nN`.
-    pub significant_harmonics_m: BTreeMap<String, f64>,
-    /// Rates in the linear stage of the perturbed harmonics that have one; of a body without symmetry that of its
-    /// strongest vibration.
-    pub growth: Vec<GrowthSummary>,
-    /// Why the others have none, by `nN`; `strongest` for a body without symmetry.
-    pub no_growth: BTreeMap<String, String>,
-    /// When the first node sticks or opens after the linear stage, s.
-    pub first_nonlinearity_s: Option<f64>,
-    /// Motion of the probes over the last fifth, by node.
-    pub probes: BTreeMap<String, ProbeSummary>,
-    /// Time between the frames of `contact.npz`, s.
-    pub contact_interval_s: f64,
-    /// What to know before its numbers are used.
-    pub notes: Vec<String>,
-}
+keys! {
+    /// `summary.json` of `frictionsim transient`.
+    TransientSummary {
+        finished: bool = "whether the run reached its end, or stopped because it had settled";
+        steps: u64 = "steps done";
+        time_step_s: f64 = "time step, s";
+        end_time_s: f64 = "time of the last sample, s";
+        stability_limit_s: f64 = "largest stable step, s";
+        largest_frequency_rad_per_s: f64 = "`omega_max`, rad/s";
+        operator: String = "`cyclic` or `sparse`";
+        initial: String = "state at the start";
+        perturbation: PerturbationSummary = "velocity that was added";
+        element_steps_per_s: f64 = "elements times steps for each second of stepping";
+        max_balance_residual: f64 = "largest energy balance residual";
+        settled: bool = "whether amplitude, frequency and status drift by less than 1 % over the last fifth of the run";
+        settled_from_s: Option<f64> = "since when, s";
+        end_state: String = "`limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, `separated` or `unsettled`";
+        frequencies_hz?: [f64; 2]
+            = "both frequencies of a motion of two, the stronger first, Hz; absent otherwise";
+        envelope_ratio?: f64 = "largest over smallest envelope of a motion of two \
+            frequencies over the last fifth; absent otherwise";
+        unsettled_because: Option<String> = "why it is unsettled";
+        drift: Option<Drift> = "drift over the last fifth";
+        main_frequency_hz: Option<f64>
+            = "main frequency over the last fifth, Hz; absent where nothing vibrates";
+        main_harmonic: Option<usize> = "harmonic of that vibration";
+        main_amplitude_m: Option<f64>
+            = "its root mean square, tangential displacement of the contact edge, m";
+        status: StatusFractions = "fractions of contact nodes over the last fifth";
+        power_w: MeanPowers = "mean powers over the last fifth";
+        extent: Extent = "what powers, energies and forces are of, in the tables too";
+        ambiguous_friction?: f64 = "share of the steps of contact nodes that could have \
+            ended in stick and in slip alike; absent where there is none";
+        unconverged_steps?: u64 = "steps in which the forces between two bodies had not \
+            converged; absent where there is none";
+        harmonics: Vec<f64> = "mean amplitudes of the harmonics 0 to 8 of the contact edge's \
+            tangential displacement, m; empty for a body without symmetry";
+        significant_harmonics_m: BTreeMap<String, f64>
+            = "the same of all harmonics `n >= 1` above a thousandth of the largest, by `nN`";
+        growth: Vec<GrowthSummary> = "rates in the linear stage of the perturbed harmonics that \
+            have one; of a body without symmetry that of its strongest vibration";
+        no_growth: BTreeMap<String, String>
+            = "why the others have none, by `nN`; `strongest` for a body without symmetry";
+        first_nonlinearity_s: Option<f64>
+            = "when the first node sticks or opens after the linear stage, s";
+        probes: BTreeMap<String, ProbeSummary>
+            = "motion of the probes over the last fifth, by node";
+        contact_interval_s: f64 = "time between the frames of `contact.npz`, s";
+        notes: Vec<String> = "what to know before its numbers are used";
+    }
 
-/// The velocity that was added.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct PerturbationSummary {
-    /// Circumferential harmonics.
-    pub harmonics: Vec<usize>,
-    /// Amplitude, m/s.
-    pub velocity: OneOrEach,
-    /// Phase, degrees.
-    pub phase_deg: OneOrEach,
-    /// Standard deviation of the random part, m/s.
-    pub noise: f64,
-    /// Its seed.
-    pub noise_seed: u64,
-    /// When it was added, s.
-    pub at_s: f64,
+    /// The velocity that was added.
+    PerturbationSummary {
+        harmonics: Vec<usize> = "circumferential harmonics";
+        velocity: OneOrEach = "amplitude, m/s";
+        phase_deg: OneOrEach = "phase, degrees";
+        noise: f64 = "standard deviation of the random part, m/s";
+        noise_seed: u64 = "its seed";
+        at_s: f64 = "when it was added, s";
+    }
 }
 
 /// One number for all harmonics, or one for each.
@@ -127,61 +93,38 @@ impl OneOrEach {
     }
 }
 
-/// Growth of one harmonic, with 95 % intervals.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct GrowthSummary {
-    /// Circumferential harmonic; absent for a body without symmetry.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub harmonic: Option<usize>,
-    /// Rate, 1/s.
-    pub rate_per_s: f64,
-    /// Low end of its interval, 1/s.
-    pub rate_low_per_s: f64,
-    /// High end, 1/s.
-    pub rate_high_per_s: f64,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// +1 with the rotor, -1 against it; absent for a body without symmetry.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction: Option<i8>,
-}
+keys! {
+    /// Growth of one harmonic, with 95 % intervals.
+    #[derive(Copy)]
+    GrowthSummary {
+        harmonic?: usize = "circumferential harmonic; absent for a body without symmetry";
+        rate_per_s: f64 = "rate, 1/s";
+        rate_low_per_s: f64 = "low end of its interval, 1/s";
+        rate_high_per_s: f64 = "high end, 1/s";
+        frequency_hz: f64 = "frequency, Hz";
+        direction?: i8 = "+1 with the rotor, -1 against it; absent for a body without symmetry";
+    }
 
-/// Motion of a probe over the last fifth; accelerations are means over the sample interval.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct ProbeSummary {
-    /// Where it is, if it was asked for by its place.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub place: Option<PlaceSummary>,
-    /// Radially; absent on a plane counterface and of solid bodies of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub radial: Option<ProbeMotion>,
-    /// Along the normal of a plane counterface; absent of other bodies.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub normal: Option<ProbeMotion>,
-    /// Tangentially; absent of solid bodies of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tangential: Option<ProbeMotion>,
-    /// Along the axis; absent in the plane and of solid bodies of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial: Option<ProbeMotion>,
-    /// Along x, of solid bodies of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub x: Option<ProbeMotion>,
-    /// Along y, of solid bodies of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub y: Option<ProbeMotion>,
-    /// Along z, of solid bodies of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub z: Option<ProbeMotion>,
-}
+    /// Motion of a probe over the last fifth; accelerations are means over the sample interval.
+    #[derive(Copy)]
+    ProbeSummary {
+        place?: PlaceSummary = "where it is, if it was asked for by its place";
+        radial?: ProbeMotion
+            = "radially; absent on a plane counterface and of solid bodies of a mesh";
+        normal?: ProbeMotion = "along the normal of a plane counterface; absent of other bodies";
+        tangential?: ProbeMotion = "tangentially; absent of solid bodies of a mesh";
+        axial?: ProbeMotion = "along the axis; absent in the plane and of solid bodies of a mesh";
+        x?: ProbeMotion = "along x, of solid bodies of a mesh";
+        y?: ProbeMotion = "along y, of solid bodies of a mesh";
+        z?: ProbeMotion = "along z, of solid bodies of a mesh";
+    }
 
-/// A place that was asked for, and its nearest node.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct PlaceSummary {
-    /// The place, `x` and `y`, m.
-    pub asked_m: [f64; 2],
-    /// The node, m.
-    pub at_m: [f64; 2],
+    /// A place that was asked for, and its nearest node.
+    #[derive(Copy)]
+    PlaceSummary {
+        asked_m: [f64; 2] = "the place, `x` and `y`, m";
+        at_m: [f64; 2] = "the node, m";
+    }
 }
 
 /// The summary of a run.

@@ -92,8 +92,7 @@ fn course(summary: &TransientSummary) -> String {
         None => "no contact node sticks or opens".into(),
     };
     format!(
-        "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy \
-         balance closes to {:.1e}.",
+        "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy balance closes to {:.1e}.",
         fixed(1e3 * summary.end_time_s, 3),
         summary.steps,
         fixed(1e6 * summary.time_step_s, 4),
@@ -107,9 +106,8 @@ fn course(summary: &TransientSummary) -> String {
 fn warnings(summary: &TransientSummary) -> Vec<String> {
     let steep = summary.ambiguous_friction.map(|share| {
         format!(
-            "In {} % of the contact-node steps the friction law is too steep for the time step, \
-             and nodes jump between stick and slip. Reduce transient.time_step or raise \
-             contact.decay_speed.",
+            "In {} % of the contact-node steps the friction law is too steep for the time step, and nodes jump between \
+             stick and slip. Reduce transient.time_step or raise contact.decay_speed.",
             fixed(100.0 * share, 3)
         )
     });

@@ -1,7 +1,8 @@
 //! The figures of an uncertainty analysis.
 
-use super::summary::{DesignCurve, Index, RobustSummary, UncertaintySummary};
+use super::{DesignCurve, Index, RobustSummary, UncertaintySummary};
 use crate::parameter::{parameter_axis, parameter_name};
+use crate::sorted;
 use frictionsim_chart::{
     Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Rule, SERIES, Stroke, look,
 };
@@ -65,8 +66,7 @@ fn shown_friction(summary: &UncertaintySummary) -> f64 {
 /// Sobol's indices of the lowest critical friction.
 pub fn indices(summary: &UncertaintySummary) -> Figure {
     // The largest above.
-    let mut rows: Vec<_> = summary.sobol.iter().collect();
-    frictionsim_physics::order::sort_by_number(&mut rows, |a| a.1.total);
+    let rows = sorted(&summary.sobol, |a| a.1.total);
     let place = |k: usize| k as f64;
     let bars = |of: fn(&Index) -> f64, shift: f64, colour: &str| {
         let bar = |(k, row): (usize, &(&String, &Index))| {
@@ -99,9 +99,8 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
         .layers(whiskers);
     Figure::new(
         "indices",
-        "Sobol's indices of the lowest critical friction. Dark: the share of its variance that \
-         goes if the parameter is known (first order). Light: the share that stays if all others \
-         are known (total).",
+        "Sobol's indices of the lowest critical friction. Dark: the share of its variance that goes if the parameter \
+         is known (first order). Light: the share that stays if all others are known (total).",
     )
     .note("dark: first order; light: total; lines: 95 % intervals")
     .panel(panel)

@@ -205,8 +205,7 @@ impl Lines {
         let lines = self.x[first..last].iter().zip(&self.factor[first..last]);
         for ((x, factor), r) in lines.zip(&residual[first..last]) {
             let g = factor * inverse(*x, u, d);
-            // The second function is s g: g turned by a right angle and stretched by x, hence
-            // orthogonal to it.
+            // The second function is s g: g turned by a right angle and stretched by x, hence orthogonal to it.
             gg += g.norm_sqr();
             hh += g.norm_sqr() * x * x;
             gr += g.re * r.re + g.im * r.im;

@@ -83,14 +83,13 @@ impl ModalFit {
 
 /// Fits poles and numerators of a [`ModalModel`] to responses, starting from `starts`.
 ///
-/// Maximum likelihood under Gaussian noise with the variance of [`NoiseModel`], which is estimated
-/// along with the model. Several responses share the poles; numerators, remainder and noise are their own.
-/// While the residual shows it, the smooth remainder gets more terms (Akaike's criterion) and poles are
-/// added, within the range or beyond its ends (Bayes' criterion): a close pair that shows one peak is found
-/// as two. Standard errors come from the normal matrix, the residual variance and the correlation of
-/// successive residuals; they do not cover a wrong calibration nor leakage, nor poles that differ from one
-/// response to the next. Without phase no poles are added and signs of the numerators may be wrong, which
-/// the residual then tells.
+/// Maximum likelihood under Gaussian noise with the variance of [`NoiseModel`], which is estimated along with the
+/// model. Several responses share the poles; numerators, remainder and noise are their own. While the residual shows
+/// it, the smooth remainder gets more terms (Akaike's criterion) and poles are added, within the range or beyond its
+/// ends (Bayes' criterion): a close pair that shows one peak is found as two. Standard errors come from the normal
+/// matrix, the residual variance and the correlation of successive residuals; they do not cover a wrong calibration nor
+/// leakage, nor poles that differ from one response to the next. Without phase no poles are added and signs of the
+/// numerators may be wrong, which the residual then tells.
 ///
 /// # Errors
 /// [`SignalError::NoResonance`] without starts; [`SignalError::Unfit`] for fewer lines than
@@ -203,8 +202,7 @@ fn are_modes(poles: &[Pole]) -> bool {
     plausible && distinct
 }
 
-/// The pole whose functions take most out of the residual, on a grid reaching a tenth beyond the
-/// range.
+/// The pole whose functions take most out of the residual, on a grid reaching a tenth beyond the range.
 fn candidate(problem: &Problem, fitted: &Fitted, (begin, end): (f64, f64)) -> Option<Pole> {
     let model = &fitted.model;
     let residuals = problem.weighted_residuals(model);

@@ -51,11 +51,10 @@ impl HalfPowerBand {
 
 /// Resonances and damping factors by the half-power method.
 ///
-/// Works on the mobility, for which `zeta = (f_2 - f_1) / (2 f_0)` holds exactly at any damping of a
-/// single mode. Near the top `1/|Y|^2` is a parabola in frequency: one is fitted through the top and
-/// one through each flank, so that noise neither lifts the peak nor ends the band early. Does not
-/// correct for neighbouring modes: the tails of others change the width (see
-/// [`fit_modes`](super::fit_modes)); overlapping bands are marked.
+/// Works on the mobility, for which `zeta = (f_2 - f_1) / (2 f_0)` holds exactly at any damping of a single mode. Near
+/// the top `1/|Y|^2` is a parabola in frequency: one is fitted through the top and one through each flank, so that
+/// noise neither lifts the peak nor ends the band early. Does not correct for neighbouring modes: the tails of others
+/// change the width (see [`fit_modes`](super::fit_modes)); overlapping bands are marked.
 ///
 /// # Errors
 /// [`SignalError::NoResonance`] if no peak stands out from the noise.

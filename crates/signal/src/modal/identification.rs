@@ -12,8 +12,7 @@ use faer::Mat;
 pub struct Identification {
     /// Coefficients from the fitted damping factors.
     pub rayleigh: RayleighFit,
-    /// Coefficients from the half-power factors alone, where at least three modes have one that is
-    /// not in doubt.
+    /// Coefficients from the half-power factors alone, where at least three modes have one that is not in doubt.
     pub half_power_rayleigh: Option<RayleighFit>,
     /// Peaks of which the fit made no mode.
     pub unmatched: Vec<HalfPowerBand>,
@@ -24,11 +23,10 @@ pub struct Identification {
 /// Finds the resonances of responses within a range of frequencies, Hz, or of all, their damping factors and the
 /// Rayleigh coefficients.
 ///
-/// [`half_power`] finds the peaks; [`fit_modes`] starts from them; [`fit_rayleigh`] takes the fitted
-/// factors with their covariance, and beside it the half-power factors without. Several responses of one
-/// body are fitted with common poles; a peak that several of them show counts once. Close modes are
-/// marked in both lists: the half-power Rayleigh fit leaves them out, the other takes them with the
-/// covariance that their overlap gives them.
+/// [`half_power`] finds the peaks; [`fit_modes`] starts from them; [`fit_rayleigh`] takes the fitted factors with their
+/// covariance, and beside it the half-power factors without. Several responses of one body are fitted with common
+/// poles; a peak that several of them show counts once. Close modes are marked in both lists: the half-power Rayleigh
+/// fit leaves them out, the other takes them with the covariance that their overlap gives them.
 ///
 /// # Errors
 /// [`SignalError`]: no resonance in any response, resolution too coarse for every one of them, too few modes.

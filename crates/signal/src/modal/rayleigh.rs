@@ -53,9 +53,8 @@ pub struct RayleighFit {
 /// Rayleigh). A coefficient that would be negative is set to zero, and its interval begins there.
 ///
 /// # Errors
-/// [`SignalError::TooFewModes`] for fewer than 2 modes, or fewer than 3 without covariance;
-/// [`SignalError::Asked`] for a frequency not positive; [`SignalError::Fit`] for a covariance
-/// that is singular or modes at one frequency.
+/// [`SignalError::TooFewModes`] for fewer than 2 modes, or fewer than 3 without covariance; [`SignalError::Asked`] for
+/// a frequency not positive; [`SignalError::Fit`] for a covariance that is singular or modes at one frequency.
 pub fn fit_rayleigh(
     samples: &[Pole],
     covariance: Option<&Mat<f64>>,

@@ -111,8 +111,7 @@ pub(super) fn unreadable(field: &str, name: &str) -> String {
     let field = shortened(field);
     if field.contains(',') && field.contains('.') {
         return format!(
-            "`{field}` mixes comma and point; write numbers without thousands separators, as \
-             1234.5 or 1234,5"
+            "`{field}` mixes comma and point; write numbers without thousands separators, as 1234.5 or 1234,5"
         );
     }
     not_a_number(&field, name)

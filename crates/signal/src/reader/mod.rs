@@ -1,13 +1,12 @@
 //! Files of measured data, read where their meaning is clear.
 //!
-//! Text tables, understood without being told: separators `,` `;` tab and blanks; decimal commas
-//! (where the separator is another one). Windows and old Macintosh line ends; byte-order marks,
-//! UTF-8, UTF-16 and Latin-1. Lines of comment (`#`, `%`, `//`, `!`, `*`), titles above the header,
-//! a row of units beneath it. Quoted names; complex numbers (`0.1+0.2j`); time stamps; frequencies
-//! out of order; listings of ANSYS POST26. Universal files (datasets 58 and 58b), WAV and MATLAB
-//! files up to version 7 are told by their first bytes. Everything else is a [`ReadError`] with the
-//! name of the source, line, column and what to do. The reader never touches a file: it is given
-//! bytes and the name to use in messages.
+//! Text tables, understood without being told: separators `,` `;` tab and blanks; decimal commas (where the separator
+//! is another one). Windows and old Macintosh line ends; byte-order marks, UTF-8, UTF-16 and Latin-1. Lines of comment
+//! (`#`, `%`, `//`, `!`, `*`), titles above the header, a row of units beneath it. Quoted names; complex numbers
+//! (`0.1+0.2j`); time stamps; frequencies out of order; listings of ANSYS POST26. Universal files (datasets 58 and
+//! 58b), WAV and MATLAB files up to version 7 are told by their first bytes. Everything else is a [`ReadError`] with
+//! the name of the source, line, column and what to do. The reader never touches a file: it is given bytes and the name
+//! to use in messages.
 
 mod columns;
 mod contents;

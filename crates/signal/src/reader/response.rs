@@ -26,16 +26,12 @@ pub struct ResponseOptions {
 /// in decibel, 20 log10 over a reference) and phase (degrees or radians), or magnitude alone; each of them
 /// any number of times; a universal file of datasets 58; a MATLAB file of such columns.
 ///
-/// Columns are found by name; without names, two columns are frequency and magnitude, and three are
-/// frequency, real and imaginary part if both change sign. Where nothing says the quantity (accelerance or
-/// inertance, mobility, receptance or compliance, or units such as `m/s2/N`), accelerance is assumed and
-/// noted. Rows out of order are sorted; a frequency repeated with the same values counts once. A response
-/// whose phase rises through its resonances is of the convention `exp(-i omega t)`: it is conjugated. A
-/// column of coherence becomes the weight of its response. Values in `g/N` become m/s2/N; other units are
-/// taken as SI.
-///
-/// # Errors
-/// [`ReadError`] with source name, line and column.
+/// Columns are found by name; without names, two columns are frequency and magnitude, and three are frequency, real and
+/// imaginary part if both change sign. Where nothing says the quantity (accelerance or inertance, mobility, receptance
+/// or compliance, or units such as `m/s2/N`), accelerance is assumed and noted. Rows out of order are sorted; a
+/// frequency repeated with the same values counts once. A response whose phase rises through its resonances is of the
+/// convention `exp(-i omega t)`: it is conjugated. A column of coherence becomes the weight of its response. Values in
+/// `g/N` become m/s2/N; other units are taken as SI.
 pub fn read_response(
     bytes: &[u8],
     source: &str,
@@ -155,8 +151,7 @@ fn values(table: &Table, layout: Layout) -> Result<Vec<c64>, ReadError> {
                 };
                 if modulus < 0.0 {
                     let problem = format!(
-                        "magnitude {value} is negative; if it is in decibels, say so in the header \
-                         (magnitude_db)"
+                        "magnitude {value} is negative; if it is in decibels, say so in the header (magnitude_db)"
                     );
                     return Err(table.error(i, magnitude, problem));
                 }
@@ -194,8 +189,7 @@ fn ordered(
                 if values.iter().any(|v| v[last.1] != v[row.1]) {
                     let (value, first) = (row.0, table.line(last.1));
                     let problem = format!(
-                        "frequency {value} Hz is already in line {first} with another value; keep \
-                         one of the rows"
+                        "frequency {value} Hz is already in line {first} with another value; keep one of the rows"
                     );
                     return Err(table.error(row.1, column, problem));
                 }

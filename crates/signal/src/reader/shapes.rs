@@ -73,9 +73,8 @@ fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
     let place = |known: &&[&str]| names.iter().position(|name| known.contains(&name.as_str()));
     let [x, y, z, ux, ux_im, uy, uy_im, uz, uz_im, mode, frequency] = COLUMNS.each_ref().map(place);
     if x.is_none() || y.is_none() || ux.or(uy).or(uz).is_none() {
-        let remedy = "the first line names the columns: x, y, z in metres, and of ux, uy, uz \
-            those measured. Complex ones are 0.1+0.2j, or two columns ux_re, ux_im. Several \
-            shapes have mode and frequency_hz";
+        let remedy = "the first line names the columns: x, y, z in metres, and of ux, uy, uz those measured. Complex \
+            ones are 0.1+0.2j, or two columns ux_re, ux_im. Several shapes have mode and frequency_hz";
         let problem = missing_column("points and displacements", &first_of(&names), remedy);
         return Err(ReadError::whole(source, problem));
     }

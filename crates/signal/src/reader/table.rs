@@ -321,9 +321,8 @@ fn refuse_decimal_comma_separators(
     let named = head.last().map_or(0, |(_, header)| fields(header, separator).count());
     if separator == Separator::Comma && named > 1 && found > named {
         let problem = format!(
-            "{found} fields separated by commas where the header names {named}: the comma seems to \
-             be both separator and decimal sign. Export with decimal points or separate by \
-             semicolons"
+            "{found} fields separated by commas where the header names {named}: the comma seems to be both separator \
+             and decimal sign. Export with decimal points or separate by semicolons"
         );
         return Err(ReadError::at(source, first.0, 1, problem));
     }

@@ -1,5 +1,4 @@
-//! Universal files: responses and signals (dataset 58 in text), meshes (164, 2411, 2412), complex
-//! mode shapes (55).
+//! Universal files: responses and signals (dataset 58 in text), meshes (164, 2411, 2412), complex mode shapes (55).
 //!
 //! Source: SDRC, "Universal file datasets", by their numbers.
 
@@ -49,9 +48,6 @@ pub fn write_signal(file: &SignalFile) -> String {
 
 /// A mesh: units (164, SI), nodes (2411) by label and place (m), elements (2412) by descriptor and
 /// labels of nodes in the order of the descriptor, numbered from 1.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_mesh(
     out: &mut dyn Write,
     nodes: &mut dyn Iterator<Item = (usize, [f64; 3])>,
@@ -92,9 +88,6 @@ pub struct ModeData<'a> {
 
 /// A complex mode as dataset 55: displacements at nodes in single precision, which is what its form
 /// `6E13.5` holds.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_mode(out: &mut dyn Write, mode: &ModeData<'_>) -> io::Result<()> {
     let row = |values: &[c64]| complex_row(values, 13, 5);
     writeln!(out, "    -1\n    55\n{}\nNONE\nNONE\nNONE\nNONE", mode.name)?;

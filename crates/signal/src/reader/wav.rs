@@ -54,8 +54,7 @@ pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadErr
     })
 }
 
-/// How many times slower a record of this sampling rate is played, so that a player takes it: 1, 2, 5, 10,
-/// 20, ...
+/// How many times slower a record of this sampling rate is played, so that a player takes it: 1, 2, 5, 10, 20, ...
 pub fn slowdown(sampling_rate: f64) -> u32 {
     let steps = [1, 2, 5].map(f64::from);
     let factors = (0..8).flat_map(|k| steps.map(|step| step * 10f64.powi(k)));

@@ -1,5 +1,7 @@
 //! Where along a parameter steady sliding loses its stability.
 
+use frictionsim_results::sorted;
+
 /// Share of the interval that an onset is known to.
 const NEAR: f64 = 1e-7;
 /// Values of a range, evenly over it, at which growth is looked for.
@@ -10,8 +12,7 @@ const LOOKED_AT: usize = 9;
 pub(super) fn candidates(values: &[f64], here: f64) -> Vec<f64> {
     let last = values.len() - 1;
     let by_distance = |places: &mut dyn Iterator<Item = usize>| {
-        let mut own: Vec<f64> = places.map(|place| values[place]).collect();
-        frictionsim_physics::order::sort_by_number(&mut own, |a| (a - here).abs());
+        let mut own = sorted(places.map(|place| values[place]), |own| (own - here).abs());
         own.dedup();
         own
     };

@@ -228,9 +228,6 @@ pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCyc
 }
 
 /// That there is no cycle is an answer where steady sliding is stable, else a failure.
-///
-/// # Errors
-/// [`StudyError::NoCycle`].
 pub fn refuse_nothing(found: &CycleSummary) -> Result<(), StudyError> {
     let cycles = &found.cycles;
     if found.steady_sliding_stable || cycles.iter().any(|own| own.cycle.is_some()) {

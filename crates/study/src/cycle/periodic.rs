@@ -287,9 +287,8 @@ impl<'a> PeriodicStudy<'a> {
             let value = |value: f64| parameter.in_key_units(value);
             let [least, most] = branch.range().unwrap_or([f64::NAN; 2]).map(value);
             return Err(CycleError::NotFound(format!(
-                "steady sliding is stable at {} = {} and has no limit cycle beside it. Those of \
-                 this mode live from {least:.4} to {most:.4} within the range of \
-                 cycle.continuation",
+                "steady sliding is stable at {} = {} and has no limit cycle beside it. Those of this mode live from \
+                 {least:.4} to {most:.4} within the range of cycle.continuation",
                 parameter.key(),
                 value(parameter.of(&operating_point(self.case)))
             )));

@@ -13,24 +13,21 @@
 //! ```
 
 mod contact;
-mod dampings;
 mod model;
 mod notes;
 mod reading;
 mod sensitivity;
 mod sliding;
-mod solid;
 mod solve;
 mod spectrum;
 mod states;
 mod whole;
 
 pub use contact::{SolidState, SteadyState};
-pub use dampings::dampings;
 pub use model::{Model, Solver, asked_modes, wave_tangent};
 pub use sensitivity::body_sensitivities;
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};
-pub use sliding::SlidingModel;
+pub use sliding::{SlidingModel, dampings};
 pub use solve::{Solved, solve, solved};
 pub(super) use spectrum::analysis;
 pub use spectrum::{
@@ -81,9 +78,6 @@ const MOST_TABLED: usize = 3_000;
 /// table.
 ///
 /// Modes without friction are counted: by one factorization of `K - omega^2 M`, or by one of each harmonic.
-///
-/// # Errors
-/// As [`SlidingModel::new`] and [`refuse_no_modes`].
 pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     let SlidingModel { model, mesh, .. } = SlidingModel::new(case, cea)?;
     // Tables hold the frequencies of all modes, or not. There may be fewer modes than asked for where these are many.

@@ -73,8 +73,7 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         key => (key.clone(), format!("{key} = 0")),
     };
     Err(refusal!(case, &key,
-        "{why}: the contact sticks at rest, and there is no steady sliding whose eigenvalues could \
-         be solved";
+        "{why}: the contact sticks at rest, and there is no steady sliding whose eigenvalues could be solved";
         "must not be zero for an eigenvalue analysis";
         "give a speed, however small; its sign is the sense of the sliding"))
 }
@@ -173,9 +172,8 @@ pub fn wave_tangent(
 fn reduction_note(found: &WaveSweep, request: &SweepRequest<'_>) -> String {
     let frictions = request.friction_coefficients.iter();
     format!(
-        "each harmonic is solved in a small space (residuals are those there): relative error of \
-        an eigenvalue up to {:.1e}, \
-         estimated at friction {}",
+        "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to \
+        {:.1e}, estimated at friction {}",
         found.reduction_error,
         frictions.fold(0.0_f64, |m, &mu| m.max(mu)),
     )

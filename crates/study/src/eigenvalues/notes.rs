@@ -2,7 +2,7 @@
 
 use super::SlidingModel;
 use super::contact::SteadyState;
-use super::solid::mean_friction;
+use super::contact::mean_friction;
 use frictionsim_case::{BodyKind, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeCount, UnstableInterval};
@@ -14,8 +14,7 @@ use std::f64::consts::TAU;
 pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {
     if cea.count_modes && is_by_harmonics {
         return vec![
-            "cea.count_modes: harmonics are counted at quarters of the friction range, as said \
-             above"
+            "cea.count_modes: harmonics are counted at quarters of the friction range, as said above"
                 .to_owned(),
         ];
     }
@@ -57,9 +56,8 @@ pub(super) fn table_notes(case: &Case) -> Vec<String> {
     let notes = case.body.tables().map(|table| {
         let [low, high] = table.range_hz();
         format!(
-            "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} \
-             Hz. The base state, and what damping.stiffness_coefficient multiplies, have the \
-             modulus of the lowest one, {:e} Pa",
+            "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} Hz. The base state, \
+             and what damping.stiffness_coefficient multiplies, have the modulus of the lowest one, {:e} Pa",
             table.key,
             table.file,
             table.static_modulus()
@@ -107,9 +105,8 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
         )
     });
     Some(format!(
-        "rounding of the matrices alone leaves eigenvalues uncertain by up to {worst:.0e} \
-         (relative): {penalty}material.poisson_ratio is {}, contact.friction_coefficient {}. Where \
-         branches meet no digit is safe",
+        "rounding of the matrices alone leaves eigenvalues uncertain by up to {worst:.0e} (relative): \
+         {penalty}material.poisson_ratio is {}, contact.friction_coefficient {}. Where branches meet no digit is safe",
         case.material.poisson_ratio, case.contact.sliding.friction_coefficient,
     ))
 }
@@ -135,8 +132,7 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
         ),
         BodyKind::Assembly(_) if at_limit <= 0.5 => (
             largest,
-            "damping of regions, losses, dashpots, or friction across a slow sliding \
-             (a dashpot of mu p / V) causes it",
+            "damping of regions, losses, dashpots, or friction across a slow sliding (a dashpot of mu p / V) causes it",
         ),
         _ => (
             largest.max(at_limit),
@@ -171,17 +167,15 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let which = ["mode near critical damping is", "modes near critical damping are"];
     let damped = listed(damped, which).map(|(which, places)| {
         format!(
-            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot \
-             of mu p / V there. It grows as the sliding slows down, and holds that motion in the \
-             limit"
+            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot of mu p / V there. It \
+             grows as the sliding slows down, and holds that motion in the limit"
         )
     });
     let lost = listed(lost, ["branch changes", "branches change"]).map(|(which, places)| {
         format!(
-            "{which} too fast to be followed ({places}): branches beyond have new numbers. If one \
-             is unstable there, its critical friction lies in between. Ask for friction \
-             coefficients closer together there, or for a faster sliding. cea.count_modes says \
-             whether a mode is missing"
+            "{which} too fast to be followed ({places}): branches beyond have new numbers. If one is unstable there, \
+             its critical friction lies in between. Ask for friction coefficients closer together there, or for a \
+             faster sliding. cea.count_modes says whether a mode is missing"
         )
     });
     let open = listed(open.collect(), ["mode has", "modes have"])
@@ -202,9 +196,8 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     });
     let statically = sweep.intervals.iter().find(|own| own.branch == 0).map(|own| {
         format!(
-            "steady sliding is statically unstable from friction {:.6} on: a motion grows without \
-             oscillating, as in a part that digs in or buckles. It is branch 0 at 0 Hz, and none \
-             of the modes listed",
+            "steady sliding is statically unstable from friction {:.6} on: a motion grows without oscillating, as in a \
+             part that digs in or buckles. It is branch 0 at 0 Hz, and none of the modes listed",
             own.critical_friction
         )
     });
@@ -263,11 +256,10 @@ pub(super) fn overdamped_note(
     let friction = most.friction_coefficient;
     let (speed, law, pressure) = mean_friction(solid);
     Some(format!(
-        "at friction {friction} {} motions (each wave of a pair counted) hardly oscillate. They \
-         decay at {slowest:.3e} to {fastest:.3e} 1/s{grows}, and are not listed. Friction across \
-         the sliding overdamps them: it is a dashpot of mu p / V = {:.3e} Pa s/m at the mean \
-         pressure and radius. It grows as contact.rotation_speed_rpm = {} falls, and holds that \
-         motion in the limit",
+        "at friction {friction} {} motions (each wave of a pair counted) hardly oscillate. They decay at {slowest:.3e} \
+         to {fastest:.3e} 1/s{grows}, and are not listed. Friction across the sliding overdamps them: it is a dashpot \
+         of mu p / V = {:.3e} Pa s/m at the mean pressure and radius. It grows as contact.rotation_speed_rpm = {} \
+         falls, and holds that motion in the limit",
         most.count,
         friction * law.drag.abs() * pressure / speed,
         case.number("contact.rotation_speed_rpm")
@@ -294,10 +286,9 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
         }
     };
     Some(format!(
-        "friction falls with speed: friction coefficients are those of high speed. In steady \
-         sliding friction is {:.4} times as large. At contact.friction_coefficient = {friction} \
-         its fall is a dashpot of {:.3e} Pa s/m on the tangential motion of the edge (mean \
-         pressure {pressure:.3e} Pa)",
+        "friction falls with speed: friction coefficients are those of high speed. In steady sliding friction is {:.4} \
+         times as large. At contact.friction_coefficient = {friction} its fall is a dashpot of {:.3e} Pa s/m on the \
+         tangential motion of the edge (mean pressure {pressure:.3e} Pa)",
         law.drag.abs(),
         friction * pressure * law.slope,
     ))

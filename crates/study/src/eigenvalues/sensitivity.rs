@@ -51,9 +51,6 @@ struct Place {
 ///
 /// Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986),
 /// section on the semi-analytical method.
-///
-/// # Errors
-/// Those of the base state.
 pub fn body_sensitivities(
     case: &Case,
     cea: &Cea,

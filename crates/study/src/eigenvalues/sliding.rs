@@ -1,17 +1,17 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
 use super::StudyError;
-use super::contact::{SolidState, SteadyState};
+use super::contact::{SolidState, SteadyState, solved_solid};
 use super::model::Model;
-use super::solid;
 use crate::extent_of;
 use frictionsim_case::{AssemblyBody, BodyKind, Case, Cea, refusal};
+use frictionsim_chart::literal;
 use frictionsim_physics::contact::{ContactInterface, ContactSurface};
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, Strip};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SlidingSurfaces, TangentOptions};
 use frictionsim_results::ShownBody;
-use frictionsim_results::cea::{BaseField, BaseState, ContactState};
+use frictionsim_results::cea::{BaseField, BaseState, ContactState, NamedDamping};
 use std::sync::Arc;
 
 /// Share of the modulus below which a contact pressure is round-off.
@@ -46,7 +46,7 @@ fn sliding_sector(
             (Arc::new(mesh), SteadyState::Mesh { contacts, state: base.repeated(sector.count) })
         }
         BodyKind::Revolution(specification) => {
-            let solid = solid::solved(case, specification)?;
+            let solid = solved_solid(case, specification)?;
             let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
             mesh.regions = specification.region_names();
             (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
@@ -181,4 +181,30 @@ impl SlidingModel {
             displacement: displacement.repeat(sectors),
         }
     }
+}
+
+/// The different Rayleigh dampings that regions of the body have, each with the mark-up that names it.
+pub fn dampings(case: &Case, model: &SlidingModel) -> Vec<NamedDamping> {
+    let (materials, regions) = (case.materials(), &model.mesh.regions);
+    let count = regions.len().max(1);
+    let mut found: Vec<(Vec<usize>, _)> = Vec::new();
+    for region in 0..count {
+        let damping = materials.own_damping(region).unwrap_or(case.damping.rayleigh);
+        match found.iter_mut().find(|(_, known)| *known == damping) {
+            Some((regions, _)) => regions.push(region),
+            None => found.push((vec![region], damping)),
+        }
+    }
+    let is_one = found.len() == 1;
+    let named = found.into_iter().map(|(own, damping)| {
+        let formula = "damping *ζ* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2";
+        let names = own.iter().filter_map(|&region| regions.get(region));
+        let names: Vec<String> = names.map(|name| literal(name)).collect();
+        let name = match is_one {
+            true => formula.to_owned(),
+            false => format!("{formula} of {}", names.join(", ")),
+        };
+        (name, damping)
+    });
+    named.collect()
 }

@@ -1,5 +1,6 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
+use super::contact::open_note;
 use super::model::Model;
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
@@ -7,7 +8,6 @@ use super::notes::{
 };
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
-use super::solid;
 use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
 use frictionsim_case::{Case, Cea, CeaMethod, refusal};
 use frictionsim_physics::cea::cyclic::WaveSweep;
@@ -58,7 +58,7 @@ pub fn solve(
     notes.extend(count_notes(cea, &found.sweep, waves.is_some()));
     notes.append(&mut found.notes);
     notes.extend(waves.and_then(|waves| overdamped_note(case, model, &waves.overdamped)));
-    notes.extend(model.solid().and_then(solid::note));
+    notes.extend(model.solid().and_then(open_note));
     notes.extend(table_notes(case));
     notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));
@@ -135,9 +135,6 @@ pub struct Solved<'a> {
 
 /// [`SlidingModel::new`] and [`solve`]. Where `auto` chose the harmonics of a body and a branch of them cannot be
 /// followed, its whole mesh is solved.
-///
-/// # Errors
-/// Those of both.
 pub fn solved<'a>(
     case: &'a Case,
     cea: &Cea,
@@ -207,8 +204,7 @@ mod tests {
         let error = CeaError::LostHarmonic { harmonic: 3, friction: 0.3 };
         let whole = on_whole_mesh(&case, cea, error, None).unwrap();
         assert_eq!((waves.solution.method, whole.solution.method), ("cyclic", "sparse"));
-        let note = "a branch of harmonic 3 could not be followed up to friction 0.3: \
-                    the whole mesh was solved instead";
+        let note = "a branch of harmonic 3 could not be followed up to friction 0.3: the whole mesh was solved instead";
         assert!(whole.solution.notes[0].starts_with(note), "{:?}", whole.solution.notes);
         // A friction traction in three dimensions is along the sliding, whatever its sense.
         let shears = [&waves, &whole].map(|own| own.model.base_state(&case).shear_pa[0]);

@@ -55,9 +55,6 @@ pub fn modes_with_waves_below(
 
 /// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body
 /// has.
-///
-/// # Errors
-/// Those of the mesh, of steady sliding, and of the solver.
 pub fn modes_at_own_friction(
     case: &Case,
     options: &TangentOptions,

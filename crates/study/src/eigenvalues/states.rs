@@ -202,17 +202,15 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
     let jumps = jumps(parts).map(|mu| format!("{mu:.6}"));
     let jump = listed(jumps.collect(), ", ").map(|places| {
         format!(
-            "at friction {places} the growth of a mode jumps across zero as contact points open or \
-             close"
+            "at friction {places} the growth of a mode jumps across zero as contact points open or close"
         )
     });
     let gaps = undecided(parts).map(|own| own.gap);
     let gaps = gaps.map(|gap| format!("{:.6} and {:.6}", gap.start, gap.end));
     let unknown = listed(gaps.collect(), ", between ").map(|gaps| {
         format!(
-            "a mode changes its stability between friction {gaps}, where contact points open or \
-             close and the states between could not be solved. Its critical friction is only \
-             known to lie there"
+            "a mode changes its stability between friction {gaps}, where contact points open or close and the states \
+             between could not be solved. Its critical friction is only known to lie there"
         )
     });
     let coarse = (range.left_out > COARSE).then(|| {

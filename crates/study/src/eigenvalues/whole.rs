@@ -96,17 +96,11 @@ impl WholeMesh {
     }
 
     /// The tangent of one of the states.
-    ///
-    /// # Errors
-    /// Those of [`Assembly::tangent`].
     pub fn tangent(&self, case: &Case, state: &PressedState) -> Result<SlidingTangent, CeaError> {
         Ok(self.assembly(case).tangent(state, &self.options)?)
     }
 
     /// The tangent at the case's own friction coefficient.
-    ///
-    /// # Errors
-    /// As [`Self::tangent`].
     pub fn own_tangent(&self, case: &Case) -> Result<SlidingTangent, CeaError> {
         self.tangent(case, self.state())
     }
@@ -157,9 +151,8 @@ fn start_of(contacts: &[(SlidingSurfaces, ContactSurface)]) -> &'static [f64] {
 /// What a base state without stress and the inertia of rotation leave out.
 pub(super) fn notes(body: &AssemblyBody) -> Vec<String> {
     let closed = (body.base == BaseChoice::Closed).then(|| {
-        "the base state is closed and free of stress: no pressure, no geometric stiffness, no \
-        dashpot of friction across the \
-         sliding"
+        "the base state is closed and free of stress: no pressure, no geometric stiffness, no dashpot of friction \
+        across the sliding"
             .to_owned()
     });
     let rotors: Vec<&str> = body.rotors().collect();

@@ -80,8 +80,7 @@ pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyEr
     let is_outside = |line: &&MeasuredMode| !(least..=most).contains(&line.frequency_hz);
     if let Some(line) = lines.iter().find(is_outside) {
         return Err(FitError::Table(format!(
-            "line {} of the table: {:e} Hz is no frequency of a mode, which lies between {least:e} \
-             and {most:e} Hz",
+            "line {} of the table: {:e} Hz is no frequency of a mode, which lies between {least:e} and {most:e} Hz",
             line.line, line.frequency_hz
         ))
         .into());

@@ -26,9 +26,6 @@ const DISTINCT: f64 = 0.02;
 /// Without `sigma_hz` differences weigh as shares of the frequency; frequencies and real parts scatter each by their
 /// own measure where there are eight of each or more, so that the weight between the two is the data's own. Intervals
 /// are those of the linearised model with the scatter of the differences (Student's t).
-///
-/// # Errors
-/// [`FitError`].
 pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
     let (data, count) = (problem.data_count(), problem.wanted.parameters.len());
     if data < count {
@@ -39,8 +36,7 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
     let failed = |reason| {
         let points = points.len();
         FitError::Model(format!(
-            "the model has no modes to compare at any of {points} points within the bounds: \
-             {reason}"
+            "the model has no modes to compare at any of {points} points within the bounds: {reason}"
         ))
     };
     let looked: Vec<Result<Trial, String>> =

@@ -1,10 +1,9 @@
 //! What something attached to a node makes of the modes, however large it is.
 //!
-//! A mass, spring or dashpot adds `D(s) = s^2 m + s c + k` at the dofs of its node. The modes
-//! listed alone leave out how the body gives way there beyond them. A fit of that at few
-//! frequencies fails where the attachment resonates with it. So the whole problem is projected onto
-//! the modes about the targets together with responses to unit loads `E` at the node. They are `T(i
-//! omega_a)^-1 E` on the right and `T(i omega_a)^-T E` on the left. The compliance at the node,
+//! A mass, spring or dashpot adds `D(s) = s^2 m + s c + k` at the dofs of its node. The modes listed alone leave out
+//! how the body gives way there beyond them. A fit of that at few frequencies fails where the attachment resonates with
+//! it. So the whole problem is projected onto the modes about the targets together with responses to unit loads `E` at
+//! the node. They are `T(i omega_a)^-1 E` on the right and `T(i omega_a)^-T E` on the left. The compliance at the node,
 //! `E^T T(s)^-1 E`, of the projected problem is that of the body at each `omega_a`, with its
 //! derivative, and has its poles. The small problem
 //!
@@ -21,6 +20,7 @@ use super::base::{Base, PairedMode, REACH};
 use frictionsim_physics::linalg::dense::{dot, transpose_product};
 use frictionsim_physics::linalg::dense_eigen::real_eigenvalues;
 use frictionsim_physics::linalg::{ComplexSparseLu, LinalgError, Mat, c64};
+use frictionsim_results::sorted;
 use nalgebra::DMatrix;
 
 /// Modes taken into the space, the nearest to the targets.
@@ -53,8 +53,7 @@ impl<'a> NearModes<'a> {
             let own = mode.eigenvalue().im;
             targets.iter().map(|target| (own / target).ln().abs()).fold(f64::INFINITY, f64::min)
         };
-        let mut modes: Vec<&PairedMode> = base.modes.iter().collect();
-        frictionsim_physics::order::sort_by_number(&mut modes, |a| away(a));
+        let mut modes = sorted(&base.modes, |mode| away(mode));
         modes.truncate(MOST_MODES);
         let frequencies = || modes.iter().map(|mode| mode.eigenvalue().im);
         let lowest = frequencies().fold(f64::INFINITY, f64::min);

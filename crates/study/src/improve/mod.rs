@@ -1,6 +1,5 @@
-//! What silences the unstable modes of a case. Derivatives by every place of its bodies come first.
-//! The best of them are looked at with all modes together, the best of those run again as cases of
-//! their own.
+//! What silences the unstable modes of a case. Derivatives by every place of its bodies come first. The best of them
+//! are looked at with all modes together, the best of those run again as cases of their own.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;
@@ -33,6 +32,7 @@ use frictionsim_output::rounded;
 use frictionsim_physics::cea::CeaError;
 use frictionsim_physics::fem::lumped_masses;
 use frictionsim_results::improve::{Candidate, ImproveSummary, Improvement, Sizes, State};
+use frictionsim_results::sorted;
 use modal::{Change, ModalModel};
 use nalgebra::DMatrix;
 use places::Places;
@@ -158,9 +158,8 @@ fn predictions(
     let outlooks: Result<Vec<State>, _> =
         frictionsim_physics::parallel::map(&changes, |(own, _)| modal.outlook(own));
     let outlooks = outlooks.map_err(CeaError::from)?;
-    let mut order: Vec<usize> = (0..changes.len()).collect();
     let growth = |i: usize| outlooks[i].growth_rate_per_s.unwrap_or(f64::NEG_INFINITY);
-    frictionsim_physics::order::sort_by_number(&mut order, |&a| growth(a));
+    let mut order = sorted(0..changes.len(), |&i| growth(i));
     let before = search.base.state.growth_rate_per_s.unwrap_or(f64::INFINITY);
     order.retain(|&i| growth(i) < before);
     order.truncate(count);
@@ -224,10 +223,8 @@ fn shortlist(
         Ok((outlook.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY), trial))
     };
     let ranked: Result<Vec<(f64, Trial)>, _> = frictionsim_physics::parallel::map(trials, growth);
-    let mut ranked = ranked.map_err(CeaError::from)?;
-    frictionsim_physics::order::sort_by_number(&mut ranked, |a| a.0);
-    ranked.truncate(count);
-    Ok(ranked.into_iter().map(|(_, trial)| trial).collect())
+    let ranked = sorted(ranked.map_err(CeaError::from)?, |own| own.0).into_iter();
+    Ok(ranked.take(count).map(|(_, trial)| trial).collect())
 }
 
 /// Which dofs of a patch belong to elements beside it too.

@@ -1,8 +1,7 @@
 //! What a change of the matrices does to the modes, all of them together.
 //!
-//! Right vectors `x_j` and left ones `w_i` of the modes and of their conjugates have `w_i^T (C +
-//! (lambda_i + lambda_j) M) x_j = delta_ij`. Changes `dM`, `dC`, `dK` of any size leave, in the
-//! space of these modes, the eigenproblem
+//! Right vectors `x_j` and left ones `w_i` of the modes and of their conjugates have `w_i^T (C + (lambda_i + lambda_j)
+//! M) x_j = delta_ij`. Changes `dM`, `dC`, `dK` of any size leave, in the space of these modes, the eigenproblem
 //!
 //! ```text
 //! lambda (delta_ij + c_ij + (lambda_i + lambda_j) m_ij) y_j = (lambda_i delta_ij - k_ij + lambda_i lambda_j m_ij) y_j

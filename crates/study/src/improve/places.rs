@@ -3,6 +3,7 @@
 use super::base::Base;
 use frictionsim_case::{CaseErrors, refusal};
 use frictionsim_physics::mesh::{Counterface, Mesh};
+use frictionsim_results::sorted;
 use std::collections::BTreeSet;
 
 /// Nodes and patches that may be modified.
@@ -50,8 +51,7 @@ impl Places {
         };
         let open: Vec<bool> = (0..mesh.element_count()).map(is_open).collect();
         let middles: Vec<[f64; 3]> = (0..open.len()).map(|e| mesh.element_middle(e)).collect();
-        let mut along: Vec<usize> = (0..open.len()).collect();
-        frictionsim_physics::order::sort_by_number(&mut along, |&a| middles[a][0]);
+        let along = sorted(0..open.len(), |&element| middles[element][0]);
         let patch = |e: usize| -> Vec<u32> {
             let from = along.partition_point(|&other| middles[other][0] < middles[e][0] - radius);
             let beside = along[from..].iter();

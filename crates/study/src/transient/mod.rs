@@ -19,25 +19,23 @@
 //! ```
 
 mod notes;
-mod settings;
 mod stepped;
 
-pub use stepped::SteppedMesh;
-
-use super::cycle::limit_cycle;
-use super::{StudyError, extent_of};
+use crate::cycle::limit_cycle;
+use crate::{StudyError, extent_of};
 use frictionsim_case::{Case, Transient};
 use frictionsim_physics::cycle::Family;
 use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
 use frictionsim_physics::linalg::interruption;
 use frictionsim_physics::prestress::Assembly;
 use frictionsim_physics::transient::{
-    CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
-    TransientError, TransientModel, TransientSettings,
+    Breakdown, CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan,
+    TransientAnalysis, TransientError, TransientModel, TransientSettings,
 };
 use frictionsim_results::Head;
 use frictionsim_results::transient::{LinearStage, RecordedRun, SolvedTransient};
 use std::time::Instant;
+pub use stepped::SteppedMesh;
 
 /// A case made ready for the time loop.
 pub struct TransientStudy<'a> {
@@ -159,9 +157,6 @@ impl<'a> TransientStudy<'a> {
     /// Sets the run up to its first step: finds out whether it can start, and gives its time step. A limit cycle that
     /// it would start on is not looked for, nor the steady sliding of any body but a plane annulus, which takes longer
     /// than a check is worth.
-    ///
-    /// # Errors
-    /// As [`Self::start`], and those of the recorder.
     pub fn preflight(&self) -> Result<StepPlan, StudyError> {
         let operator = self.operator()?;
         let initial = match (self.case.body.annulus(), self.settings.initial) {
@@ -203,7 +198,7 @@ impl<'a> TransientStudy<'a> {
     /// # Errors
     /// [`StudyError::Case`] for what the case asks for in vain; what fails in the loop.
     pub fn told<T>(&self, outcome: Result<T, TransientError>) -> Result<T, StudyError> {
-        outcome.map_err(|error| settings::study_error(self.case, error))
+        outcome.map_err(|error| study_error(self.case, error))
     }
 
     /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
@@ -225,5 +220,43 @@ impl<'a> TransientStudy<'a> {
             [speed + point.weight * point.speed, area + point.weight]
         });
         speed / area.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Settings that stand in `[output]`; the others stand in `[transient]`.
+const OUTPUT: [&str; 3] = ["probes", "sample_interval", "snapshots"];
+
+/// An error of the case at its key where there is one, else of the run.
+fn study_error(case: &Case, error: TransientError) -> StudyError {
+    let (key, message, label) = match &error {
+        TransientError::Setting { setting, fitting, .. } => {
+            let is_output = OUTPUT.contains(setting);
+            let section = if is_output { "output" } else { "transient" };
+            (format!("{section}.{setting}"), format!("{section}.{error}"), fitting.clone())
+        }
+        TransientError::Operator(_) => {
+            let label = "not on this mesh".to_owned();
+            ("transient.operator".to_owned(), error.to_string(), label)
+        }
+        TransientError::Unstable { cause, .. } => {
+            let remedy = remedy(*cause);
+            return StudyError::Unstable { error, remedy };
+        }
+        _ => return StudyError::Transient(error),
+    };
+    StudyError::Case(case.error_at(&key, message, label, None))
+}
+
+/// Which keys to change after a breakdown.
+fn remedy(cause: Breakdown) -> &'static str {
+    match cause {
+        Breakdown::Overflow => {
+            "check contact.rotation_speed_rpm, contact.interference and transient.perturbation, \
+             or lower transient.time_step"
+        }
+        Breakdown::StepTooLong => "lower transient.time_step",
+        Breakdown::RoundOff => {
+            "lower transient.time_step, or check contact.interference and contact.rotation_speed_rpm"
+        }
     }
 }

@@ -115,9 +115,8 @@ impl TransientStudy<'_> {
         let frequency = analysis.last_fifth.main_frequency_hz?;
         (frequency > limit).then(|| {
             format!(
-                "the main frequency of {frequency:.1} Hz is above cea.max_frequency_hz = {limit}: \
-                `cea` on this case does \
-                 not find the mode behind it"
+                "the main frequency of {frequency:.1} Hz is above cea.max_frequency_hz = {limit}: `cea` on this case \
+                does not find the mode behind it"
             )
         })
     }

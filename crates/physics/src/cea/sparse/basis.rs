@@ -23,9 +23,9 @@ use std::borrow::Cow;
 
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
-/// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
-/// for both.
-const START_WIDTH: usize = 2;
+/// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and matrices and factors are
+/// read once for all. With eight a half more vectors are needed, which costs as much as is won.
+const START_WIDTH: usize = 4;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
 
@@ -96,29 +96,56 @@ impl<'a> BasisBuilder<'a> {
     }
 
     /// The columns of the next step at `mu`: those that an earlier run of the same sweep found, else those that `find` does.
-    fn step<E>(
+    fn step<E: Send>(
         &mut self,
         mu: f64,
-        find: impl FnOnce(&Self) -> Result<Mat<f64>, E>,
+        find: impl Fn(&Self) -> Result<Mat<f64>, E> + Sync,
     ) -> Result<Mat<f64>, E> {
-        let name = format!("basis-{:04}-at-{mu:?}", self.steps);
-        let unknowns = self.tangent.stiffness.dimension();
-        let kept = self.watch.recalled::<Vec<_>>(&name);
-        let columns = match kept.and_then(|columns| from_columns(&columns, unknowns)) {
-            Some(columns) => columns,
-            None => {
-                let columns = find(self)?;
-                self.watch.keep_value(&name, &columns_of(&columns));
-                columns
-            }
-        };
-        self.steps += 1;
+        Ok(self.steps(&[mu], |builder, _| find(builder))?.swap_remove(0))
+    }
+
+    /// Those of the next steps, one at each of `values`, side by side: none needs what another one finds.
+    fn steps<E: Send>(
+        &mut self,
+        values: &[f64],
+        find: impl Fn(&Self, f64) -> Result<Mat<f64>, E> + Sync,
+    ) -> Result<Vec<Mat<f64>>, E> {
+        let (own, unknowns) = (&*self, self.tangent.stiffness.dimension());
+        let found: Vec<Result<_, E>> =
+            crate::parallel::map(values.iter().enumerate(), |(i, &mu)| {
+                let name = format!("basis-{:04}-at-{mu:?}", own.steps + i);
+                let kept = own.watch.recalled::<Vec<_>>(&name);
+                if let Some(columns) = kept.and_then(|columns| from_columns(&columns, unknowns)) {
+                    return Ok(columns);
+                }
+                let columns = find(own, mu)?;
+                own.watch.keep_value(&name, &columns_of(&columns));
+                Ok(columns)
+            });
+        self.steps += values.len();
         self.watch.reached(SweepProgress {
             stage: SweepStage::Blocks,
             solved: self.steps,
             total: 0,
         });
-        Ok(columns)
+        found.into_iter().collect()
+    }
+
+    /// Takes up the modes at the ends and in the middle of `values`, friction coefficients, ascending.
+    ///
+    /// # Errors
+    /// If a dense decomposition or an iteration fails.
+    pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
+        let (mut open, mut held) = (Vec::new(), Vec::new());
+        for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
+            let is_held = self.is_sampled(mu) || open.contains(&mu);
+            if is_held { &mut held } else { &mut open }.push(mu);
+        }
+        self.sample(&open)?;
+        for mu in held {
+            self.improve_at(mu)?;
+        }
+        Ok(())
     }
 
     /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.
@@ -146,22 +173,23 @@ impl<'a> BasisBuilder<'a> {
         if let Linearization::Companion { .. } = self.linearization {
             self.model.drop_sample(mu);
         }
-        self.sample(mu, self.leading_count() + extra, None)?;
+        let count = self.leading_count() + extra;
+        let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, None))?;
+        self.take(mu, &vectors);
         Ok(())
     }
 
-    /// Adds the vectors of the `count` lowest motions at `mu` from a Krylov-Schur iteration with the factors of `K(mu)`, which begins
-    /// with a few combinations of the `leading` vectors of the basis, or with any; whether the basis grew.
-    fn sample(&mut self, mu: f64, count: usize, leading: Option<usize>) -> Result<bool, CeaError> {
-        let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, leading))?;
-        let has_grown = self.model.extend(vectors.clone(), ROUND_OFF).ncols() > 0;
+    /// Takes the vectors of modes at `mu` into the basis.
+    fn take(&mut self, mu: f64, vectors: &Mat<f64>) {
+        self.model.extend(vectors.clone(), ROUND_OFF);
         if !self.is_whole {
-            self.model.hold_sample(mu, &vectors);
+            self.model.hold_sample(mu, vectors);
         }
-        Ok(has_grown)
     }
 
-    /// The vectors of [`Self::sample`]: of the quadratic problem real and imaginary part of each mode, of the reduced one each.
+    /// The vectors of the `count` lowest motions at `mu` from a Krylov-Schur iteration with the factors of `K(mu)`, which begins with a
+    /// few combinations of the `leading` vectors of the basis, or with any: of the quadratic problem real and imaginary part of each mode,
+    /// of the reduced one each.
     fn dominant_vectors(
         &self,
         mu: f64,

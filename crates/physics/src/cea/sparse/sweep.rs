@@ -181,10 +181,7 @@ impl<'a> SparseSweep<'a> {
         if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
             self.builder.begin_at_rest()?;
         }
-        let asked = &self.grid[self.first_asked()..];
-        for mu in [asked[asked.len() - 1], asked[0], asked[asked.len() / 2]] {
-            self.builder.improve_at(mu)?;
-        }
+        self.builder.cover(&self.grid[self.first_asked()..])?;
         self.fill_gaps()
     }
 
@@ -201,11 +198,10 @@ impl<'a> SparseSweep<'a> {
             if middles.is_empty() {
                 return Ok(());
             }
-            for (&k, point) in middles.iter().zip(self.solve_points(&middles)?) {
-                if point.open_modes(self.goal()).next().is_some() {
-                    self.builder.improve_at(self.grid[k])?;
-                }
-            }
+            let points = middles.iter().zip(self.solve_points(&middles)?);
+            let open = points.filter(|(_, own)| own.open_modes(self.goal()).next().is_some());
+            let open: Vec<f64> = open.map(|(&k, _)| self.grid[k]).collect();
+            self.builder.sample(&open)?;
             seen.extend(middles);
         }
     }
@@ -373,7 +369,7 @@ mod tests {
         let factors = RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
-        complete.improve_at(0.2).unwrap();
+        complete.cover(&[0.2]).unwrap();
         for (found, exact) in
             after.iter().zip(complete.model.solve_with_coarse_lefts(0.2, 5).unwrap())
         {

@@ -9,6 +9,7 @@ use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::cycle::periodic::GrowingMode;
+use frictionsim_results::sorted;
 
 /// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.
 const LARGEST_FRICTION: f64 = 2.0;
@@ -98,9 +99,7 @@ impl Steady {
     pub fn growing(&self) -> Vec<usize> {
         let modes = &self.modes;
         let growing = (0..modes.len()).filter(|&i| modes[i].is_unstable());
-        let mut growing: Vec<usize> = growing.collect();
-        frictionsim_physics::order::sort_by_number(&mut growing, |&a| -modes[a].growth_rate());
-        growing
+        sorted(growing, |&i| -modes[i].growth_rate())
     }
 
     /// Place of the mode that grows fastest or decays slowest.

@@ -3,7 +3,7 @@
 use super::parts::Parts;
 use super::shapes::Shapes;
 use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::linalg::c64;
+use frictionsim_physics::linalg::{Mat, c64};
 use frictionsim_physics::prestress::{Kind, Part, PartForms};
 use frictionsim_results::cea::{Contribution, ModeName, Source};
 
@@ -20,34 +20,39 @@ pub(super) struct Sums {
     /// `phi^H M phi`.
     pub kinetic: Vec<f64>,
     pub strain: Vec<f64>,
+    /// `M phi` of all of them.
+    pub momentum: Mat<f64>,
     /// The forces of the bodies at every dof, which the contacts' forces hold, where they are asked for.
     pub balance: Option<Vec<Vec<c64>>>,
 }
 
 impl Sums {
-    /// Sums over nothing, for so many modes; with the forces at so many dofs.
-    pub fn new(modes: usize, dofs: Option<usize>) -> Self {
+    /// Sums over nothing, for the modes of some shapes; with the forces where they are asked for.
+    pub fn new(shapes: &Shapes<'_>, has_balance: bool) -> Self {
+        let (modes, dofs) = (shapes.modes.len(), shapes.columns.nrows());
         Self {
             kinetic: vec![0.0; modes],
             strain: vec![0.0; modes],
-            balance: dofs.map(|dofs| vec![vec![c64::ZERO; dofs]; modes]),
+            momentum: Mat::zeros(dofs, shapes.columns.ncols()),
+            balance: has_balance.then(|| vec![vec![c64::ZERO; dofs]; modes]),
         }
     }
 }
 
 impl Parts<'_> {
-    /// What each region, support and contact adds to each mode of one friction value.
-    pub fn contributions(&self, shapes: &Shapes<'_>, out: &mut Vec<Contribution>) {
+    /// What each region, support and contact adds to each mode of one friction value, and `M phi` of each.
+    pub fn contributions(&self, shapes: &Shapes<'_>) -> (Vec<Contribution>, Mat<f64>) {
         // Only several contacts need the balance of forces dof by dof.
-        let dofs = (self.contacts.len() > 1).then(|| self.whole.mesh.dof_count());
-        let mut sums = Sums::new(shapes.modes.len(), dofs);
+        let mut sums = Sums::new(shapes, self.contacts.len() > 1);
         let rows = self.of_bodies(shapes, &mut sums);
+        let mut out = Vec::new();
         for mode in 0..shapes.modes.len() {
             let (name, own) = (shapes.name(mode), shapes.modes[mode].1);
             let contacts = |fed: f64| self.contact_rates(shapes, (mode, own), &sums, fed);
             let rows = rows.iter().map(|row| (&row.name, row.source, row.forms[mode]));
-            write((name, own), rows, [sums.kinetic[mode], sums.strain[mode]], &contacts, out);
+            write((name, own), rows, [sums.kinetic[mode], sums.strain[mode]], &contacts, &mut out);
         }
+        (out, sums.momentum)
     }
 
     /// Energies and damping of every region and support, and of the inertia of rotation.
@@ -60,6 +65,9 @@ impl Parts<'_> {
         let mut forms = vec![vec![PartForms::default(); shapes.modes.len()]; terms.bodies.len()];
         for term in terms.all.iter().chain(&*stress) {
             let image = self.image(term, shapes);
+            if term.kind == Kind::Mass {
+                sums.momentum += &image;
+            }
             if let Part::Body(body) = term.part {
                 let own = forms[body].iter_mut().zip(shapes.forms_of(term.kind, &image));
                 let own = modes().zip(own);

@@ -1,9 +1,8 @@
 //! Where on the contact surfaces friction feeds the unstable modes, point by point.
 //!
-//! The forces of the bodies are `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i D_i phi` over the
-//! contact points `i`, with `D_i = lambda C_i + K_i + i H_i` of dashpots, stiffness and structural
-//! damping. A rigid one has an unknown `dN_i = lift_i . (f + sum_j D_j phi)`. The growth rate that a
-//! point feeds is
+//! The forces of the bodies are `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i D_i phi` over the contact points `i`,
+//! with `D_i = lambda C_i + K_i + i H_i` of dashpots, stiffness and structural damping. A rigid one has an unknown
+//! `dN_i = lift_i . (f + sum_j D_j phi)`. The growth rate that a point feeds is
 //!
 //! ```text
 //! sigma_i = Im(conj(n_i.phi + mu drag_i t_i.phi) dN_i - phi^H D_i phi) / (2 omega m)
@@ -36,7 +35,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
     let pressed = whole.contact_points(case);
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
-    let mut sums = Sums::new(shapes.modes.len(), Some(whole.mesh.dof_count()));
+    let mut sums = Sums::new(&shapes, true);
     parts.of_bodies(&shapes, &mut sums);
     // Forces and springs at the friction coefficient are the only power of it.
     let state = whole.state();

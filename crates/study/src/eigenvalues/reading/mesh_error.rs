@@ -1,8 +1,7 @@
 //! What the mesh makes of frequencies and of critical friction.
 //!
-//! A finite-element eigenvalue `lambda_h` differs from that of the same model on a fine mesh. To
-//! leading order it does so by what the errors of its right and left vector have in common
-//! (goal-oriented, Heuveline and Rannacher 2001),
+//! A finite-element eigenvalue `lambda_h` differs from that of the same model on a fine mesh. To leading order it does
+//! so by what the errors of its right and left vector have in common (goal-oriented, Heuveline and Rannacher 2001),
 //!
 //! ```text
 //! lambda_h - lambda = - sum_regions (1 + i eta + lambda beta) a(e_w, e_x),   w^T (2 lambda M + C) x = 1

@@ -25,6 +25,7 @@ use super::model::Model;
 use super::sliding::SlidingModel;
 use frictionsim_case::Case;
 use frictionsim_physics::cea::{FrictionPoint, FrictionSweep};
+use frictionsim_physics::parallel;
 use frictionsim_physics::prestress::WaveTangent;
 use frictionsim_results::cea::Reading;
 pub(super) use mesh_error::lefts_needed;
@@ -68,14 +69,13 @@ pub(super) fn read(
     let lowest = points.first()?;
     let references = Shapes::of(lowest, case.body.has_sectors(), |_| true);
     let reference_images = parts.mass_image(references.columns.as_ref());
-    for point in &points {
+    let read_point = |point: &&FrictionPoint| {
         let shapes = Shapes::of(point, case.body.has_sectors(), |_| true);
-        if shapes.modes.is_empty() {
-            continue;
-        }
-        parts.contributions(&shapes, &mut reading.contributions);
-        let own_images = parts.mass_image(shapes.columns.as_ref());
-        let couplings = shapes.couplings(&own_images, (&references, &reference_images));
+        let (contributions, images) = parts.contributions(&shapes);
+        (contributions, shapes.couplings(&images, (&references, &reference_images)))
+    };
+    for (contributions, couplings) in parallel::map::<_, _, Vec<_>>(&points, read_point) {
+        reading.contributions.extend(contributions);
         reading.couplings.extend(couplings);
     }
     reading.feed = feed::feed(&parts, &points);

@@ -8,9 +8,8 @@ use frictionsim_physics::fem::Triplets;
 use frictionsim_physics::linalg::{Mat, MatRef, MatrixPolynomial};
 use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::prestress::{Kind, Part, Term, Terms};
-use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex};
 
 /// A matrix with what it stands for.
 pub(super) type PartTerm = Term<MatrixPolynomial>;
@@ -24,7 +23,7 @@ pub(super) struct Parts<'a> {
     /// Each contact with the dofs of its surfaces.
     pub contacts: Vec<(String, Vec<usize>)>,
     /// Geometric stiffness of the regions by base state.
-    stress: RefCell<BTreeMap<usize, Rc<[PartTerm]>>>,
+    stress: Mutex<BTreeMap<usize, Arc<[PartTerm]>>>,
 }
 
 impl<'a> Parts<'a> {
@@ -43,7 +42,7 @@ impl<'a> Parts<'a> {
                 true => vec![(CONTACT.to_owned(), Vec::new())],
                 false => contacts,
             },
-            stress: RefCell::default(),
+            stress: Mutex::default(),
         }
     }
 
@@ -64,16 +63,16 @@ impl<'a> Parts<'a> {
 
     /// Geometric stiffness of the regions at a friction coefficient; none where no stress of the base state acts on
     /// small motions beside that of the rotation.
-    pub fn stress(&self, friction: f64) -> Rc<[PartTerm]> {
+    pub fn stress(&self, friction: f64) -> Arc<[PartTerm]> {
         let WholeMesh { mesh, options, range, .. } = self.whole;
         let cea = self.case.cea.as_ref().filter(|_| options.geometric_stiffness);
         let solved = cea.map(|cea| cea.solved_friction_coefficients()).unwrap_or_default();
         let Some(place) = solved.iter().position(|&mu| mu == friction) else {
-            return Rc::default();
+            return Arc::default();
         };
         // Linear in the displacement: assembled once for each state.
         let number = range.state_of[place];
-        let mut known = self.stress.borrow_mut();
+        let mut known = self.stress.lock().expect("a panic ends the reading first");
         let own = known.entry(number).or_insert_with(|| {
             let state = &range.states[number];
             let regions = self.whole.assembly(self.case).stress(state).unwrap_or_default();
@@ -85,7 +84,7 @@ impl<'a> Parts<'a> {
             });
             terms.collect()
         });
-        Rc::clone(own)
+        Arc::clone(own)
     }
 }
 

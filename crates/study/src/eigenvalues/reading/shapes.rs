@@ -4,6 +4,7 @@ use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
 use frictionsim_physics::linalg::{Mat, c64};
 use frictionsim_physics::prestress::Kind;
 use frictionsim_results::cea::{Coupling, ModeName};
+use frictionsim_results::sorted;
 
 /// Share below which a mode of the lowest friction value is left out of the couplings.
 const LEAST_SHARE: f64 = 0.01;
@@ -33,9 +34,7 @@ pub(super) fn couplings(
 ) -> Vec<Coupling> {
     let rows = shares.filter(|own| own.1 >= LEAST_SHARE);
     let rows = rows.map(|(reference, share)| Coupling { mode, growth_rate, reference, share });
-    let mut rows: Vec<Coupling> = rows.collect();
-    frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.share);
-    rows
+    sorted(rows, |own| -own.share)
 }
 
 /// `a^T b`.

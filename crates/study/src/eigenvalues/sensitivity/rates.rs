@@ -98,9 +98,6 @@ impl Linearized {
 
 /// The terms of a difference quotient with their weights: on either side of a value, or on one side where the other is
 /// refused, both to the square of the step.
-///
-/// # Errors
-/// Why there is no value on either side.
 fn quotient<T>(
     step: f64,
     beside: impl Fn(f64) -> Result<T, String>,
@@ -117,9 +114,6 @@ fn quotient<T>(
 
 /// Derivatives of those eigenpairs of waves that there are, at the friction coefficient of a case by a parameter from
 /// its `value` on; `moved` is the case with it elsewhere.
-///
-/// # Errors
-/// Why there are none.
 pub(crate) fn rates_of_waves(
     (case, cea): (&Case, &Cea),
     (pairs, pressed): (&[Option<WavePair>], &[bool]),

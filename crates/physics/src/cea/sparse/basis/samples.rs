@@ -54,6 +54,28 @@ impl BasisBuilder<'_> {
         Ok(())
     }
 
+    /// Takes up the modes at `values`, of which none is held, from iterations side by side. Of the quadratic problem they begin with
+    /// combinations of the modes without friction, which the basis holds first.
+    ///
+    /// # Errors
+    /// If a `K(mu)` is singular, or an iteration or a dense decomposition fails.
+    pub fn sample(&mut self, values: &[f64]) -> Result<(), CeaError> {
+        let is_companion = matches!(self.linearization, Linearization::Companion { .. });
+        let count = self.leading_count();
+        let leading = is_companion.then(|| count.min(self.model.dimension()));
+        let found = self.steps(values, |own, mu| own.dominant_vectors(mu, count, leading))?;
+        for (&mu, vectors) in values.iter().zip(found) {
+            self.begin_sample(mu);
+            let known = self.model.dimension();
+            self.take(mu, &vectors);
+            // The iteration leaves structural damping and tables out: its vectors are a start.
+            if self.tangent.is_lossy() {
+                self.refine_lossy(mu, known)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Makes the basis hold the modes at `mu` better; whether it grew.
     ///
     /// # Errors
@@ -66,17 +88,9 @@ impl BasisBuilder<'_> {
             let modes = self.model.solve_right(mu, self.count)?;
             return self.refine_modes(mu, &modes);
         }
-        self.begin_sample(mu);
-        // Of the quadratic problem from combinations of the modes without friction, which the basis holds first.
-        let known = self.model.dimension();
-        let is_companion = matches!(self.linearization, Linearization::Companion { .. });
-        let leading = is_companion.then(|| self.leading_count().min(known));
-        let has_grown = self.sample(mu, self.leading_count(), leading)?;
-        // The iteration leaves structural damping and tables out: its vectors are a start.
-        if self.tangent.is_lossy() {
-            self.refine_lossy(mu, known)?;
-        }
-        Ok(has_grown)
+        let before = self.model.dimension();
+        self.sample(&[mu])?;
+        Ok(self.model.dimension() > before)
     }
 
     /// Whether the basis holds the modes at `mu` as such.
@@ -156,7 +170,7 @@ impl BasisBuilder<'_> {
     }
 
     /// Takes up the corrections of modes at `mu` that `find` has; whether the basis grew.
-    fn corrected(&mut self, mu: f64, find: impl FnOnce(&Self) -> Mat<f64>) -> bool {
+    fn corrected(&mut self, mu: f64, find: impl Fn(&Self) -> Mat<f64> + Sync) -> bool {
         let Ok(corrections) = self.step(mu, |builder| Ok::<_, Infallible>(find(builder)));
         let has_grown = self.model.extend(corrections.clone(), ROUND_OFF).ncols() > 0;
         match self.is_sampled(mu) {

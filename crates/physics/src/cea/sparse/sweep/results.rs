@@ -56,11 +56,12 @@ impl SparseSweep<'_> {
             crossing: vectors(own),
             ..own.interval.clone()
         };
-        let found = found.iter().map(crossed).chain(self.divergence(branches)?);
+        let mut found: Vec<UnstableInterval> = crate::parallel::map(&found, crossed);
+        found.extend(self.divergence(branches)?);
         Ok(FrictionSweep {
             unconverged: self.unconverged.clone(),
             rigid_motions: self.builder.rigid,
-            ..FrictionSweep::joined(points, found.collect(), self.ended(branches))
+            ..FrictionSweep::joined(points, found, self.ended(branches))
         })
     }
 
@@ -123,7 +124,7 @@ impl SparseSweep<'_> {
             let mut has_grown = false;
             // By turns: factors beside a mode leave little, which those at rest then show to be little.
             for state in open {
-                let is_at_rest = !searches && round % 2 == 1;
+                let is_at_rest = !searches && round % 3 != 2;
                 has_grown |= self.builder.correct_both(&state, is_at_rest);
             }
             if !has_grown {
