@@ -378,7 +378,7 @@ mod tests {
         let factors = RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
-        complete.cover(&[0.2]).unwrap();
+        complete.improve_at(0.2).unwrap();
         for (found, exact) in
             after.iter().zip(complete.model.solve_with_coarse_lefts(0.2, 5).unwrap())
         {
