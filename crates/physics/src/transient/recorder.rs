@@ -150,7 +150,7 @@ pub struct Recorder {
     pub seed_time: f64,
     /// When the cylinder is fully expanded and the perturbation added, s.
     pub start_up_time: f64,
-    stop_when_settled: bool,
+    pub(super) stop_when_settled: bool,
     /// Whether it stopped the run because that had settled.
     pub has_stopped: bool,
     /// Steps in which the forces between two bodies had not converged when their sweeps ended.

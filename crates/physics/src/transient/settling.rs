@@ -132,8 +132,9 @@ pub enum Unsettled {
 
 /// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no small vibration grows.
 ///
-/// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies; of what dies out as many periods
-/// are looked at. A modulation that is longer than a fifth of the run is not seen, and neither is growth from below round-off.
+/// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies; of what dies out eight periods
+/// are looked at, or 32 before a run stops. A modulation that is longer than a fifth of the run is not seen, and neither is growth from
+/// below round-off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settling {
     /// What the run ends in.
@@ -295,10 +296,11 @@ fn state(record: &Recorder, rows: &[SampleRow], main: Option<(usize, f64)>) -> E
 fn too_short(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
     let followed = record.followed_harmonics().filter_map(|n| series(record, fifth.clone(), n));
     let own = followed.max_by(|a, b| rms(a).total_cmp(&rms(b)))?;
-    // A frequency that cannot be read has too few samples.
+    // A run that may stop waits for what grows slowly. A frequency that cannot be read has too few samples.
+    let blocks = if record.stop_when_settled { FEWEST_BLOCKS } else { 1 };
     let seconds = fifth.len() as f64 * record.sample_interval;
     let needed = strongest_vibration(&own, 1.0 / record.sample_interval)
-        .map_or(2.0 * seconds, |own| FEWEST_BLOCKS as f64 * PERIODS / own.0.abs());
+        .map_or(2.0 * seconds, |own| blocks as f64 * PERIODS / own.0.abs());
     let floor = round_off_floor(record.largest_motion(fifth.clone()));
     let is_short = seconds < needed && rms(&own) > floor && !creeps(&own);
     is_short.then(|| Unsettled::TooShort { duration: rounded_up(SPARE * needed / END) })

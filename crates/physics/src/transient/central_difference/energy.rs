@@ -82,10 +82,11 @@ impl CentralDifference<'_> {
 
     /// Refuses energies that no honest run has.
     pub(super) fn check(&self, energy: f64, residual: f64) -> Result<(), TransientError> {
+        let unit = ["J/m", "J"][self.model.components() - 2];
         let (symptom, cause) = if !energy.is_finite() || !residual.is_finite() {
             ("the energy is not a number any more".to_owned(), Breakdown::Overflow)
         } else if energy < -1e-9 * self.account.largest {
-            (format!("the energy is negative, {energy:.3e} J/m"), Breakdown::StepTooLong)
+            (format!("the energy is negative, {energy:.3e} {unit}"), Breakdown::StepTooLong)
         } else if residual > RESIDUAL_LIMIT {
             (
                 format!("the energy balance is off by a fraction of {residual:.1e}"),
