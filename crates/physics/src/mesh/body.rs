@@ -321,8 +321,8 @@ fn held_boundary(
             {
                 let (label, degrees) = (mesh.labels[node as usize], off.to_degrees());
                 let message = format!(
-                    "boundaries.{name} holds node {label} of the contact {degrees:.1} degrees off the contact's normal and tangent: \
-                     draw it perpendicular to the contact, or hold it by a \"support\" of large normal_stiffness"
+                    "boundaries.{name} holds node {label} of the contact {degrees:.1} degrees off the contact's normal and tangent. \
+                     Draw it perpendicular to the contact, or hold it by a \"support\" of large normal_stiffness"
                 );
                 return Err(BodyError::Request {
                     part: BodyPart::Boundary(name.to_owned()),
