@@ -67,7 +67,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/transient", 4_648),
     ("crates/results", 17_633),
     ("crates/signal", 6_020),
-    ("crates/study", 10_553),
+    ("crates/study", 10_552),
     ("src/app", 4_542),
     ("src/guide", 70),
     ("src/lib.rs", 100),

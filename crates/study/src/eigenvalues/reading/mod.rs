@@ -63,18 +63,19 @@ pub(super) fn read(
         Model::Waves(_) => return waves::read(case, model, tangent?, sweep),
         Model::Whole(whole) => Parts::new(case, whole),
     };
-    let mut reading = Reading::default();
     let shaped = |point: &&FrictionPoint| point.modes.iter().any(|mode| mode.shape.is_some());
     let points: Vec<&FrictionPoint> = sweep.points.iter().filter(shaped).collect();
-    let lowest = points.first()?;
+    let (lowest, others) = points.split_first()?;
     let references = Shapes::of(lowest, case.body.has_sectors(), |_| true);
-    let reference_images = parts.mass_image(references.columns.as_ref());
+    let (contributions, images) = parts.contributions(&references);
+    let couplings = references.couplings(&images, (&references, &images));
+    let mut reading = Reading { contributions, couplings, ..Reading::default() };
     let read_point = |point: &&FrictionPoint| {
         let shapes = Shapes::of(point, case.body.has_sectors(), |_| true);
-        let (contributions, images) = parts.contributions(&shapes);
-        (contributions, shapes.couplings(&images, (&references, &reference_images)))
+        let (contributions, own_images) = parts.contributions(&shapes);
+        (contributions, shapes.couplings(&own_images, (&references, &images)))
     };
-    for (contributions, couplings) in parallel::map::<_, _, Vec<_>>(&points, read_point) {
+    for (contributions, couplings) in parallel::map::<_, _, Vec<_>>(others, read_point) {
         reading.contributions.extend(contributions);
         reading.couplings.extend(couplings);
     }

@@ -5,7 +5,7 @@ use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::whole::WholeMesh;
 use frictionsim_case::Case;
 use frictionsim_physics::fem::Triplets;
-use frictionsim_physics::linalg::{Mat, MatRef, MatrixPolynomial};
+use frictionsim_physics::linalg::{Mat, MatrixPolynomial};
 use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::prestress::{Kind, Part, Term, Terms};
 use std::collections::BTreeMap;
@@ -44,15 +44,6 @@ impl<'a> Parts<'a> {
             },
             stress: Mutex::default(),
         }
-    }
-
-    /// `M x` of all regions and point masses.
-    pub fn mass_image(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        let mut sum = Mat::zeros(x.nrows(), x.ncols());
-        for own in self.terms.all.iter().filter(|term| term.kind == Kind::Mass) {
-            sum += own.matrix.pattern().multiply(&own.matrix.coefficients()[0], x);
-        }
-        sum
     }
 
     /// `A phi` of a term for each shape.
