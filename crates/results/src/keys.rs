@@ -2,8 +2,8 @@
 
 /// Declares objects, each a struct: `key: type = "meaning";` is a field, its key and what the reference says of it;
 /// `key?: type` is absent where there is none. With a name of columns, `Name, COLUMNS`, each key is a column of files
-/// too and, with a label as in `Always "label" Fixed(2)`, one that people see; without a meaning it is a field alone.
-/// Attributes may stand before an object and before a key.
+/// as well and, with a label as in `Always "label" Fixed(2)`, one that people see; without a meaning it is a field
+/// alone. Attributes may stand before an object and before a key.
 macro_rules! keys {
     (@ $(#[$($meta:tt)+])* $name:ident {
         $($(#[$($own:tt)+])* $key:ident $(?: $option:ty)? $(: $type:ty)? $(= $meaning:literal
