@@ -215,11 +215,9 @@ fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
     let differs = |shared: &&SharedQuantity| !shared.is_equal() && !shared.is_cost();
     let mut found: Vec<&SharedQuantity> =
         first_of(quantities).into_iter().filter(differs).collect();
-    let mut others: Vec<&SharedQuantity> = quantities
-        .iter()
-        .filter(|shared| found.iter().all(|known| known.path != shared.path))
-        .filter(differs)
-        .collect();
+    let is_new = |own: &&SharedQuantity| found.iter().all(|known| known.path != own.path);
+    let mut others: Vec<&SharedQuantity> =
+        quantities.iter().filter(is_new).filter(differs).collect();
     frictionsim_physics::order::sort_by_number(&mut others, |a| -a.largest_relative());
     found.extend(others);
     found
