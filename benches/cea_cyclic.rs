@@ -1,37 +1,22 @@
 //! Solve times of the cyclic eigenvalue analysis on one thread and on all. Without `--bench` (as `cargo test --benches` calls
 //! it) meshes are five times coarser.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::is_measured;
+use crate::prelude::*;
 use divan::Bencher;
 use frictionsim::cea::cyclic::{WaveSweep, sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::MassKind;
-use frictionsim::mesh::ElementKind;
-use frictionsim::prestress::{DampingModel, TangentOptions};
 
 /// 30 modes of the disc with prestress, `values` friction coefficients from 0 to 1.
 fn solve(circumferential: usize, radial: usize, values: usize) -> WaveSweep {
     let coarser = if is_measured() { 1 } else { 5 };
-    let specification = annulus(ElementKind::Quad4, circumferential / coarser, radial / coarser);
-    let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: true,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() },
-    };
+    let specification = annulus(Quad4, circumferential / coarser, radial / coarser);
+    let springs = compliant(7.4e12, [0.0; 2]);
+    let options = TangentOptions { geometric_stiffness: true, contact: springs, ..TANGENT };
     let last = (values - 1) as f64;
     let frictions: Vec<f64> = (0..values).map(|i| i as f64 / last).collect();
-    let request = SweepRequest::new(&frictions, ModeLimit::Lowest(30));
+    let request = sweep_request(&frictions, Lowest(30));
     sweep(&specification, &POLYCARBONATE, &options, &contact(610.0), &request)
         .expect("the disc can be solved")
-}
-
-fn on_threads(threads: usize, work: impl Fn() -> WaveSweep + Sync + Send) -> WaveSweep {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.expect("threads can be started").install(work)
 }
 
 /// 21 friction values, meshes from 90 x 18 to 1800 x 350 elements, one thread.

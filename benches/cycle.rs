@@ -7,16 +7,8 @@
 //! (as `cargo test --benches` calls it) meshes are coarse, branches have three values, and everything is done once.
 
 use crate::is_measured;
-use frictionsim::case::Case;
-use frictionsim::cea::{ModeLimit, Unwatched};
-use frictionsim::contact::SlidingContact;
-use frictionsim::cycle::{CycleSolver, DiscModel, Family, MODES, OperatingPoint, Parameter};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
+use crate::prelude::*;
 use frictionsim::study::cycle::PeriodicStudy;
-use std::f64::consts::TAU;
-use std::time::{Duration, Instant};
 
 /// A count where something is measured, else a small one.
 fn counted(full: usize, small: usize) -> usize {
@@ -24,33 +16,9 @@ fn counted(full: usize, small: usize) -> usize {
 }
 
 pub fn run() {
-    let specification = AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: counted(180, 90),
-        radial_elements: counted(35, 18),
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
-    let material = ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        formulation: PlaneFormulation::PlaneStrain,
-        ..ElasticMaterial::PLAIN
-    };
-    let point = OperatingPoint {
-        contact: SlidingContact {
-            decay: None,
-            friction_coefficient: 0.3,
-            interference: 25e-6,
-            rotation_speed: 610.0 * TAU / 60.0,
-        },
-        damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
-    };
-    let model = DiscModel { specification, material, damping: point.damping };
+    let specification = annulus(Quad4, counted(180, 90), counted(35, 18));
+    let point = OperatingPoint { contact: contact(610.0), damping: DAMPING };
+    let model = DiscModel { specification, material: POLYCARBONATE, damping: DAMPING };
     println!("n  from birth  +2 %  -20 %  stability  61 speeds  factorizations");
     for harmonic in [1, 2] {
         let family = Family::lowest(harmonic);
@@ -99,10 +67,8 @@ fn whole_mesh(key: &str, range: [f64; 2]) {
         "cycle.confirmation_periods=0".to_owned(),
         format!("cycle.continuation={{ key=\"{key}\", from={from}, to={to}, count={count} }}"),
     ];
-    let bytes = std::fs::read("cases/limit-cycle.toml").expect("a shipped case");
-    let text = String::from_utf8(bytes).expect("text");
-    let text = text.replace("harmonics = [1, 2]", "");
-    let case = Case::parse("disc", text.as_bytes(), &overrides).expect("a valid case");
+    let text = fs::read_to_string(shipped("limit-cycle.toml")).expect("a shipped case");
+    let case = case_of("disc", &text.replace("harmonics = [1, 2]", ""), &overrides);
     let start = Instant::now();
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).expect("a body");
     let results = study.run(0, &Unwatched, &|_| {}).expect("a search");

@@ -15,11 +15,10 @@ mod frf;
 mod solid;
 mod transient;
 
-use common::{bricks, disc};
-use frictionsim::transient::{Observer, Sample};
-use std::ops::ControlFlow;
+use common::disc;
+use prelude::*;
 
-/// What the models of the tests name.
+/// What the benchmarks and the models of the tests name.
 mod prelude {
     pub use crate::common::prelude::*;
     pub use crate::common::waves::WaveModel;

@@ -10,23 +10,14 @@
 #[path = "../tests/numerics/solids/model.rs"]
 mod model;
 
-use crate::bricks::{Block, file_of};
 use crate::fma_peak::fma_peak;
+use crate::prelude::*;
 use crate::{Ignore, is_measured};
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::fem::operator::{
-    MotionFields, SimdLevel, SparseOperator, StepCoefficients, StiffnessOperator,
-};
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
-use frictionsim::mesh::{ElementKind, FileMesh, Mesh, SolidSector};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, SteppedBody, TimeStep,
-    TransientModel, TransientSettings,
+    MotionFields, SparseOperator, StepCoefficients, StiffnessOperator,
 };
 use rayon::prelude::*;
-use std::collections::BTreeSet;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Node-steps of a batch.
 const BATCH: usize = 800_000;
@@ -36,14 +27,6 @@ const FLOOR: f64 = 2.0 * 243.0;
 /// Additions and multiplications of one node's step: nine couplings of 34 for `K v` (mirror images share products), 6 for
 /// `K u`, 39 for motion and damping power.
 const OPERATIONS: f64 = 9.0 * 34.0 + 6.0 + 39.0;
-
-const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::ThreeDimensional,
-    ..ElasticMaterial::PLAIN
-};
 
 pub fn run() {
     let (divisions, batches) = match is_measured() {
@@ -60,12 +43,9 @@ pub fn run() {
             step(divisions, level, (batches, peak));
         }
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let samples = if is_measured() { 5 } else { 1 };
-    let best = pool
-        .expect("a thread")
-        .install(|| (0..samples).map(|_| eigenvalues(divisions)))
-        .fold(f64::INFINITY, f64::min);
+    let samples = 0..if is_measured() { 5 } else { 1 };
+    let best =
+        on_threads(1, || samples.map(|_| eigenvalues(divisions)).fold(f64::INFINITY, f64::min));
     println!("30 modes at 21 friction values: {:.0} ms", 1e3 * best);
     let divisions = if is_measured() { 40 } else { 6 };
     println!("threads  ms/step    GB/s  GB/s of reading memory");
@@ -76,9 +56,8 @@ pub fn run() {
 
 /// Prints a row: the step of a cube of bricks in a mesh file, without contact.
 fn assembled(divisions: usize, threads: usize) {
-    let cube = Block { name: "cube", origin: [0.0; 3], size: [0.1; 3], counts: [divisions; 3] };
-    let file = FileMesh::read(&file_of(&[cube], |point| point)).expect("a mesh file");
-    let mesh = Mesh::from_solids(&file, 1.0, &[]).expect("a body");
+    let cube = brick("cube", [0.0; 3], [0.1; 3], [divisions; 3]);
+    let mesh = mesh_of(&file_of(&[cube], |point| point), &[]);
     let stiffness = assemble_stiffness(&mesh, &STEEL);
     let masses = lumped_masses(&mesh, &STEEL);
     let masses = masses.iter().flat_map(|&mass| [mass; 3]).collect();
@@ -94,8 +73,7 @@ fn assembled(divisions: usize, threads: usize) {
     let blocks = blocks.collect::<BTreeSet<[usize; 2]>>().len();
     let bytes = (8 * 9 + 4) * blocks + 4 * (mesh.node_count() + 1) + 8 * 9 * fields.velocity.len();
     let memory = vec![1.0_f64; bytes / 8];
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let [step, reading] = pool.expect("threads").install(|| {
+    let [step, reading] = on_threads(threads, || {
         let fastest = |work: &mut dyn FnMut()| {
             let times = (0..20).map(|_| {
                 let clock = Instant::now();
@@ -122,7 +100,7 @@ fn assembled(divisions: usize, threads: usize) {
 
 /// Prints a row.
 fn step(divisions: [usize; 3], level: SimdLevel, (batches, peak): (usize, f64)) {
-    let model = model::disc(ElementKind::Quad4, divisions);
+    let model = model::disc(Quad4, divisions);
     let sector = SolidSector::generate(&model.specification).expect("a valid mesh");
     let whole = sector.whole();
     let body = TransientModel {
@@ -136,14 +114,8 @@ fn step(divisions: [usize; 3], level: SimdLevel, (batches, peak): (usize, f64)) 
     };
     let operator = body.operator(OperatorChoice::Auto, level);
     let operator = operator.expect("an operator");
-    let settings = TransientSettings {
-        duration: 4e-5,
-        time_step: TimeStep::Auto,
-        sample_interval: 2e-6,
-        expansion_time: 0.0,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation::of(&[1, 2], 1.0),
-    };
+    let (initial, seeds) = (InitialState::SteadySliding, Perturbation::of(&[1, 2], 1.0));
+    let settings = transient_settings([4e-5, 2e-6, 0.0], initial, seeds);
     let mut run = CentralDifference::start(body, operator.as_ref(), &settings).expect("a start");
     // Stick, slip and open nodes all occur before the clock starts.
     run.run(&mut Ignore).expect("a run");
@@ -168,12 +140,11 @@ fn step(divisions: [usize; 3], level: SimdLevel, (batches, peak): (usize, f64)) 
 
 /// Time of 30 modes with prestress at 21 friction coefficients from 0 to 1, s.
 fn eigenvalues(divisions: [usize; 3]) -> f64 {
-    let mut model: model::SolidModel = model::disc(ElementKind::Quad4, divisions);
+    let mut model: model::SolidModel = model::disc(Quad4, divisions);
     model.options.geometric_stiffness = true;
     let frictions: Vec<f64> = (0..21).map(|i| f64::from(i) / 20.0).collect();
-    let request = SweepRequest::new(&frictions, ModeLimit::Lowest(30));
     let clock = Instant::now();
-    let found = model.sweep(&request).expect("the disc can be solved");
+    let found = model.swept(&frictions, Lowest(30));
     assert!(found.sweep.points.iter().all(|point| point.modes.len() >= 30));
     clock.elapsed().as_secs_f64()
 }

@@ -10,17 +10,9 @@
 #[path = "../tests/numerics/two_bodies/model.rs"]
 mod two_bodies;
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::fma_peak::fma_peak;
+use crate::prelude::*;
 use crate::{Ignore, is_measured};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh, ShaftSpecification};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, SteppedBody, TimeStep,
-    TransientModel, TransientSettings,
-};
-use std::collections::BTreeSet;
-use std::time::Instant;
 
 /// Batches, of which the fastest counts.
 const BATCHES: usize = 240;
@@ -67,13 +59,7 @@ pub fn run() {
 /// Disc and shaft, their nodes in pairs and their meshes not matching, over one ring, for each element.
 fn bodies(level: SimdLevel, peak: f64) {
     let one = mesh(180, 35);
-    let mut specification = annulus(ElementKind::Quad4, 180, 28);
-    specification.shaft = Some(ShaftSpecification {
-        inner_radius: 0.006,
-        radial_elements: 7,
-        bore: BoundaryCondition::Clamped,
-    });
-    let pairs = AnnulusMesh::generate(&specification).expect("a valid mesh");
+    let pairs = AnnulusMesh::generate(&on_shaft(annulus(Quad4, 180, 28), 7)).expect("a valid mesh");
     let apart = two_bodies::rings([170, 186], [7, 28], 0.01);
     let of = |annulus| TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(610.0));
     println!("\none body, nodes in pairs (cyclic, sparse), meshes that do not match");
@@ -96,17 +82,15 @@ fn bodies(level: SimdLevel, peak: f64) {
 fn threads(level: SimdLevel, peak: f64) {
     let irregular = irregular(&mesh(720, 139));
     println!("\nno element like another, 720 x 139, one thread and two");
-    let times = [1, 2].map(|count| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-        let model = of_mesh(&irregular);
-        pool.expect("threads").install(|| report(model, OperatorChoice::Sparse, level, peak))
-    });
+    let model = of_mesh(&irregular);
+    let step = || report(model, OperatorChoice::Sparse, level, peak);
+    let times = [1, 2].map(|count| on_threads(count, step));
     println!("ratio {:.2}", times[0] / times[1]);
 }
 
 fn mesh(circumferential: usize, radial: usize) -> AnnulusMesh {
     let coarser = if is_measured() { 1 } else { 4 };
-    let specification = annulus(ElementKind::Quad4, circumferential / coarser, radial / coarser);
+    let specification = annulus(Quad4, circumferential / coarser, radial / coarser);
     AnnulusMesh::generate(&specification).expect("a valid mesh")
 }
 
@@ -145,17 +129,11 @@ fn of_mesh(mesh: &Mesh) -> TransientModel<'_> {
 fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, peak: f64) -> f64 {
     let mesh = model.mesh();
     let operator = model.operator(choice, level).expect("an operator");
-    let sample_interval = 2e-6;
     // Stick, slip and open nodes all occur before the clock starts; a trial needs none of them.
     let lead = if is_measured() { 13.0 } else { 0.2 };
-    let settings = TransientSettings {
-        duration: lead / mesh.node_count() as f64,
-        time_step: TimeStep::Auto,
-        sample_interval,
-        expansion_time: 0.0,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation::of(&[1, 2], 1.0),
-    };
+    let (initial, seeds) = (InitialState::SteadySliding, Perturbation::of(&[1, 2], 1.0));
+    let times = [lead / mesh.node_count() as f64, 2e-6, 0.0];
+    let settings = transient_settings(times, initial, seeds);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).expect("a start");
     run.run(&mut Ignore).expect("a run");
     let nodes = mesh.node_count() as f64;

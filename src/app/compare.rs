@@ -26,10 +26,10 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     terminal::start_log(asked.output.quiet, asked.output.verbose);
     let names = names_of(&asked.folders);
     let runs = asked.folders.iter().zip(names).map(|(path, name)| {
+        let (manifest, summary) = (read_manifest(path)?, read_summary(path)?);
         let page = read_record::<Page>(path);
         let page = page.inspect_err(|error| tracing::warn!("without figures of {name}: {error}"));
-        let page = page.ok();
-        Ok(ComparedRun { name, manifest: read_manifest(path)?, summary: read_summary(path)?, page })
+        Ok(ComparedRun { name, manifest, summary, page: page.ok() })
     });
     let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
     let quantities = shared(&runs);

@@ -1,6 +1,6 @@
 //! Limits of the system and of this program on files: how large they may become, how much of one is read.
 
-use super::Failure;
+use super::{Failure, shipped};
 use crate::case::nearest;
 use frictionsim_bounds::{Budget, Limits, Refusal};
 use std::collections::BTreeSet;
@@ -47,14 +47,23 @@ pub fn read_input(path: &Path, limits: Limits) -> Result<Vec<u8>, Failure> {
 /// Where a file was looked for, and what may be meant.
 fn missing(path: &Path) -> String {
     let place = std::path::absolute(path).unwrap_or(path.to_owned());
-    let near = near_file(path).map(|near| format!("; did you mean {near}?"));
-    let begin = || "; `frictionsim init cea -o FILE` writes a case to begin with".to_owned();
-    let help = near.or_else(|| (path.extension()? == "toml").then(begin)).unwrap_or_default();
+    let near = near_file(path).map(|near| format!("did you mean {near}?"));
+    let all = || "`frictionsim init --all` writes the shipped cases".to_owned();
+    let begin = || "`frictionsim init cea -o FILE` writes a case to begin with".to_owned();
+    let is_shipped =
+        shipped::all_files().iter().any(|(file, _)| Some(file.as_ref()) == path.file_name());
+    let help = near.or_else(|| is_shipped.then(all));
+    let help = help.or_else(|| (path.extension()? == "toml").then(begin));
+    let help = help.map_or_else(String::new, |help| format!("; {help}"));
     format!("there is no file {}{help}", place.display())
 }
 
 /// The file beside a path whose name is nearest to its own, if one is near enough to be meant.
 fn near_file(path: &Path) -> Option<String> {
+    let case = path.with_extension("toml");
+    if path.extension().is_none() && case.is_file() {
+        return Some(case.display().to_string());
+    }
     let files = std::fs::read_dir(std::path::absolute(path).ok()?.parent()?).ok()?;
     let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
     // The same one of two that are as near, whatever their order in the folder.

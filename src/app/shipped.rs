@@ -34,15 +34,12 @@ impl ShippedCase {
     pub fn files(&self) -> Vec<ShippedFile> {
         let all = all_files();
         let is_named = |path: &str| self.text.contains(path.rsplit('/').next().unwrap_or(path));
-        let stems: Vec<&str> = all
-            .iter()
-            .filter_map(|(path, _)| path.strip_suffix(".msh").filter(|_| is_named(path)))
-            .collect();
-        let is_kept = |(path, _): &ShippedFile| match path.rsplit_once('.') {
-            Some((stem, end)) => {
-                end != "toml" && end != "md" && (is_named(path) || stems.contains(&stem))
-            }
-            None => false,
+        let stem = |&(path, _): &ShippedFile| path.strip_suffix(".msh").filter(|_| is_named(path));
+        let stems: Vec<&str> = all.iter().filter_map(stem).collect();
+        let is_kept = |(path, _): &ShippedFile| {
+            let of_case = |stem: &str| is_named(path) || stems.contains(&stem);
+            let parts = path.rsplit_once('.');
+            parts.is_some_and(|(stem, end)| end != "toml" && end != "md" && of_case(stem))
         };
         all.into_iter().filter(is_kept).collect()
     }

@@ -49,23 +49,9 @@ pub fn warn(warning: &impl std::fmt::Display) {
     let _ = writeln!(io::stderr().lock(), "warning: {}", shown(&warning.to_string()));
 }
 
-/// Commands of other programs and what they are called here.
-const OTHER_NAMES: &[(&str, &str)] = &[
-    ("damping", "identify"),
-    ("dynamic", "transient"),
-    ("eigen", "cea"),
-    ("eigenvalues", "cea"),
-    ("harmonic", "frf"),
-    ("modal", "cea"),
-    ("modes", "cea"),
-    ("new", "init"),
-    ("report", "plot"),
-    ("response", "frf"),
-    ("run", "transient"),
-    ("spectrum", "signal"),
-    ("template", "init"),
-    ("validate", "check"),
-];
+/// Commands of other programs, each with what it is called here.
+const OTHER_NAMES: &str = "damping identify, dynamic transient, eigen cea, eigenvalues cea, harmonic frf, modal cea, \
+    modes cea, new init, report plot, response frf, run transient, spectrum signal, template init, validate check";
 
 /// What is said of a command of another program, and of an assignment to a case key that no command takes.
 fn meant(error: &clap::Error) -> Option<String> {
@@ -76,16 +62,26 @@ fn meant(error: &clap::Error) -> Option<String> {
     match error.kind() {
         ErrorKind::InvalidSubcommand => {
             let given = given(ContextKind::InvalidSubcommand)?;
-            let (_, meant) = OTHER_NAMES.iter().find(|pair| pair.0 == given)?;
+            let mut names = OTHER_NAMES.split(", ").filter_map(|pair| pair.split_once(' '));
+            let (_, meant) = names.find(|pair| pair.0 == given)?;
             Some(format!("no such command; `frictionsim {meant}` does that"))
         }
         ErrorKind::UnknownArgument => {
             let given = given(ContextKind::InvalidArg)?;
-            find_key(given.split_once('=')?.0)?;
-            let given = shown(given);
-            Some(format!(
-                "unexpected argument '{given}': a key of the case is changed by --set '{given}'"
-            ))
+            let (text, is_near) = (shown(given), error.get(ContextKind::SuggestedArg).is_some());
+            let said = match given.split_once('=') {
+                Some((key, _)) => {
+                    find_key(key)?;
+                    format!("a key of the case is changed by --set '{text}'")
+                }
+                None if given.parse::<f64>().is_ok() => format!("write --set KEY={text}, in one"),
+                None if given.starts_with("--") && !is_near => {
+                    "no option of this command; a key of the case is changed by --set KEY=VALUE"
+                        .to_owned()
+                }
+                None => return None,
+            };
+            Some(format!("unexpected argument '{text}': {said}"))
         }
         _ => None,
     }

@@ -143,12 +143,8 @@ fn check(design: &Design, case: &Case) -> Result<(), Failure> {
     if !find_key(key).is_some_and(|known| known.is_numeric()) {
         return Err(Failure::usage(format!("--robust {key}: not a numeric case key")));
     }
-    let is_uncertain = case
-        .uncertainty
-        .iter()
-        .flat_map(|u| &u.parameters)
-        .any(|p| p.parameter.key == *key || p.parameter.also.contains(key));
-    if is_uncertain {
+    let mut uncertain = case.uncertainty.iter().flat_map(|u| &u.parameters);
+    if uncertain.any(|p| p.parameter.names().any(|name| name == key)) {
         return Err(Failure::usage(format!(
             "--robust {key}: it is uncertain already; take it out of uncertainty.distributions"
         )));

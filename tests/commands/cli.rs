@@ -26,15 +26,15 @@ fn damaged(folder: &TempDir) -> &'static str {
 }
 
 #[test]
-fn no_arguments_show_the_help_and_are_bad_usage() {
+fn help_has_exit_codes_and_default_folders_and_no_arguments_show_it_as_bad_usage() {
     run(&folder(), &[]).refused(&["Usage"]);
-}
-
-#[test]
-fn help_lists_the_exit_codes_and_version_prints_the_package_version() {
     let codes = "Exit codes: 0 done, 1 the run failed, 2 bad usage or case, 130 interrupted";
     run(&folder(), &["--help"]).done().says(&[codes]);
     run(&folder(), &["--version"]).done().says(&[env!("CARGO_PKG_VERSION")]);
+    for (command, path) in [("cea", "results/CASE/cea"), ("signal", "results/SIGNAL/signal")] {
+        let default = format!("[default: {path}]");
+        run(&folder(), &[command, "--help"]).done().says(&[&default]);
+    }
 }
 
 #[test]
@@ -82,19 +82,13 @@ fn cea_prints_the_table_and_draws_its_figures() {
 }
 
 #[test]
-fn check_tells_scripts_what_is_wrong() {
-    let folder = folder();
-    let value = run(&folder, &["check", "--json", damaged(&folder)]).refused(&[]).value();
-    let errors = &value["cases"][0]["errors"];
-    assert_eq!(errors.as_array().unwrap().len(), 1);
-    has(errors[0].as_str().unwrap(), &["material.density"]);
-}
-
-#[test]
 fn a_file_that_is_not_there_is_answered_with_the_one_that_is_meant() {
     let folder = folder();
     damaged(&folder);
     run(&folder, &["cea", "bda.toml"]).refused(&["cannot read bda.toml", "did you mean bad.toml?"]);
+    run(&folder, &["cea", "bad"]).refused(&["did you mean bad.toml?"]);
+    let shipped = run(&folder, &["frf", "cases/hammer-test.toml"]);
+    shipped.refused(&["`frictionsim init --all` writes the shipped cases ; !did you mean"]);
     // The system's words alone told neither where it was looked for nor what to do.
     let answer = run(&folder, &["cea", "another.toml"]).refused(&[
         "cannot read another.toml: there is no file ",
@@ -105,8 +99,12 @@ fn a_file_that_is_not_there_is_answered_with_the_one_that_is_meant() {
 }
 
 #[test]
-fn check_goes_on_after_a_bad_case() {
+fn check_goes_on_after_a_bad_case_and_tells_scripts_what_is_wrong() {
     let folder = folder();
+    let value = run(&folder, &["check", "--json", damaged(&folder)]).refused(&[]).value();
+    let errors = &value["cases"][0]["errors"];
+    assert_eq!(errors.as_array().unwrap().len(), 1);
+    has(errors[0].as_str().unwrap(), &["material.density"]);
     let answer = run(&folder, &["check", damaged(&folder), &disc()])
         .refused(&["material.density = -1 must be positive", "1 of 2"]);
     answer.says(&["polycarbonate-disc.toml: valid"]);
@@ -176,6 +174,7 @@ fn an_output_folder_that_cannot_be_made_fails_the_run_with_its_path() {
     let answer = on_disc(&folder, "mesh", &[]).out("file/below").end().code(1);
     assert_eq!(answer.stderr.matches("os error").count(), 1, "{}", answer.stderr);
     answer.warns(&["cannot create folder file/below"]);
+    on_disc(&folder, "mesh", &[]).out("file").refused(&["file is a file: --out names a folder"]);
 }
 
 #[test]
@@ -198,7 +197,7 @@ fn warnings_go_to_stderr_and_stay_unless_quiet_is_said_twice() {
         run(&folder, &words).set(&["transient.duration=0.01"]).args(more).done()
     };
     for more in [&[][..], &["--quiet"]] {
-        mesh(more).warns(&["output.snapshots: 0.03 s lies after the end"]);
+        mesh(more).warns(&["WARN ; output.snapshots: 0.03 s lies after the end"]);
     }
     let silent = mesh(&["-qq"]);
     assert_eq!((silent.stdout.as_str(), silent.stderr.as_str()), ("", ""));
@@ -250,8 +249,10 @@ fn init_all_writes_every_shipped_case_with_its_mesh_and_overwrites_nothing() {
 }
 
 #[test]
-fn every_short_name_is_a_shipped_case() {
+fn every_short_name_is_a_shipped_case_and_stdout_has_the_case_alone() {
     let folder = folder();
+    let said = run(&folder, &["init", "--out", "-"]).done().stdout;
+    assert_eq!(said, fs::read_to_string(disc()).unwrap());
     let said = run(&folder, &["init", "nothing"]).refused(&["no template"]).stderr;
     let (_, names) = said.split_once("choose one of ").unwrap();
     let names: Vec<&str> = names.trim().split(", ").collect();
@@ -262,13 +263,7 @@ fn every_short_name_is_a_shipped_case() {
 }
 
 #[test]
-fn init_to_stdout_is_the_case_alone() {
-    let said = run(&folder(), &["init", "--out", "-"]).done().stdout;
-    assert_eq!(said, fs::read_to_string(disc()).unwrap());
-}
-
-#[test]
-fn completions_and_manual_name_every_subcommand() {
+fn completions_and_manual_name_every_subcommand_with_files_and_exit_status() {
     let folder = folder();
     let help = run(&folder, &["--help"]).done().stdout;
     assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
@@ -283,6 +278,10 @@ fn completions_and_manual_name_every_subcommand() {
         run(&folder, &["completions", shell]).done().says(&names);
     }
     run(&folder, &["man"]).done().says(&[".TH frictionsim"]);
+    run(&folder, &["man", "cea"]).done().says(&[
+        ".SH \"FILES\" ; eigenvalues.csv ; .SH \"EXAMPLES\" ; frictionsim cea disc.toml ; \
+         .SH \"EXIT STATUS\" ; \\fB130\\fR",
+    ]);
     run(&folder, &["man", "--out", "pages"]).done();
     for name in names.iter().filter(|name| **name != "help") {
         let page = folder.path().join(format!("pages/frictionsim-{name}.1"));
@@ -338,28 +337,6 @@ fn a_dry_run_checks_everything_and_touches_nothing() {
     let value = dry(&["--json"]).done().value();
     assert_eq!(value["folder"], "results/polycarbonate-disc/cea");
     assert_eq!(value["replaces"], false);
-}
-
-#[test]
-fn warnings_that_are_not_denied_are_no_errors() {
-    let slip = ["--no-figures", "--set", "contact.friction_coefficient=30"];
-    on_disc(&folder(), "mesh", &slip).done().warns(&["WARN"]);
-}
-
-#[test]
-fn help_names_the_default_folder_of_the_command() {
-    for (command, path) in [("cea", "results/CASE/cea"), ("signal", "results/SIGNAL/signal")] {
-        let default = format!("[default: {path}]");
-        run(&folder(), &[command, "--help"]).done().says(&[&default]);
-    }
-}
-
-#[test]
-fn a_manual_page_tells_files_examples_and_exit_status() {
-    run(&folder(), &["man", "cea"]).done().says(&[
-        ".SH \"FILES\" ; eigenvalues.csv ; .SH \"EXAMPLES\" ; frictionsim cea disc.toml ; \
-         .SH \"EXIT STATUS\" ; \\fB130\\fR",
-    ]);
 }
 
 /// A table in a folder of results is known by that folder.

@@ -117,8 +117,13 @@ fn a_fit_on_its_bound_says_so() {
     let set = ["fit.parameters={ \"material.young_modulus\" = [1.5e9, 2.2e9] }"];
     let set = [COARSE_DISC.as_slice(), &set].concat();
     // The disc's lowest torsion and the lowest waves around it.
-    let table = "frequency_hz,harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n";
-    let answer = fitted("fit-table-1.toml", table, &set).code(0).warns(&["is at its bound"]);
+    let folder = folder_with(&[("m.csv", b"f [Hz],harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n")]);
+    let words = ["fit", &shipped("fit-table-1.toml"), "m.csv", "--json", "--format", "svg"];
+    let answer = Run::new(&words).within(&folder).out("out").set(&set).done();
+    let answer = answer.warns(&["is at its bound"]);
+    // Each panel says what its own points are.
+    let names = "fitted model, stable ; case as written, unstable ; >frequency< ; !difference of";
+    has(&answer.text("figures/fit.svg"), &[names]);
     assert_eq!(answer.value()["parameters"]["material.young_modulus"]["at_bound"], 2.2e9);
 }
 

@@ -180,9 +180,13 @@ fn a_run_without_figures_keeps_none_to_draw() {
 fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     let folder = folder();
     let refuse = |more: &[&str], reason: &str| plot(&folder, more).refused(&[reason]);
-    refuse(&[], "it has no manifest.json");
+    refuse(&[], "there is no such folder");
     refuse(&["--dpi", "5"], "20 to 1200");
     run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE).done();
+    let above = Run::new(&["plot", "."]).within(&folder);
+    above.refused(&["it has no manifest.json (results are in ./out)"]);
+    let pair = Run::new(&["compare", "out", "none"]).within(&folder);
+    pair.refused(&["none does not hold ; there is no such folder ; !without figures"]);
     let figures = folder.path().join("out/figures.bin");
     let whole = fs::read(&figures).unwrap();
     let mut bytes = whole.clone();
@@ -193,7 +197,7 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     // Of another version, which a comparison of its numbers says too.
     bytes[8] = 1;
     fs::write(&figures, &bytes).unwrap();
-    let format = "its figures.bin has format 1, this version reads format 2: run it again";
+    let format = "its figures.bin has format 1, this version reads format 3: run it again";
     refuse(&[], format);
     Run::new(&["compare", "out", "out"]).within(&folder).out("both").done().warns(&[format]);
     fs::write(&figures, whole).unwrap();

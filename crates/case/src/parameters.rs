@@ -102,7 +102,7 @@ pub(super) fn collect<'a>(section: &Section<'a>, check: Check) -> Vec<(VariedKey
                 let also = also(section, &key, entry, check);
                 found.push((VariedKey { key, also, at: entry.key_at.clone() }, entry));
             }
-            (RawValue::Table(inner), Err(_)) if keys::is_section(&key) => {
+            (RawValue::Table(inner), Err(_)) if keys::is_section(&key) && !inner.is_empty() => {
                 let inner = inner.iter().rev();
                 rest.extend(inner.map(|(name, entry)| (format!("{key}.{name}"), entry)));
             }

@@ -71,7 +71,7 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     let keys: Vec<SweptKey> =
         entries.into_iter().map(|own| values(&section, combination, own)).collect();
     parameters::refuse_twice(&section, keys.iter().map(|key| &key.varied));
-    if keys.is_empty() {
+    if section.remaining().is_empty() {
         refuse_at!(section, &section.place(""), "[sweep] sweeps nothing"; "no key with values";
             "add for example `\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]`");
     }
@@ -150,11 +150,10 @@ fn values(
     let entry = listed(entry);
     let values: Vec<String> = match &entry.item.value {
         RawValue::Array(items) => items.iter().map(|item| item.value.to_string()).collect(),
-        RawValue::Table(table) => section
-            .range(key, table, &entry.item, Bound::Finite)
-            .into_iter()
-            .map(|value| RawValue::Float(value).to_string())
-            .collect(),
+        RawValue::Table(table) => {
+            let range = section.range(key, table, &entry.item, Bound::Finite).into_iter();
+            range.map(|value| RawValue::Float(value).to_string()).collect()
+        }
         other => vec![other.to_string()],
     };
     if values.is_empty() && matches!(entry.item.value, RawValue::Array(_)) {

@@ -3,6 +3,7 @@
 use super::{Diagnostic, Location, placed};
 use frictionsim_bounds::shortened;
 use std::collections::BTreeMap;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// A TOML value with the place it was written at.
@@ -242,19 +243,17 @@ pub(super) fn convert_table(
     source: usize,
     errors: &mut Vec<Diagnostic>,
 ) -> RawTable {
-    table
-        .iter()
-        .map(|(key, value)| {
-            let entry = RawEntry {
-                key_at: Location::new(source, key.span()),
-                item: RawItem {
-                    value: convert(value.get_ref(), source, value.span(), errors),
-                    at: Location::new(source, value.span()),
-                },
-            };
-            (key.get_ref().to_string(), entry)
-        })
-        .collect()
+    let entries = table.iter().map(|(key, value)| {
+        let (key_at, item) = (Location::new(source, key.span()), item(value, source, errors));
+        (key.get_ref().to_string(), RawEntry { key_at, item })
+    });
+    entries.collect()
+}
+
+/// Takes over one value with its place.
+fn item(value: &Spanned<DeValue<'_>>, source: usize, errors: &mut Vec<Diagnostic>) -> RawItem {
+    let at = Location::new(source, value.span());
+    RawItem { value: convert(value.get_ref(), source, value.span(), errors), at }
 }
 
 /// Takes over one value, whose place is `span` of text `source`.
@@ -279,15 +278,9 @@ pub(super) fn convert(
         DeValue::Float(float) => RawValue::Float(float.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(value) => RawValue::Boolean(*value),
         DeValue::Datetime(value) => RawValue::Datetime(value.to_string()),
-        DeValue::Array(items) => RawValue::Array(
-            items
-                .iter()
-                .map(|item| RawItem {
-                    value: convert(item.get_ref(), source, item.span(), errors),
-                    at: Location::new(source, item.span()),
-                })
-                .collect(),
-        ),
+        DeValue::Array(items) => {
+            RawValue::Array(items.iter().map(|own| item(own, source, errors)).collect())
+        }
         DeValue::Table(table) => RawValue::Table(convert_table(table, source, errors)),
     }
 }

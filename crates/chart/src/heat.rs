@@ -66,8 +66,7 @@ changed! { Heat:
 /// What each cell has, row by row from the top, as images have it.
 fn downwards<T>(columns: usize, rows: usize, of: impl Fn(usize, usize) -> T) -> Vec<T> {
     let row = |row: usize| (0..columns).map(move |column| (column, row));
-    let cells = (0..rows).rev().flat_map(row);
-    cells.map(|(column, row)| of(column, row)).collect()
+    (0..rows).rev().flat_map(row).map(|(column, row)| of(column, row)).collect()
 }
 
 impl Layer for Heat {
@@ -86,8 +85,9 @@ impl Layer for Heat {
     }
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
-        let place = frame.rect(self.x, self.y);
-        self.image.draw(svg, &place, &self.palette, self.colours.is_none());
+        // Cells that a reader can count keep their edges.
+        let is_sharp = self.colours.is_none() || self.image.pixels.len() <= 1024;
+        self.image.draw(svg, &frame.rect(self.x, self.y), &self.palette, is_sharp);
     }
 
     fn keys(&self) -> Vec<(Key, String)> {

@@ -5,7 +5,7 @@ use crate::cea::mode_name;
 use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::drawing::Declaration;
 use crate::keys::keys;
-use frictionsim_chart::{Axis, Figure, INK, MUTED, Marker, Panel, Points, Rule, Stroke};
+use frictionsim_chart::{Axis, Figure, INK, MUTED, Marker, Panel, Points, Rule, SERIES, Stroke};
 use frictionsim_output::{Column, Document, Section, Table, columns, parted, rounded};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -210,7 +210,8 @@ fn fit(summary: &FitSummary) -> Figure {
     let lowest = 0.8 * lines().map(|line| line.frequency_hz).fold(highest, f64::min);
     let over_frequency = |y: Axis, height: f64| {
         let zero = Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6));
-        Panel::new(Axis::kilohertz().between(lowest, highest), y).height(height).layer(zero)
+        let x = Axis::kilohertz().between(lowest, highest);
+        Panel::new(x, y).height(height).layer(zero).legend()
     };
     let as_written = points(&summary.modes_of_case, true).marker(Marker::Triangle, 1.7, MUTED);
     let stable = points(&summary.modes, false).marker(Marker::Disc, 1.5, STABLE);
@@ -219,17 +220,17 @@ fn fit(summary: &FitSummary) -> Figure {
         .layers(rules)
         .layer(complex.marker(Marker::Square, 2.6, INK).name("measured"))
         .layer(as_written.name("case as written, unstable"))
-        .layer(stable.name("fitted, stable"))
-        .layer(unstable.name("fitted, unstable"));
+        .layer(stable.name("fitted model, stable"))
+        .layer(unstable.name("fitted model, unstable"));
     let frequencies = Points::new(lines().map(|line| (line.frequency_hz, line.difference_percent)));
-    let frequencies = frequencies.marker(Marker::Disc, 1.8, STABLE);
+    let frequencies = frequencies.marker(Marker::Disc, 1.8, SERIES[2]);
     let reals = Points::new(lines().filter_map(|line| {
         Some((line.frequency_hz, 100.0 * line.real_difference_hz? / line.frequency_hz))
     }));
-    let reals = reals.marker(Marker::Diamond, 1.6, UNSTABLE);
+    let reals = reals.marker(Marker::Diamond, 1.6, SERIES[3]);
     let differences = over_frequency(Axis::new("model – measured", "% of *f*").symmetric(), 80.0)
-        .layer(frequencies.name("difference of frequency"))
-        .layer(reals.name("difference of real part"));
+        .layer(frequencies.name("frequency"))
+        .layer(reals.name("real part"));
     let measured = match lines().any(|line| line.real_hz.is_some()) {
         true => "measured eigenvalues",
         false => "measured frequencies",

@@ -121,10 +121,9 @@ fn matrix(summary: &MacSummary) -> Figure {
     let (shapes, modes) = (summary.shapes.len(), summary.modes.len());
     let span = |count: usize| ((0.5, count as f64 + 0.5), count);
     let axis = Axis::new("modal assurance criterion", "").between(0.0, 1.0);
-    let heat =
-        Heat::of_values(span(modes), span(shapes), (axis, ColourMap::Viridis), |mode, shape| {
-            summary.mac[shape][mode]
-        });
+    let (colours, value) =
+        ((axis, ColourMap::Viridis), |mode: usize, shape: usize| summary.mac[shape][mode]);
+    let heat = Heat::of_values(span(modes), span(shapes), colours, value);
     let places = summary.pairs.iter().map(|pair| (pair.mode as f64, pair.shape as f64));
     let numbers = |name: &str, count: usize| {
         let (from, to) = span(count).0;

@@ -26,7 +26,7 @@ pub struct Page {
 impl Record for Page {
     const FILE: &str = "figures.bin";
     const MAGIC: [u8; 8] = *b"FRICSIMF";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
 
     fn inconsistency(&self) -> Option<&'static str> {
         let is_whole = self.document.is_whole() && self.figures.iter().all(Figure::is_whole);

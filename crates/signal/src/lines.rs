@@ -137,17 +137,14 @@ fn peaks(spectrum: &AmplitudeSpectrum, scale: f64) -> Vec<SpectralLine> {
     let exceeded = normal_exceeded(FALSE_ALARM / a.len() as f64);
     let ratio = mean_power_exceeded(count, exceeded) / mean_power_exceeded(count, 0.0);
     let noise = local_noise(a, reach);
-    let mut lines = Vec::new();
-    for k in PADDING..a.len() - 1 {
+    let stands_out = |&k: &usize| {
         let neighbours = &a[k.saturating_sub(reach)..(k + reach + 1).min(a.len())];
         let is_peak = a[k] > a[k - 1] && a[k] >= a[k + 1] && a[k] >= WEAKEST * top;
-        if is_peak
-            && neighbours.iter().all(|other| *other <= a[k])
-            && a[k] > noise[k] * ratio.sqrt()
-        {
-            lines.push(located(spectrum, k));
-        }
-    }
+        let is_largest = || neighbours.iter().all(|other| *other <= a[k]);
+        is_peak && a[k] > noise[k] * ratio.sqrt() && is_largest()
+    };
+    let tops = (PADDING..a.len() - 1).filter(stands_out);
+    let mut lines: Vec<SpectralLine> = tops.map(|k| located(spectrum, k)).collect();
     lines.sort_by(|p, q| q.amplitude.total_cmp(&p.amplitude));
     lines
 }

@@ -86,13 +86,8 @@ impl FrequencyResponse {
                 )));
             }
         }
-        Ok(Self {
-            variance_factors: vec![1.0; values.len()],
-            frequencies_hz,
-            values,
-            quantity,
-            has_phase,
-        })
+        let variance_factors = vec![1.0; values.len()];
+        Ok(Self { frequencies_hz, values, quantity, has_phase, variance_factors })
     }
 
     /// The same with lines of low coherence counting less in a fit.
@@ -198,12 +193,9 @@ impl FrequencyResponse {
     pub fn within(&self, low_hz: f64, high_hz: f64) -> Result<Self, SignalError> {
         let first = self.frequencies_hz.partition_point(|f| *f < low_hz);
         let last = self.frequencies_hz.partition_point(|f| *f <= high_hz).max(first);
-        let part = Self::measured(
-            self.frequencies_hz[first..last].to_vec(),
-            self.values[first..last].to_vec(),
-            self.quantity,
-            self.has_phase,
-        )?;
+        let frequencies_hz = self.frequencies_hz[first..last].to_vec();
+        let values = self.values[first..last].to_vec();
+        let part = Self::measured(frequencies_hz, values, self.quantity, self.has_phase)?;
         Ok(part.with_variance_factors(&self.variance_factors[first..last]))
     }
 }

@@ -59,7 +59,8 @@ pub fn averaged_spectrum(
     let gain = 2.0 / taper.iter().sum::<f64>();
     let mut transform = BlockTransform::new(taper, block * padding.max(1));
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
-    let mut powers = vec![0.0; transform.lines()];
+    let frequencies_hz = transform.frequencies_hz(sampling_rate);
+    let mut powers = vec![0.0; frequencies_hz.len()];
     let mut averages = 0;
     for start in (0..=samples.len() - block).step_by((block / 2).max(1)) {
         let lines = transform.of(&samples[start..start + block], mean);
@@ -69,11 +70,8 @@ pub fn averaged_spectrum(
         averages += 1;
     }
     let scale = gain / f64::sqrt(averages as f64);
-    Ok(AmplitudeSpectrum {
-        frequencies_hz: transform.frequencies_hz(sampling_rate),
-        amplitudes: powers.iter().map(|p| scale * p.sqrt()).collect(),
-        averages,
-    })
+    let amplitudes = powers.iter().map(|p| scale * p.sqrt()).collect();
+    Ok(AmplitudeSpectrum { frequencies_hz, amplitudes, averages })
 }
 
 /// Windowed real transform of blocks of one length, zero-padded.
@@ -88,24 +86,14 @@ pub(super) struct BlockTransform {
 impl BlockTransform {
     pub(super) fn new(taper: Vec<f64>, length: usize) -> Self {
         let fft = RealFftPlanner::<f64>::new().plan_fft_forward(length);
-        Self {
-            input: fft.make_input_vec(),
-            output: fft.make_output_vec(),
-            scratch: fft.make_scratch_vec(),
-            fft,
-            taper,
-        }
-    }
-
-    /// Number of bins.
-    pub(super) fn lines(&self) -> usize {
-        self.output.len()
+        let (input, output) = (fft.make_input_vec(), fft.make_output_vec());
+        Self { scratch: fft.make_scratch_vec(), fft, taper, input, output }
     }
 
     /// Frequencies of the bins, Hz.
     pub(super) fn frequencies_hz(&self, sampling_rate: f64) -> Vec<f64> {
         let step = sampling_rate / self.input.len() as f64;
-        (0..self.lines()).map(|k| k as f64 * step).collect()
+        (0..self.output.len()).map(|k| k as f64 * step).collect()
     }
 
     /// Transform of one block less `mean`.

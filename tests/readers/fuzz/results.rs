@@ -49,12 +49,14 @@ fn with_right_checksum(mut bytes: Vec<u8>) -> Vec<u8> {
 
 /// The figures with changed contents, deflated as they were.
 fn figures_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
-    let deflated: Vec<u8> = postcard::from_bytes(&original[24..]).unwrap();
+    let (_, deflated): (u64, &[u8]) = postcard::from_bytes(&original[24..]).unwrap();
     let mut bytes = Vec::new();
-    DeflateDecoder::new(&deflated[..]).read_to_end(&mut bytes).unwrap();
+    DeflateDecoder::new(deflated).read_to_end(&mut bytes).unwrap();
+    let changed = binary(random, &bytes);
     let mut deflated = DeflateEncoder::new(Vec::new(), Compression::fast());
-    deflated.write_all(&binary(random, &bytes)).unwrap();
-    let payload = postcard::to_stdvec(&deflated.finish().unwrap()).unwrap();
+    deflated.write_all(&changed).unwrap();
+    let payload = (changed.len() as u64, deflated.finish().unwrap());
+    let payload = postcard::to_stdvec(&payload).unwrap();
     with_right_checksum([&original[..24], &payload].concat())
 }
 

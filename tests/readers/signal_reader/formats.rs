@@ -125,6 +125,55 @@ fn universal_files_in_text_and_binary_give_back_the_response() {
     has(&read_signal(text.as_bytes(), "x", None).unwrap_err().to_string(), &["no time response"]);
 }
 
+/// Several functions in one file, binary ones too, in the units of the file or those of their axes.
+#[test]
+fn every_function_of_a_universal_file_is_read_in_its_units() {
+    let want = named();
+    let text = write_response(&want);
+    let bytes = binary(&text, want.response.values(), false);
+    let read = |bytes: &[u8]| reader::read_response(bytes, "x", &ResponseOptions::default());
+    let both = |bytes: &[u8]| read(&[bytes, text.as_bytes(), bytes].concat()).unwrap();
+    for bytes in [text.as_bytes(), &bytes] {
+        let file = both(bytes);
+        assert_eq!((file.responses.len(), file.notes.len()), (3, 0), "{:?}", file.notes);
+    }
+    let units = |length: &str, force: &str| {
+        format!("    -1\n   164\n         5mm\n  {length}  {force}  1.0D+00\n  0.0D+00\n    -1\n")
+    };
+    // Labels of the ordinate's numerator and denominator, the second and third of the axes.
+    let labelled = |[motion, force]: [&str; 2]| {
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        for (line, label) in [(10, motion), (11, force)] {
+            lines[line].replace_range(47..67, &format!("{label:<20}"));
+        }
+        lines.join("\n") + "\n"
+    };
+    let lbf = 4.448_221_615_260_5;
+    for (file, factor) in [
+        (units("1.0D+03", "1.0D+00") + &text, 1e-3),
+        (units("1.0D+03", "1.0D+03") + &text, 1.0),
+        // What the axis says counts.
+        (units("1.0D+03", "1.0D+00") + &labelled(["m/s", "N"]), 1.0),
+        (labelled(["mm/s", "NONE"]), 1e-3),
+        (labelled(["(in/s)/lbf", "NONE"]), 0.0254 / lbf),
+        (labelled(["m/s", "kN"]), 1e-3),
+    ] {
+        let file = read(file.as_bytes()).unwrap();
+        let expected: Vec<c64> = want.response.values().iter().map(|z| z * factor).collect();
+        near_each(file.responses[0].response.values(), &expected, 1e-11);
+        assert!(file.notes.is_empty(), "{:?}", file.notes);
+    }
+    has(&read(labelled(["V", "NONE"]).as_bytes()).unwrap().notes[0], &["its unit is not known"]);
+    // A ratio of two motions is no response to a force.
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    lines[11].replace_range(..10, &format!("{:>10}", 12));
+    let ratio = lines.join("\n") + "\n";
+    let left = read((ratio.clone() + &text).as_bytes()).unwrap();
+    assert_eq!(left.responses.len(), 1);
+    has(&left.notes[0], &["left out: disc 12:+Z ; not over a force"]);
+    has(&read(ratio.as_bytes()).unwrap_err().to_string(), &["no frequency response to a force"]);
+}
+
 #[test]
 fn signals_come_back_from_universal_wav_and_matlab_files() {
     let samples: Vec<f64> = (0..300).map(|k| (0.37 * f64::from(k)).sin()).collect();

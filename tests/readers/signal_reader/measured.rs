@@ -30,7 +30,19 @@ fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
     let degrees = |h: c64| h.arg().to_degrees();
     let polar = |f: f64, h: c64| format!("{f};{};{}", level(h, 1.0), degrees(h));
     let parts = |f: f64, h: c64| format!("{f};{};{}", h.re, h.im);
+    let scaled = |scale: f64| move |f: f64, h: c64| parts(f, h / scale);
     let tables = [
+        table("Frequency (Hz);Real (mm/s2/N);Imag (mm/s2/N)", scaled(1e-3)),
+        table("Frequency;Real;Imag\nHz;(m/s^2)/kN;(m/s^2)/kN", scaled(1e-3)),
+        table(
+            "f_hz;re_in_per_s2_per_lbf;im_in_per_s2_per_lbf",
+            scaled(0.0254 / 4.448_221_615_260_5),
+        ),
+        table("# unit: g/N\nf [Hz];Re;Im", scaled(9.806_65)),
+        table("f [Hz];H (dB re 1 mm/s^2/N);Phase (deg)", |f, h| {
+            format!("{f};{};{}", level(h, 1e-3), degrees(h))
+        }),
+        table("f [Hz];Magnitude;Phase", |f, h| format!("{f};{};{}", h.norm(), h.arg())),
         table("Frequency (Hz);Magnitude (dB re 1 m/s2/N);Phase (deg)", polar),
         table("Frequency (Hz);Magnitude (dB re 1e-6 m/s2/N);Phase (deg)", |f, h| {
             format!("{f};{};{}", level(h, 1e-6), degrees(h))
@@ -102,6 +114,19 @@ fn frequencies_that_look_like_kilohertz_are_doubted_where_no_unit_is_written() {
     assert!(read(&small("Frequency,re,im"), &[], &[]).notes[0].contains("if they are kHz"));
     assert!(read(&small("Frequency (Hz),re,im"), &[], &[]).notes.is_empty());
     assert!(read(&small("x,y,z"), &["f_khz", "re", "im"], &[]).notes.is_empty());
+}
+
+#[test]
+fn phases_that_look_like_radians_and_units_of_no_response_are_doubted() {
+    let polar = |header: &str, unit: f64| {
+        let text = table(header, |f, h| format!("{f};{};{}", h.norm(), h.arg() * unit));
+        read(&text, &[], &[]).notes
+    };
+    has(&polar("f_hz;mag;phase", 1.0).join(" "), &["taken as radians ; `phase_deg`"]);
+    has(&polar("f_hz;mag (mV/N);phase_rad", 1.0).join(" "), &["`mV/N` is no unit"]);
+    for (header, unit) in [("f_hz;mag (m/s2/N);phase_rad", 1.0), ("f_hz;mag;phase", 57.3)] {
+        assert!(polar(header, unit).is_empty(), "{header}");
+    }
 }
 
 #[test]

@@ -51,6 +51,7 @@ fn every_common_dialect_gives_the_same_response() {
         format!("frequency_hz  real  imag\n{}", rows("  ", ".", "\n")),
         format!("frequency_hz real imag\n{}", rows(" ", ",", "\n")),
         format!("# hammer test\n# frequency_hz, real, imag\n{}", rows(", ", ".", "\n")),
+        format!("# frequency real imag\n% [Hz] [m/s2/N] [m/s2/N]\n{}", rows(" ", ",", "\n")),
         format!("Disc 3\nFrequency;Real;Imag\n[Hz];[m/s2/N];[m/s2/N]\n{}", rows(";", ".", "\n")),
         format!("\u{feff}frequency_hz,real,imag\n{}", rows(",", ".", "\n")),
         format!("frequency_hz,real,imag,\n{}", rows(",", ".", ",\n")),

@@ -23,8 +23,8 @@ const LIMITED: [fn(&Case) -> Option<Limit>; 4] =
     [material::wave_speed, motion::seeds, contact::friction, contact::stiffness];
 
 /// What cannot run.
-const IMPOSSIBLE: [fn(&Case) -> Option<Diagnostic>; 4] =
-    [motion::time_step, motion::duration, motion::start, unwritten_response];
+const IMPOSSIBLE: [fn(&Case) -> Option<Diagnostic>; 5] =
+    [motion::time_step, motion::duration, motion::start, unwritten_response, unwritten_mesh];
 
 /// What hardly anybody means.
 const DOUBTFUL: [fn(&Case) -> Option<Diagnostic>; 11] = [
@@ -48,6 +48,15 @@ fn unwritten_response(case: &Case) -> Option<Diagnostic> {
     let error = FrequencyResponse::new(lines, values, ResponseQuantity::Receptance).err()?;
     let key = "frf.frequencies_hz";
     Some(diagnosis!(case, key, "{key} with output.universal: {error}"; "cannot be written"))
+}
+
+/// A mesh that universal files have no elements for, of what writes it: `cea` and `matrices`.
+fn unwritten_mesh(case: &Case) -> Option<Diagnostic> {
+    let mesh = case.body.whole_mesh().filter(|_| case.output.universal && case.cea.is_some())?;
+    let kind = mesh.element_kinds.iter().find(|kind| kind.universal(&[]).is_none())?;
+    Some(diagnosis!(case, "output.universal", "output.universal: the mesh has elements {}, which \
+        universal files do not have", kind.name(); "cannot be written"; "leave it out: mode shapes \
+        are in the .vtu files, too; or mesh with tetrahedra, bricks and wedges alone"))
 }
 
 /// What is said of values on one side of what is possible.

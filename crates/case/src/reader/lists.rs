@@ -38,11 +38,9 @@ impl<'a> Section<'a> {
     /// Reads every section under `name`, which are told apart by names that the case gives.
     pub fn each<T>(&self, name: &str, mut read: impl FnMut(&Section<'_>) -> T) -> Vec<(String, T)> {
         let all = self.section(name, false);
-        let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-        let found = names
-            .into_iter()
-            .map(|name| (name.to_owned(), all.section(name, false).closed(&mut read)))
-            .collect();
+        let mut read = |name: &str| all.section(name, false).closed(&mut read);
+        let names = all.remaining().into_iter();
+        let found = names.map(|(name, _)| (name.to_owned(), read(name))).collect();
         all.close();
         found
     }

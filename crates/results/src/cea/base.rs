@@ -226,10 +226,8 @@ impl BaseField {
 
     /// Status, pressure and friction traction at the contact nodes.
     fn at_nodes(&self, body: &ShownBody<'_>) -> [Field; 3] {
-        let nodes = self
-            .contact
-            .iter()
-            .flat_map(|own| own.place.shares.iter().map(move |&(node, _)| (node, own)));
+        let all = self.contact.iter();
+        let nodes = all.flat_map(|own| own.place.shares.iter().map(move |&(node, _)| (node, own)));
         let (nodes, states): (Vec<u32>, Vec<&ContactState>) = nodes.unzip();
         let count = self.displacement.len() / if body.is_solid() { 3 } else { 2 };
         let statuses = states.iter().map(|own| own.status());

@@ -111,19 +111,12 @@ impl Reading {
 
     /// An unstable mode, and what it consists of.
     fn sentence(&self, mode: &ModeName, own: &[&Coupling]) -> String {
-        let partners: Vec<String> = own
-            .iter()
-            .take_while(|row| row.share >= NOTABLE)
-            .take(2)
-            .map(|row| {
-                format!(
-                    "{} ({}, {:.0} %)",
-                    row.reference.mode,
-                    kilohertz(&row.reference),
-                    100.0 * row.share
-                )
-            })
-            .collect();
+        let partner = |row: &&Coupling| {
+            let (name, frequency) = (row.reference.mode, kilohertz(&row.reference));
+            format!("{name} ({frequency}, {:.0} %)", 100.0 * row.share)
+        };
+        let notable = own.iter().take_while(|row| row.share >= NOTABLE).take(2);
+        let partners: Vec<String> = notable.map(partner).collect();
         let partners = match partners.as_slice() {
             [one] => format!("comes from mode {one}"),
             [one, other] => format!("couples modes {one} and {other}"),

@@ -232,7 +232,7 @@ fn convergence(series: &[Series]) -> Figure {
     )
     .columns(2)
     .panels(panels)
-    .note("a quantity whose changes do not fall has no order, and none is shown")
+    .note("dotted: whole orders; a quantity whose changes do not fall has no order, and none is shown")
 }
 
 fn changes(series: &Series) -> Panel {

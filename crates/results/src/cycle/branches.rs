@@ -29,13 +29,11 @@ pub fn draw_branches(
     two_waves: &[TwoWaveSummary],
 ) -> Vec<Figure> {
     // A branch of a single cycle is no curve.
-    let curves: Vec<Curve<'_>> = families
-        .iter()
-        .filter_map(|(suffix, family)| {
-            Some(Curve { suffix, family, branch: family.branch.as_ref()? })
-        })
-        .filter(|curve| curve.branch.values.len() > 1)
-        .collect();
+    let curves = families.iter().filter_map(|(suffix, family)| {
+        let branch = family.branch.as_ref().filter(|branch| branch.values.len() > 1)?;
+        Some(Curve { suffix, family, branch })
+    });
+    let curves: Vec<Curve<'_>> = curves.collect();
     let curves = &curves[..];
     let figures = [frequencies(curves, two_waves), shares(curves)].into_iter();
     figures.filter(Figure::has_data).collect()

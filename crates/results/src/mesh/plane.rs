@@ -129,11 +129,9 @@ impl MeshStatistics {
     /// is about, m.
     pub fn new(mesh: &Mesh, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
         let quality = mesh.quality();
-        let mut regions: Vec<RegionStatistics> = mesh
-            .regions
-            .iter()
-            .map(|name| RegionStatistics { name: name.clone(), elements: 0, area_m2: 0.0 })
-            .collect();
+        let empty =
+            |name: &String| RegionStatistics { name: name.clone(), elements: 0, area_m2: 0.0 };
+        let mut regions: Vec<RegionStatistics> = mesh.regions.iter().map(empty).collect();
         for element in 0..mesh.element_count() {
             let region = &mut regions[mesh.region(element)];
             region.elements += 1;

@@ -86,11 +86,9 @@ impl SolidMeshStatistics {
             mass_kg: densities[r] * volumes[r],
         });
         let regions: Vec<SolidRegion> = regions.collect();
-        let contact_nodes: BTreeSet<u32> = roles
-            .iter()
-            .filter(|role| *role.1 == "contact")
-            .flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied())
-            .collect();
+        let contacts = roles.iter().filter(|role| *role.1 == "contact");
+        let contact_nodes: BTreeSet<u32> =
+            contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied()).collect();
         let bound = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
             mesh.nodes.iter().map(|point| point[axis]).fold(start, pick)
         };

@@ -129,6 +129,9 @@ impl OutputFolder {
         if !path.exists() {
             return Ok(());
         }
+        if path.is_file() {
+            return Err(FolderError::unusable(path, "is a file: --out names a folder"));
+        }
         refuse_links(path)?;
         replaces_others(path, manifest, replace).map(|_| ())
     }

@@ -3,12 +3,13 @@
 use super::error::FolderError;
 use super::framed::{Defect, read_sealed};
 use super::manifest::Manifest;
-use frictionsim_bounds::{RESULT, read_file, read_text};
+use frictionsim_bounds::{RESULT, first_of, read_file, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
-use std::path::Path;
+use std::fs;
+use std::io::ErrorKind::{NotADirectory, NotFound};
+use std::path::{Path, PathBuf};
 
 pub(crate) const MANIFEST: &str = "manifest.json";
 
@@ -79,7 +80,7 @@ pub(crate) fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError
 pub(crate) fn read_existing(path: &Path) -> Result<Option<Vec<u8>>, FolderError> {
     match read_file(path, RESULT) {
         Ok(bytes) => Ok(Some(bytes)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) if [NotFound, NotADirectory].contains(&error.kind()) => Ok(None),
         Err(error) => Err(FolderError::io("read", path, error)),
     }
 }
@@ -116,11 +117,28 @@ pub fn read_manifest(path: &Path) -> Result<Manifest, FolderError> {
 
 fn whole_contents(path: &Path) -> Result<Contents, FolderError> {
     let bytes = read_existing(&path.join(MANIFEST))?;
-    let bytes =
-        bytes.ok_or_else(|| FolderError::no_results(path, format!("it has no {MANIFEST}")))?;
+    let bytes = bytes.ok_or_else(|| FolderError::no_results(path, without_manifest(path)))?;
     contents_of(&bytes).map_err(|defect| {
         FolderError::no_results(path, format!("its {MANIFEST} is damaged ({defect})"))
     })
+}
+
+/// Why a path has no manifest, and the folders below it that have one.
+fn without_manifest(path: &Path) -> String {
+    let folders_in = |path: &PathBuf| {
+        let entries = fs::read_dir(path).into_iter().flatten().flatten();
+        entries.map(|entry| entry.path()).filter(|path| path.is_dir()).collect::<BTreeSet<_>>()
+    };
+    let mut below = folders_in(&path.to_owned());
+    below.extend(below.clone().iter().flat_map(folders_in));
+    let found = below.iter().filter(|folder| folder.join(MANIFEST).is_file());
+    let found: Vec<String> = found.map(|folder| folder.display().to_string()).collect();
+    match (path.is_file(), path.exists()) {
+        (true, _) => "it is a file".to_owned(),
+        (_, false) => "there is no such folder".to_owned(),
+        _ if found.is_empty() => format!("it has no {MANIFEST}"),
+        _ => format!("it has no {MANIFEST} (results are in {})", first_of(found, 3)),
+    }
 }
 
 /// The bytes of a file of a finished run, as they were written.

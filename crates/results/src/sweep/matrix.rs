@@ -36,15 +36,10 @@ impl<'a> OperatingMatrix<'a> {
         let of_point = |(record, summary): (&'a PointRecord, &Value)| {
             let modes = listed::<UnstableMode>(summary.get("unstable_modes"));
             let counts = listed::<UnstableCount>(summary.get("unstable_counts")).into_iter();
-            counts.map(move |UnstableCount { friction_coefficient, .. }| Condition {
-                point: record.point,
-                swept: &record.swept,
-                friction_coefficient,
-                unstable: modes
-                    .iter()
-                    .filter(|mode| mode.friction_coefficient == friction_coefficient)
-                    .copied()
-                    .collect(),
+            counts.map(move |UnstableCount { friction_coefficient, .. }| {
+                let own = modes.iter().filter(|m| m.friction_coefficient == friction_coefficient);
+                let (unstable, swept) = (own.copied().collect(), &record.swept);
+                Condition { point: record.point, swept, friction_coefficient, unstable }
             })
         };
         let solved = records.iter().filter_map(|own| Some((own, own.summaries.get("cea")?)));

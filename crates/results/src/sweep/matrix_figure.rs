@@ -62,11 +62,8 @@ pub(crate) fn operating_matrix(records: &[PointRecord]) -> Option<Figure> {
     let panels: Vec<Panel> = (0..layout.panel_count())
         .take(PANELS)
         .map(|panel| {
-            let own: Vec<(usize, &Condition<'_>)> = conditions
-                .iter()
-                .enumerate()
-                .filter(|(at, _)| layout.panel(*at) == panel)
-                .collect();
+            let all = conditions.iter().enumerate();
+            let own: Vec<_> = all.filter(|(at, _)| layout.panel(*at) == panel).collect();
             layout.draw(panel, &own, (&bounds, ends))
         })
         .collect();

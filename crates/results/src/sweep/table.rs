@@ -39,11 +39,8 @@ pub(super) fn points(keys: &[String], records: &[PointRecord]) -> Table {
         records.iter().map(|record| scalars(record, &mut longest)).collect();
     let mut columns = Vec::new();
     rows.iter().for_each(|row| add_columns(&mut columns, row));
-    let too_long: Vec<String> = longest
-        .into_iter()
-        .filter(|&(_, length)| length > LONGEST_LIST)
-        .map(|(path, _)| format!("{path}."))
-        .collect();
+    let too_long = longest.into_iter().filter(|&(_, length)| length > LONGEST_LIST);
+    let too_long: Vec<String> = too_long.map(|(path, _)| format!("{path}.")).collect();
     let is_kept = |name: &String| !too_long.iter().any(|list| name.starts_with(list.as_str()));
     let names: Vec<String> = columns.into_iter().filter(is_kept).collect();
 

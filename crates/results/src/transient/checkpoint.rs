@@ -38,7 +38,7 @@ impl Record for Checkpoint {
 impl Record for Recorder {
     const FILE: &str = "record.bin";
     const MAGIC: [u8; 8] = *b"FRICSIMR";
-    const VERSION: u32 = 6;
+    const VERSION: u32 = 7;
 
     fn inconsistency(&self) -> Option<&'static str> {
         (!self.is_consistent()).then_some("its samples, probes and frames do not fit together")

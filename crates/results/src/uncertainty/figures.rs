@@ -16,7 +16,7 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
         let quantiles = family.critical_friction_percentiles.iter().enumerate();
         let points = quantiles.filter_map(|(k, value)| Some(((*value)?, 0.01 * (k + 1) as f64)));
         Line::through(points.collect::<Vec<_>>())
-            .stroke(Stroke::dashed(look(index + 1).0, 0.9))
+            .stroke(Stroke::solid(look(index + 1).0, 0.9))
             .name(family.name().replace("n =", "*n* ="))
     });
     let own = || {
@@ -27,7 +27,7 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     };
     let (value, interval) = probability(&summary.probability_over_friction);
     let panel = |name: &str| Panel::new(friction(), share(name)).height(150.0).legend();
-    let distribution = panel("turned unstable below *μ*").layers(own()).layers(families);
+    let distribution = panel("share unstable below *μ*").layers(own()).layers(families);
     let probability = panel("probability of squeal")
         .layer(interval)
         .layers(own())
@@ -83,14 +83,11 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
         })
     });
     let names = rows.iter().enumerate().map(|(k, (key, _))| (place(k), parameter_name(key)));
-    let largest = rows
-        .iter()
-        .map(|row| {
-            let ends = [row.1.first_interval, row.1.total_interval];
-            let ends = ends.into_iter().flatten().map(|[_, high]| high);
-            ends.fold(row.1.total.max(row.1.first), f64::max)
-        })
-        .fold(1.0, f64::max);
+    let largest = rows.iter().flat_map(|(_, own)| {
+        let ends = [own.first_interval, own.total_interval].into_iter().flatten();
+        ends.map(|[_, high]| high).chain([own.total, own.first])
+    });
+    let largest = largest.fold(1.0, f64::max);
     let y = Axis::new("", "").between(-0.6, rows.len() as f64 - 0.4).ticks(names);
     let panel = Panel::new(Axis::new("Sobol index", "–").between(0.0, largest), y)
         .height(34.0 * rows.len() as f64 + 12.0)
@@ -110,20 +107,18 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
 pub fn robust(summary: &RobustSummary) -> Figure {
     let panel = |curve: &DesignCurve| {
         let (value, interval) = probability(&curve.points);
-        let panel = Panel::new(
-            parameter_axis(&curve.key),
-            Axis::new("probability of squeal", "–").between(0.0, 1.0),
-        )
-        .height(130.0)
-        .layer(interval)
-        .layer(value.marked(Marker::Disc, 1.5))
-        .layer(Rule::horizontal(summary.bound).stroke(Stroke::dashed(INK, 0.8)).name("bound"));
+        let bound = Rule::horizontal(summary.bound).stroke(Stroke::dashed(INK, 0.8));
+        let share = Axis::new("probability of squeal", "–").between(0.0, 1.0);
+        let panel = Panel::new(parameter_axis(&curve.key), share)
+            .height(130.0)
+            .layer(interval)
+            .layer(value.marked(Marker::Disc, 1.5))
+            .layer(bound.name("bound"));
         let own = curve.own.map(|own| {
             Rule::vertical(own).stroke(Stroke::dotted(INK, 0.8)).name("case as written")
         });
-        let reached = curve
-            .reaches_bound_at
-            .map(|value| Label::new((value, summary.bound), "reached").moved(3.0, -4.0));
+        let reached = curve.reaches_bound_at.map(|value| (value, summary.bound));
+        let reached = reached.map(|place| Label::new(place, "reached").moved(3.0, -4.0));
         panel.layers(own).layers(reached)
     };
     Figure::new(

@@ -33,19 +33,13 @@ pub(super) fn demodulate<T: Copy + Mul<c64, Output = c64>>(
     let block = taper.len();
     let step = TAU * frequency_hz / sampling_rate;
     let sum = taper.iter().sum::<f64>();
-    let carrier: Vec<c64> = (taper.iter().enumerate())
-        .map(|(j, w)| c64::from_polar(w / sum, -step * j as f64))
-        .collect();
-    let mut out = Demodulated {
-        times: Vec::new(),
-        log_amplitude: Vec::new(),
-        phase: Vec::new(),
-        correlated: block as f64 / hop as f64,
-        frequency_hz,
-        taper: (taper.iter().enumerate())
-            .map(|(j, w)| ((j as f64 - 0.5 * block as f64) / sampling_rate, w / sum))
-            .collect(),
-    };
+    let turned = |(j, w): (usize, &f64)| c64::from_polar(w / sum, -step * j as f64);
+    let carrier: Vec<c64> = taper.iter().enumerate().map(turned).collect();
+    let timed = |(j, w): (usize, &f64)| ((j as f64 - 0.5 * block as f64) / sampling_rate, w / sum);
+    let taper = taper.iter().enumerate().map(timed).collect();
+    let correlated = block as f64 / hop as f64;
+    let (times, log_amplitude, phase) = (Vec::new(), Vec::new(), Vec::new());
+    let mut out = Demodulated { times, log_amplitude, phase, correlated, frequency_hz, taper };
     let mut turns = 0.0;
     for start in (0..=series.len() - block).step_by(hop) {
         let window = series[start..start + block].iter().zip(&carrier);

@@ -91,11 +91,8 @@ impl Lines {
         reference_hz: f64,
     ) -> Self {
         let x: Vec<f64> = frequencies_hz.iter().map(|f| f / reference_hz).collect();
-        let factor = x
-            .iter()
-            .zip(weights)
-            .map(|(x, w)| c64::new(0.0, *x).powi(quantity.derivatives()) * *w)
-            .collect();
+        let power = |x: &f64| c64::new(0.0, *x).powi(quantity.derivatives());
+        let factor = x.iter().zip(weights).map(|(x, w)| power(x) * *w).collect();
         Self { x, factor, reference_hz }
     }
 

@@ -251,11 +251,9 @@ fn correlation(residuals: &[Vec<c64>]) -> f64 {
 /// Frequency of the nearest other pole whose half-power band overlaps that of `pole`, Hz.
 fn overlapping(pole: Pole, others: impl Iterator<Item = Pole>) -> Option<f64> {
     let miss = |frequency_hz: f64| (frequency_hz - pole.frequency_hz).abs();
-    others
-        .filter(|q| *q != pole)
-        .filter(|q| miss(q.frequency_hz) < 0.5 * (q.bandwidth_hz() + pole.bandwidth_hz()))
-        .map(|q| q.frequency_hz)
-        .reduce(|a, b| if miss(a) <= miss(b) { a } else { b })
+    let reach = |q: &Pole| 0.5 * (q.bandwidth_hz() + pole.bandwidth_hz());
+    let near = others.filter(|q| *q != pole && miss(q.frequency_hz) < reach(q));
+    near.map(|q| q.frequency_hz).reduce(|a, b| if miss(a) <= miss(b) { a } else { b })
 }
 
 /// Modes within the range, with their errors.
@@ -274,12 +272,11 @@ fn summarised(
     let variance = correlation * chi_square / (problem.data_count() as f64 - unknowns).max(1.0);
     // Modes are the poles within the range, by frequency.
     let (begin, end) = range(parts);
-    let mut inside: Vec<usize> = (0..model.poles.len())
-        .filter(|&k| {
-            let p = model.poles[k];
-            (begin..=end).contains(&p.frequency_hz) && p.damping_factor < MOST_DAMPED
-        })
-        .collect();
+    let is_mode = |&k: &usize| {
+        let p = model.poles[k];
+        (begin..=end).contains(&p.frequency_hz) && p.damping_factor < MOST_DAMPED
+    };
+    let mut inside: Vec<usize> = (0..model.poles.len()).filter(is_mode).collect();
     inside.sort_by(|i, j| model.poles[*i].frequency_hz.total_cmp(&model.poles[*j].frequency_hz));
     // Unknowns are logarithms: their errors are relative.
     let estimate = |value: f64, relative_error: f64| Estimate {
@@ -307,13 +304,6 @@ fn summarised(
         let zetas = model.poles[p].damping_factor * model.poles[q].damping_factor;
         variance * zetas * inverse_normal[(2 * p + 1, 2 * q + 1)]
     });
-    ModalFit {
-        added_poles: model.poles.len() - starts,
-        model,
-        modes,
-        damping_covariance,
-        noise,
-        correlation,
-        range_hz: (begin, end),
-    }
+    let (added_poles, range_hz) = (model.poles.len() - starts, (begin, end));
+    ModalFit { model, modes, damping_covariance, noise, added_poles, correlation, range_hz }
 }

@@ -71,16 +71,13 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
         return Err(SignalError::NoResonance { low_hz: f[0], high_hz: f[f.len() - 1] });
     }
     let y = mobility.magnitudes();
-    let mut bands: Vec<HalfPowerBand> = tops
-        .iter()
-        .enumerate()
-        .map(|(k, &top)| {
-            // The band must end before the valley towards the next resonance.
-            let left = if k > 0 { valley(&y, tops[k - 1], top) } else { 0 };
-            let right = tops.get(k + 1).map_or(y.len() - 1, |next| valley(&y, top, *next));
-            measure(&f[left..=right], &y[left..=right], top - left)
-        })
-        .collect();
+    let band = |(k, &top): (usize, &usize)| {
+        // The band must end before the valley towards the next resonance.
+        let left = if k > 0 { valley(&y, tops[k - 1], top) } else { 0 };
+        let right = tops.get(k + 1).map_or(y.len() - 1, |next| valley(&y, top, *next));
+        measure(&f[left..=right], &y[left..=right], top - left)
+    };
+    let mut bands: Vec<HalfPowerBand> = tops.iter().enumerate().map(band).collect();
     mark_overlaps(&mut bands);
     Ok(bands)
 }
@@ -88,14 +85,12 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
 /// Positions of the maxima of the mobility that stand out of the noise of the `measured` moduli.
 fn resonances(mobility: &FrequencyResponse, measured: &[f64], noise: &NoiseModel) -> Vec<usize> {
     let y = mobility.magnitudes();
-    (1..y.len() - 1)
-        .filter(|&i| y[i] > y[i - 1] && y[i] >= y[i + 1])
-        .filter(|&i| {
-            let relative = noise.variance(measured[i]).sqrt() / measured[i];
-            let threshold = (NOISE_PROMINENCE * relative).clamp(PROMINENCE, ENOUGH_PROMINENCE);
-            prominence(&y, i) >= threshold
-        })
-        .collect()
+    let stands_out = |&i: &usize| {
+        let relative = noise.variance(measured[i]).sqrt() / measured[i];
+        let threshold = (NOISE_PROMINENCE * relative).clamp(PROMINENCE, ENOUGH_PROMINENCE);
+        y[i] > y[i - 1] && y[i] >= y[i + 1] && prominence(&y, i) >= threshold
+    };
+    (1..y.len() - 1).filter(stands_out).collect()
 }
 
 /// Position of the smallest value between two positions.
@@ -142,12 +137,8 @@ fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
     }
     let low = crossing(f, top, -1, least, inverse);
     let high = crossing(f, top, 1, least, inverse);
-    let mut band = HalfPowerBand {
-        frequency_hz: f0,
-        band_hz: None,
-        damping_factor: None,
-        note: Some(ResonanceNote::OneSided),
-    };
+    let (frequency_hz, note) = (f0, Some(ResonanceNote::OneSided));
+    let mut band = HalfPowerBand { frequency_hz, band_hz: None, damping_factor: None, note };
     // A parabola through a flank of noise may end on the wrong side of the top.
     if let (Some(low), Some(high)) = (low, high)
         && low < f0

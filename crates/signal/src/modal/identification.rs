@@ -115,13 +115,10 @@ fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
     let width = |b: &HalfPowerBand| b.half_width_hz().map(|half| half / b.frequency_hz);
     let known: Vec<f64> = bands.iter().filter_map(width).collect();
     let typical = if known.is_empty() { 0.01 } else { crate::statistics::median(&known) };
-    bands
-        .iter()
-        .map(|b| Pole {
-            frequency_hz: b.frequency_hz,
-            damping_factor: width(b).unwrap_or(typical).clamp(1e-5, 0.2),
-        })
-        .collect()
+    let damping = |b: &HalfPowerBand| width(b).unwrap_or(typical).clamp(1e-5, 0.2);
+    let pole =
+        |b: &HalfPowerBand| Pole { frequency_hz: b.frequency_hz, damping_factor: damping(b) };
+    bands.iter().map(pole).collect()
 }
 
 /// The mode whose fitted frequency is nearest to a peak, within its bandwidth.

@@ -240,15 +240,8 @@ impl Weighted<'_> {
         let (f, data) = (self.response.frequencies_hz(), self.response.values());
         for pole in poles {
             let nearest = f.partition_point(|f| *f < pole.frequency_hz).min(f.len() - 1);
-            let alone = ModalModel {
-                poles: vec![*pole],
-                shares: vec![ModalShare {
-                    quantity,
-                    numerators: vec![[1.0, 0.0]],
-                    remainder: vec![0.0; remainder],
-                }],
-                reference_hz,
-            };
+            let own = ModalShare { quantity, numerators: vec![[1.0, 0.0]], remainder: Vec::new() };
+            let alone = ModalModel { poles: vec![*pole], shares: vec![own], reference_hz };
             let height = data[nearest].re / alone.evaluate(0, f[nearest]).norm();
             share.numerators.push([height, 0.0]);
         }

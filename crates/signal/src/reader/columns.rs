@@ -97,7 +97,7 @@ pub(super) fn layouts(
         let pairs = real.iter().zip(&imaginary);
         pairs.map(|(re, im)| (*re, Layout::Complex(*re, *im))).collect()
     } else {
-        polar(table, &columns)
+        polar(table, &columns, notes)
     };
     if found.is_empty() {
         return missing(
@@ -109,12 +109,26 @@ pub(super) fn layouts(
 }
 
 /// Magnitudes with their phases: as many as magnitudes in degrees or radians, or none.
-fn polar(table: &Table, columns: &dyn Fn(Part) -> Vec<usize>) -> Vec<(usize, Layout)> {
+fn polar(
+    table: &Table,
+    columns: &dyn Fn(Part) -> Vec<usize>,
+    notes: &mut Vec<String>,
+) -> Vec<(usize, Layout)> {
     let decibel = columns(Part::Decibel);
     let is_level = !decibel.is_empty();
     let magnitudes = if is_level { decibel } else { columns(Part::Magnitude) };
-    let degrees = columns(Part::Degrees).into_iter();
-    let degrees = degrees.map(|k| (k, std::f64::consts::PI / 180.0));
+    // A phase that turns through a resonance leaves a turn of 6.3 in degrees, not in radians.
+    let is_doubtful = |k: &usize| {
+        let states_unit = words(&table.names[*k]).iter().any(|w| w.starts_with("deg") || *w == "°");
+        !states_unit && table.columns[*k].real.iter().all(|angle| angle.abs() < 6.3)
+    };
+    let degrees = columns(Part::Degrees);
+    if degrees.iter().any(is_doubtful) {
+        let remedy = "if they are degrees, name the column `phase_deg`";
+        notes.push(format!("phases within 6.3 without a unit are taken as radians; {remedy}"));
+    }
+    let unit = |k: usize| if is_doubtful(&k) { 1.0 } else { std::f64::consts::PI / 180.0 };
+    let degrees = degrees.into_iter().map(|k| (k, unit(k)));
     let radians = columns(Part::Radians).into_iter().map(|k| (k, 1.0));
     let phases: Vec<(usize, f64)> = degrees.chain(radians).collect();
     let numbered = magnitudes.iter().enumerate();

@@ -47,7 +47,13 @@ pub(super) fn headed<'a>(
         _ if head.contains(',') => Separator::Comma,
         _ => Separator::Blanks,
     };
-    let names = fields(head, separator).map(str::to_lowercase).collect();
+    // Units in brackets are part of the name: `Frequency [Hz]` is frequency_hz.
+    let name = |field: &str| {
+        let words = field.to_lowercase().replace([')', ']'], "");
+        let words = words.split([' ', '(', '[']).filter(|word| !word.is_empty());
+        words.collect::<Vec<_>>().join("_")
+    };
+    let names = fields(head, separator).map(name).collect();
     let row =
         move |(line, text)| Row { source, line, text, cells: fields(text, separator).collect() };
     Ok((names, rows.map(row)))

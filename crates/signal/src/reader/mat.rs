@@ -79,14 +79,13 @@ pub(super) fn read_table(
         }
     }
     let table = content.into_table(source).map_err(damaged)?;
-    if columns.is_empty() {
-        return Ok(table);
+    match (columns.len(), table.columns.len()) {
+        (0, _) => Ok(table),
+        (given, found) if given != found => {
+            Err(ReadError::whole(source, column_count(given, found)))
+        }
+        _ => Ok(Table::of_columns(source, columns.to_vec(), table.columns, table.remarks)),
     }
-    if columns.len() != table.columns.len() {
-        let problem = column_count(columns.len(), table.columns.len());
-        return Err(ReadError::whole(source, problem));
-    }
-    Ok(Table::of_columns(source, columns.to_vec(), table.columns, table.remarks))
 }
 
 /// Elements one after the other: type and data.
@@ -236,13 +235,11 @@ impl Content {
         if let [value] = real[..] {
             let last = name.rsplit('.').next().unwrap_or_default().to_lowercase();
             let is_step =
-                matches!(last.as_str(), "dt" | "ts" | "delta_t" | "increment" | "tinterval");
-            let line = if is_step && value > 0.0 {
-                format!("fs: {}\n", 1.0 / value)
-            } else {
-                format!("{last}: {value}\n")
+                ["dt", "ts", "delta_t", "increment", "tinterval"].contains(&last.as_str());
+            self.remarks += &match is_step && value > 0.0 {
+                true => format!("fs: {}\n", 1.0 / value),
+                false => format!("{last}: {value}\n"),
             };
-            self.remarks.push_str(&line);
         } else if real.len() >= FEWEST
             && rows > 0
             && real.len().is_multiple_of(rows)

@@ -23,18 +23,19 @@ pub struct MeasuredMode {
 }
 
 /// The columns that are known; others are passed over.
-const COLUMNS: [&[&str]; 7] = [
+const COLUMNS: [&[&str]; 8] = [
     &["frequency_hz", "frequency", "f_hz", "f"],
     &["frequency_khz", "f_khz"],
     &["real_hz", "real"],
-    &["damping_factor", "zeta"],
+    &["damping_factor", "damping_ratio", "zeta"],
     &["harmonic", "n", "nodal_diameters"],
     &["sigma_hz", "sigma"],
     &["unstable"],
+    &["damping_%", "damping_factor_%", "damping_ratio_%", "zeta_%", "damping_percent"],
 ];
 
 /// Reads a table with a head of names, of which `frequency_hz` must be one and `real_hz`, `damping_factor`, `harmonic`,
-/// `sigma_hz` and `unstable` (1 or 0) may be.
+/// `sigma_hz` and `unstable` (1 or 0) may be; units may stand in brackets, damping in per cent.
 ///
 /// # Errors
 /// [`ReadError`] with the place: no such column, a cell that is no number or no possible value.
@@ -73,7 +74,7 @@ const HIGHEST_HZ: f64 = 1e9;
 /// The number in a column, if the row has one there and `admits` takes it.
 fn number_in(
     row: &Row<'_>,
-    places: &[Option<usize>; 7],
+    places: &[Option<usize>; 8],
     column: usize,
     admits: fn(f64) -> bool,
 ) -> Result<Option<f64>, ReadError> {
@@ -99,7 +100,7 @@ fn number_in(
     }
 }
 
-fn mode(row: &Row<'_>, places: &[Option<usize>; 7]) -> Result<MeasuredMode, ReadError> {
+fn mode(row: &Row<'_>, places: &[Option<usize>; 8]) -> Result<MeasuredMode, ReadError> {
     let cell = |column, admits| number_in(row, places, column, admits);
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let plausible = |value: f64| (LOWEST_HZ..=HIGHEST_HZ).contains(&value);
@@ -107,7 +108,8 @@ fn mode(row: &Row<'_>, places: &[Option<usize>; 7]) -> Result<MeasuredMode, Read
     let kilohertz = cell(1, plausible)?;
     let frequency_hz = hertz.or(kilohertz.map(|value| 1e3 * value));
     let frequency_hz = frequency_hz.ok_or_else(|| row.missing("frequency_hz"))?;
-    let damping = cell(3, |zeta| zeta.abs() < 1.0)?;
+    let percent = cell(7, |zeta| zeta.abs() < 100.0)?;
+    let damping = cell(3, |zeta| zeta.abs() < 1.0)?.or(percent.map(|value| value / 100.0));
     let damped = damping.map(|zeta| -zeta * frequency_hz / (1.0 - zeta * zeta).sqrt());
     let harmonic = cell(4, |n| n >= 0.0 && n.fract() == 0.0 && n < 1e6)?;
     Ok(MeasuredMode {
@@ -136,11 +138,17 @@ mod tests {
     }
 
     #[test]
-    fn a_damping_factor_is_a_real_part() {
-        let text = "frequency_hz,damping_factor\n1000,0.6\n";
-        let modes = read_modes(text.as_bytes(), "modes.csv").unwrap();
-        // tan(asin(0.6)) = 0.75.
-        assert!((modes[0].real_hz.unwrap() + 750.0).abs() < 1e-9);
+    fn a_damping_factor_is_a_real_part_and_units_stand_in_names() {
+        for text in [
+            "frequency_hz,damping_factor\n1000,0.6\n",
+            "\u{feff}Frequency [Hz];Damping ratio (%)\r\n1000,0;60,0\r\n",
+            "f [kHz]\tZeta\n1\t0.6\n",
+        ] {
+            let modes = read_modes(text.as_bytes(), "modes.csv").unwrap();
+            // tan(asin(0.6)) = 0.75.
+            assert_eq!(modes[0].frequency_hz, 1000.0);
+            assert!((modes[0].real_hz.unwrap() + 750.0).abs() < 1e-9);
+        }
     }
 
     #[test]

@@ -5,8 +5,9 @@ use super::columns::{Layout, Part, layouts, part};
 use super::contents::{NamedResponse, ResponseFile};
 use super::error::ReadError;
 use super::table::Table;
-use super::text::first_of;
-use super::units::{hertz, words};
+use super::text::{first_of, shortened};
+use super::uff::ORDINATES;
+use super::units::{hertz, response_unit};
 use super::{Format, selected, uff};
 use faer::c64;
 
@@ -30,8 +31,8 @@ pub struct ResponseOptions {
 /// imaginary part if both change sign. Where nothing says the quantity (accelerance or inertance, mobility, receptance
 /// or compliance, or units such as `m/s2/N`), accelerance is assumed and noted. Rows out of order are sorted; a
 /// frequency repeated with the same values counts once. A response whose phase rises through its resonances is of the
-/// convention `exp(-i omega t)`: it is conjugated. A column of coherence becomes the weight of its response. Values in
-/// `g/N` become m/s2/N; other units are taken as SI.
+/// convention `exp(-i omega t)`: it is conjugated. A column of coherence becomes the weight of its response. Units of
+/// motion over force, such as `g/N` or `mm/s2/lbf`, become SI; others are taken as SI.
 pub fn read_response(
     bytes: &[u8],
     source: &str,
@@ -74,7 +75,6 @@ fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, 
     let (frequency, factor, states_unit) = frequency_column(table)?;
     let layouts = layouts(table, frequency, &mut notes)?;
     let quantity = quantity(table, options.quantity, &mut notes);
-    let gravity = if names_standard_gravity(table) { 9.806_65 } else { 1.0 };
     // One order of the rows for all responses.
     let values = layouts.iter().map(|(_, layout)| values(table, *layout));
     let values: Vec<Vec<c64>> = values.collect::<Result<_, _>>()?;
@@ -91,7 +91,8 @@ fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, 
     }
     let mut responses = Vec::new();
     for (k, ((name, layout), values)) in layouts.into_iter().zip(values).enumerate() {
-        let values = rows.iter().map(|row| values[row.1] * gravity).collect();
+        let scale = scale(table, layout, &mut notes);
+        let values = rows.iter().map(|row| values[row.1] * scale).collect();
         let has_phase = layout.has_phase();
         let response =
             FrequencyResponse::measured(frequencies.clone(), values, quantity, has_phase);
@@ -210,49 +211,45 @@ fn quantity(
     given: Option<ResponseQuantity>,
     notes: &mut Vec<String>,
 ) -> ResponseQuantity {
-    match (given, stated_quantity(table)) {
-        (Some(given), Some(found)) if given != found => {
-            notes.push(format!(
-                "the table says {}, the option {}: the option is used",
-                found.name(),
-                given.name()
-            ));
-            given
+    const UNSAID: &str =
+        "the table does not say what it holds: accelerance (acceleration over force) assumed";
+    let stated = stated_quantity(table);
+    match [given, stated].map(|own| own.map(ResponseQuantity::name)) {
+        [Some(given), Some(found)] if given != found => {
+            notes.push(format!("the table says {found}, the option {given}: the option is used"));
         }
-        (Some(given), _) => given,
-        (None, Some(found)) => found,
-        (None, None) => {
-            notes.push(
-                "the table does not say what it holds: accelerance (acceleration over force) assumed"
-                    .to_string(),
-            );
-            ResponseQuantity::Accelerance
-        }
+        [None, None] => notes.push(UNSAID.to_owned()),
+        _ => {}
     }
+    given.or(stated).unwrap_or(ResponseQuantity::Accelerance)
 }
 
-/// Words and units of each quantity; the first one that is found counts.
+/// Words of each quantity.
 const QUANTITIES: [(ResponseQuantity, &str); 3] = [
-    (
-        ResponseQuantity::Accelerance,
-        "accelerance inertance accélérance m/s2/n m/s^2/n m/s²/n g/n m_per_s2_per_n",
-    ),
-    (ResponseQuantity::Mobility, "mobility mobilité m/s/n m/ns m_per_s_per_n admittance"),
-    (ResponseQuantity::Receptance, "receptance réceptance compliance m/n m_per_n flexibility"),
+    (ResponseQuantity::Accelerance, "accelerance inertance accélérance"),
+    (ResponseQuantity::Mobility, "mobility mobilité admittance"),
+    (ResponseQuantity::Receptance, "receptance réceptance compliance flexibility"),
 ];
 
-/// Receptance, mobility or accelerance, from names, units and remarks.
+/// Receptance, mobility or accelerance, from names, remarks and units.
 fn stated_quantity(table: &Table) -> Option<ResponseQuantity> {
-    let text = format!("{}\n{}", table.names.join(" "), table.remarks);
-    let compact: String =
-        text.chars().filter(|c| !matches!(c, ' ' | '(' | ')' | '*' | '·' | '[' | ']')).collect();
-    let has = |list: &str| list.split(' ').any(|word| compact.contains(word));
-    let stated = QUANTITIES.iter().find(|(_, words)| has(words));
-    stated.map(|(quantity, _)| *quantity)
+    let text = format!("{}\n{}", table.titles.join("\n"), table.remarks).to_lowercase();
+    let has = |list: &str| list.split(' ').any(|word| text.contains(word));
+    let named = QUANTITIES.iter().find(|(_, words)| has(words)).map(|(quantity, _)| *quantity);
+    let unit = || ORDINATES.get(text.lines().find_map(response_unit)?.1);
+    named.or_else(|| unit().map(|(_, quantity)| *quantity))
 }
 
-/// Whether the response is in multiples of standard gravity.
-fn names_standard_gravity(table: &Table) -> bool {
-    let stated = format!("{} {}", table.names.join(" "), table.remarks);
-    words(&stated).contains(&"g/n")
+/// Factor to SI of a response by the unit in its heading, else by one in the remarks.
+fn scale(table: &Table, layout: Layout, notes: &mut Vec<String>) -> f64 {
+    let (Layout::Whole(column)
+    | Layout::Complex(column, _)
+    | Layout::Polar { magnitude: column, .. }) = layout;
+    let title = table.titles.get(column).map_or("", String::as_str);
+    let unit = response_unit(title).or_else(|| table.remarks.lines().find_map(response_unit));
+    let volts = title.split([' ', '(', ')', '[', ']']).find(|word| word.contains("V/"));
+    if let Some(unit) = volts.filter(|_| unit.is_none()) {
+        notes.push(format!("`{}` is no unit of motion over force: taken as SI", shortened(unit)));
+    }
+    unit.map_or(1.0, |(scale, _)| scale)
 }

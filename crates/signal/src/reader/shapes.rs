@@ -85,12 +85,9 @@ fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
         let count = shapes.len();
         let place = *known.entry(name.clone()).or_insert(count);
         if place == count {
-            shapes.push(MeasuredShape {
-                name,
-                frequency_hz: row.number(frequency, "frequency_hz")?,
-                points: Vec::new(),
-                motion: Vec::new(),
-            });
+            let frequency_hz = row.number(frequency, "frequency_hz")?;
+            let (points, motion) = (Vec::new(), Vec::new());
+            shapes.push(MeasuredShape { name, frequency_hz, points, motion });
         }
         let mut point = [0.0; 3];
         for (value, (column, name)) in point.iter_mut().zip([(x, "x"), (y, "y"), (z, "z")]) {
@@ -199,10 +196,8 @@ fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
     let word = |k: usize| form.get(k).map_or(0, |value| *value as u32);
     let (analysis, characteristic, is_complex) = (word(1), word(2), word(4) == 5);
     if ![2, 3].contains(&characteristic) || ![2, 5].contains(&word(4)) {
-        return Err((
-            5,
-            "no displacements of three directions, real or complex, in single precision",
-        ));
+        let wanted = "no displacements of three directions, real or complex, in single precision";
+        return Err((5, wanted));
     }
     let each = match word(5) {
         0 => [3, 6][usize::from(characteristic == 3)],

@@ -125,14 +125,12 @@ pub(super) fn read_table(
     // Comments and titles are remarks; what is left is a head of words and rows of numbers.
     let mut remarks = String::new();
     let mut content: Vec<Line> = Vec::new();
-    let mut commented_header = None;
+    let mut commented: Vec<Line> = Vec::new();
     for (number, line) in lines(&text).filter(|(_, line)| !line.trim().is_empty()) {
         match comment(line) {
             Some(words) => {
                 remarks += &(words.to_lowercase() + "\n");
-                if content.is_empty() {
-                    commented_header = Some((number, words));
-                }
+                commented.extend(content.is_empty().then_some((number, words)));
             }
             None => content.push((number, line)),
         }
@@ -158,15 +156,12 @@ pub(super) fn read_table(
     }
     // Names are those given, those above the numbers, or those of a comment.
     let separator = separator_of(data);
-    let mut above: Vec<Line> = head.to_vec();
-    if above.is_empty() {
-        above.extend(commented_header);
-    }
+    let above = if head.is_empty() { &commented[..] } else { head };
     let count = fields(data[0].1, separator).count();
     if columns.is_empty() {
         refuse_decimal_comma_separators(data[0], separator, head, count, source)?;
     }
-    let titles = titles(columns, &above, separator, count, source)?;
+    let titles = titles(columns, above, separator, count, source)?;
     let columns = numbers(data, separator, &titles, source)?;
     let lines = data.iter().map(|(line, _)| *line).collect();
     Ok(Table { lines, separator, text, ..Table::of_columns(source, titles, columns, remarks) })

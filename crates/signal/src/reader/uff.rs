@@ -9,6 +9,7 @@ use super::contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 use super::error::{NO_RATE, ReadError};
 use super::mat::whole;
 use super::text::first_of;
+use super::units::response_unit;
 use faer::c64;
 use frictionsim_formats::universal_fields;
 use std::collections::BTreeSet;
@@ -33,7 +34,9 @@ struct Function {
     /// Types of abscissa, ordinate and what it is divided by.
     axis: u32,
     ordinate: u32,
-    ordinate_unit: String,
+    divided_by: u32,
+    /// Factor to SI of a response by its unit, NaN of one that is not known; none where no unit is written.
+    scale: Option<f64>,
     abscissae: Vec<f64>,
     values: Vec<c64>,
     is_complex: bool,
@@ -93,10 +96,10 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// All functions of a file.
-fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
+/// All functions of a file, and the factor to SI of responses in its units.
+fn functions(bytes: &[u8], source: &str) -> Result<(Vec<Function>, f64), ReadError> {
     let mut lines = Lines::of(bytes);
-    let mut found = Vec::new();
+    let (mut found, mut system) = (Vec::new(), 1.0);
     while let Some(words) = lines.dataset() {
         let number = found.len() + 1;
         let damaged = |reason: &str| {
@@ -105,6 +108,13 @@ fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
         };
         match words.first().map(String::as_str) {
             Some("58") => found.push(function(&mut lines, None).map_err(damaged)?),
+            // SI are the numbers of the file over these factors, of lengths and of forces.
+            Some("164") => match lines.body().get(1).map(|line| numbers(line)).as_deref() {
+                Some([length, force, ..]) if *length > 0.0 && *force > 0.0 => {
+                    system = force / length;
+                }
+                _ => {}
+            },
             Some("58b") => {
                 let word = |k: usize| words.get(k).and_then(|w| w.parse::<usize>().ok());
                 let is_big = word(1) == Some(2);
@@ -118,7 +128,7 @@ fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
             None => {}
         }
     }
-    Ok(found)
+    Ok((found, system))
 }
 
 /// One dataset: eleven records of text, then numbers; the length and byte order of binary ones is given.
@@ -147,7 +157,10 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
     let raw = match binary {
         Some((length, is_big)) => {
             let widths = [vec![4; lead], vec![if is_double { 8 } else { 4 }; parts]].concat();
-            binary_numbers(lines, length, is_big, &widths)?
+            let raw = binary_numbers(lines, length, is_big, &widths)?;
+            // What closes it would open the next one.
+            lines.body();
+            raw
         }
         None => lines.body().iter().flat_map(|line| numbers(line)).collect(),
     };
@@ -172,12 +185,16 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
         (Some(response), None) => response,
         (Some(response), Some(reference)) => format!("{response}/{reference}"),
     };
+    let [motion, force] = [9, 10].map(|record| part(record, 47, 67).replace("NONE", ""));
+    let force = if force.is_empty() { "N" } else { &force };
+    let unit = response_unit(&motion).or_else(|| response_unit(&format!("{motion}/{force}")));
     Ok(Function {
         name,
         kind: word(6, 0) as u32,
         axis: word(8, 0) as u32,
         ordinate: word(9, 0) as u32,
-        ordinate_unit: part(9, 47, 67).to_lowercase(),
+        divided_by: word(10, 0) as u32,
+        scale: (!motion.is_empty()).then_some(unit.map_or(f64::NAN, |unit| unit.0)),
         abscissae: rows.iter().enumerate().map(abscissa).collect(),
         values: rows.iter().map(|row| value(row)).collect(),
         is_complex,
@@ -223,24 +240,26 @@ pub(super) fn read_responses(
     source: &str,
     quantity: Option<ResponseQuantity>,
 ) -> Result<ResponseFile, ReadError> {
-    let all = functions(bytes, source)?;
-    let mut notes = Vec::new();
-    let mut responses = Vec::new();
-    for f in all.iter().filter(|f| f.kind == FREQUENCY_RESPONSE || (f.kind == 0 && f.is_complex)) {
+    let (all, system) = functions(bytes, source)?;
+    let (mut notes, mut responses) = (Vec::new(), Vec::new());
+    let is_response = |f: &&Function| f.kind == FREQUENCY_RESPONSE || (f.kind == 0 && f.is_complex);
+    for f in all.iter().filter(is_response) {
+        let name = &f.name;
+        if ORDINATES.iter().any(|(kind, _)| *kind == f.divided_by) {
+            notes.push(format!("left out: {name} is a motion over a motion, not over a force"));
+            continue;
+        }
         let stated = ORDINATES.iter().find(|(kind, _)| *kind == f.ordinate);
         let known = quantity.or(stated.map(|(_, quantity)| *quantity));
         let taken = known.unwrap_or(ResponseQuantity::Accelerance);
         if known.is_none() {
-            notes.push(format!(
-                "{}: the file does not say what it holds: accelerance assumed",
-                f.name
-            ));
+            notes.push(format!("{name}: the file does not say what it holds: accelerance assumed"));
         }
-        let scale = match f.ordinate_unit.as_str() {
-            "g" | "g/n" | "gn" => 9.806_65,
-            unit if unit.starts_with("mm") => 1e-3,
-            _ => 1.0,
-        };
+        let mut scale = f.scale.unwrap_or(system);
+        if scale.is_nan() {
+            notes.push(format!("{name}: its unit is not known, it is taken as SI"));
+            scale = 1.0;
+        }
         let values = f.values.iter().map(|z| z * scale).collect();
         let response =
             FrequencyResponse::measured(f.abscissae.clone(), values, taken, f.is_complex);
@@ -255,14 +274,14 @@ pub(super) fn read_responses(
         responses.push(NamedResponse { name: f.name.clone(), response });
     }
     if responses.is_empty() {
-        return Err(without(source, "frequency response (function type 4)", &all));
+        return Err(without(source, "frequency response to a force (function type 4)", &all));
     }
     Ok(ResponseFile { responses, notes })
 }
 
 /// Time signals of a universal file.
 pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, ReadError> {
-    let all = functions(bytes, source)?;
+    let (all, _) = functions(bytes, source)?;
     let is_signal = |f: &&Function| f.kind == TIME || (f.kind == 0 && f.axis == TIME_AXIS);
     let signals: Vec<&Function> = all.iter().filter(is_signal).collect();
     let Some(first) = signals.first() else {
@@ -291,16 +310,11 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
             return Err(ReadError::signal(source, &error));
         }
     }
-    let channel = |f: &&Function| Channel {
-        name: f.name.clone(),
-        samples: f.values.iter().map(|z| z.re).collect(),
-    };
-    Ok(SignalFile {
-        sampling_rate: 1.0 / step,
-        start: first.abscissae.first().copied().unwrap_or(0.0),
-        channels: fit.iter().map(channel).collect(),
-        notes,
-    })
+    let samples = |f: &Function| f.values.iter().map(|z| z.re).collect();
+    let channel = |f: &&Function| Channel { name: f.name.clone(), samples: samples(f) };
+    let (sampling_rate, channels) = (1.0 / step, fit.iter().map(channel).collect());
+    let start = first.abscissae.first().copied().unwrap_or(0.0);
+    Ok(SignalFile { sampling_rate, start, channels, notes })
 }
 
 fn without(source: &str, wanted: &str, all: &[Function]) -> ReadError {

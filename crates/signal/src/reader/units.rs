@@ -63,7 +63,46 @@ pub(super) fn hertz(name: &str) -> Option<(f64, bool)> {
     is_frequency.then_some((factor, angular || has(&["hz", "khz"])))
 }
 
-/// The reference of a level, as in `dB re 1 m/s2/N` or `dB re 20 uPa` (SI); 1 where none is written.
+/// A unit of motion over force that a heading names, such as `mm/s2/N`, `[(m/s^2)/kN]`, `g/lbf` or `m_per_s_per_n`:
+/// its factor to SI, and how often it is per second.
+pub(super) fn response_unit(heading: &str) -> Option<(f64, usize)> {
+    let plain = heading.replace("_per_", "/").replace(" /", "/").replace("/ ", "/");
+    let plain = plain.replace("/(", "/").replace([')', ']', '}'], "");
+    let mut words = plain.split(|c: char| c.is_whitespace() || "([{<>,;:=_".contains(c));
+    words.find_map(|word| {
+        let mut parts = word.split(['/', '*', '·']);
+        let (mut scale, mut rate) = match parts.next()?.to_lowercase().as_str() {
+            "m" => (1.0, 0),
+            "cm" => (1e-2, 0),
+            "mm" => (1e-3, 0),
+            "um" | "µm" | "μm" => (1e-6, 0),
+            "in" | "inch" => (0.0254, 0),
+            "ft" => (0.3048, 0),
+            "g" | "gn" => (9.806_65, 2),
+            _ => return None,
+        };
+        let mut has_force = false;
+        for part in parts {
+            let (force, per_second) = match part.to_lowercase().as_str() {
+                "s" | "sec" => (None, 1),
+                "s2" | "s^2" | "s²" | "sec2" | "sec^2" => (None, 2),
+                "ns" => (Some(1.0), 1),
+                "n" => (Some(1.0), 0),
+                "mn" if part == "MN" => (Some(1e6), 0),
+                "mn" => (Some(1e-3), 0),
+                "kn" => (Some(1e3), 0),
+                "lbf" | "lb" => (Some(4.448_221_615_260_5), 0),
+                "kgf" | "kp" => (Some(9.806_65), 0),
+                _ => return None,
+            };
+            (scale, rate) = (scale / force.unwrap_or(1.0), rate + per_second);
+            has_force |= force.is_some();
+        }
+        has_force.then_some((scale, rate))
+    })
+}
+
+/// The number of the reference of a level, as in `dB re 1e-6 m/s2/N` or `dB re 20 uPa`; 1 where none is written.
 pub(super) fn level_reference(name: &str) -> f64 {
     let Some((_, after)) = name.split_once("re ").or_else(|| name.split_once("ref ")) else {
         return 1.0;
@@ -79,13 +118,11 @@ pub(super) fn level_reference(name: &str) -> f64 {
         })
         .map_or(after.len(), |(k, _)| k);
     let value: f64 = after[..end].parse().unwrap_or(1.0);
+    // A prefix of what is no unit of a response, as of `uPa`; that of one is in the unit.
     let unit = after[end..].trim_start();
-    let prefix = match unit.chars().next() {
-        Some('u' | 'µ' | 'μ') => 1e-6,
-        Some('m') if unit.starts_with("mm") => 1e-3,
-        _ => 1.0,
-    };
-    if value > 0.0 && value.is_finite() { value * prefix } else { 1.0 }
+    let is_micro = unit.starts_with(['u', 'µ', 'μ']) && response_unit(unit).is_none();
+    let value = if is_micro { 1e-6 * value } else { value };
+    if value > 0.0 && value.is_finite() { value } else { 1.0 }
 }
 
 /// A sampling rate stated in remarks, as `sampling rate: 51200 Hz` or `fs = 1e5`, Hz.

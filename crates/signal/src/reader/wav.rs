@@ -46,12 +46,8 @@ pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadErr
         name: format!("channel {}", k + 1),
         samples: (0..rows).map(|i| values[i * count + k]).collect(),
     });
-    Ok(SignalFile {
-        sampling_rate: f64::from(spec.sample_rate),
-        start: 0.0,
-        channels: channels.collect(),
-        notes,
-    })
+    let (sampling_rate, channels) = (f64::from(spec.sample_rate), channels.collect());
+    Ok(SignalFile { sampling_rate, start: 0.0, channels, notes })
 }
 
 /// How many times slower a record of this sampling rate is played, so that a player takes it: 1, 2, 5, 10, 20, ...
