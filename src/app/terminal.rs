@@ -49,9 +49,9 @@ pub fn warn(warning: &impl std::fmt::Display) {
     let _ = writeln!(io::stderr().lock(), "warning: {}", shown(&warning.to_string()));
 }
 
-/// Commands of other programs, each with what it is called here.
-const OTHER_NAMES: &str = "damping identify, dynamic transient, eigen cea, eigenvalues cea, harmonic frf, modal cea, \
-    modes cea, new init, report plot, response frf, run transient, spectrum signal, template init, validate check";
+/// Commands with what they are called in other programs.
+const OTHER_NAMES: &str = "cea: eigen eigenvalues modal modes; check: validate; frf: harmonic response; \
+    identify: damping; init: new template; plot: report; signal: spectrum; transient: dynamic run";
 
 /// What is said of a command of another program, and of an assignment to a case key that no command takes.
 fn meant(error: &clap::Error) -> Option<String> {
@@ -62,8 +62,8 @@ fn meant(error: &clap::Error) -> Option<String> {
     match error.kind() {
         ErrorKind::InvalidSubcommand => {
             let given = given(ContextKind::InvalidSubcommand)?;
-            let mut names = OTHER_NAMES.split(", ").filter_map(|pair| pair.split_once(' '));
-            let (_, meant) = names.find(|pair| pair.0 == given)?;
+            let mut names = OTHER_NAMES.split("; ").filter_map(|own| own.split_once(": "));
+            let (meant, _) = names.find(|own| own.1.split(' ').any(|name| name == given))?;
             Some(format!("no such command; `frictionsim {meant}` does that"))
         }
         ErrorKind::UnknownArgument => {

@@ -48,7 +48,7 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_916),
+    ("crates/case", 10_915),
     ("crates/chart", 4_840),
     ("crates/described", 107),
     ("crates/formats", 6_156),
@@ -65,10 +65,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 4_527),
     ("crates/physics/src/transient", 4_648),
-    ("crates/results", 17_633),
-    ("crates/signal", 6_020),
+    ("crates/results", 17_632),
+    ("crates/signal", 6_012),
     ("crates/study", 10_552),
-    ("src/app", 4_542),
+    ("src/app", 4_540),
     ("src/guide", 70),
     ("src/lib.rs", 100),
     ("src/main.rs", 5),

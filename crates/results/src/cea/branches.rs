@@ -104,12 +104,10 @@ fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
     };
     let rises = |mode: &ComplexMode| Some(mode.real_hz() - start(mode)?);
     let distance = |mode: &ComplexMode| (mode.frequency_hz() / own.frequency_hz() - 1.0).abs();
-    let partner = point
-        .modes
-        .iter()
-        .filter(|mode| mode.branch != own.branch && distance(mode) < NEAR)
-        .filter(|mode| rises(mode).is_some_and(|rise| rise < 0.0))
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let others = point.modes.iter().filter(|mode| mode.branch != own.branch);
+    let near = others.filter(|mode| distance(mode) < NEAR);
+    let falling = near.filter(|mode| rises(mode).is_some_and(|rise| rise < 0.0));
+    let partner = falling.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     rises(own).filter(|rise| *rise > 0.0)?;
     let name = |mode: &ComplexMode| {
         let frequency = fixed(mode.frequency_hz(), 1);

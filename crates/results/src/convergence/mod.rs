@@ -265,12 +265,8 @@ fn orders(series: &Series) -> Panel {
     let names = groups.iter().enumerate().map(|(index, group)| (row(index), (*group).to_owned()));
     let y = Axis::new("", "").between(0.0, count.max(1) as f64).ticks(names);
     let points = groups.iter().enumerate().map(|(index, group)| {
-        let own: Vec<f64> = series
-            .quantities
-            .iter()
-            .filter(|q| group_of(q) == *group)
-            .filter_map(|q| q.order)
-            .collect();
+        let all = series.quantities.iter().filter(|q| group_of(q) == *group);
+        let own: Vec<f64> = all.filter_map(|q| q.order).collect();
         // Side by side within the row, in the order of the list.
         let place = |k: usize| row(index) + 0.6 * (0.5 - (k as f64 + 0.5) / own.len() as f64);
         let points: Vec<(f64, f64)> =

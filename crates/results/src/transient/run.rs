@@ -188,9 +188,8 @@ pub(super) fn stages(run: &SolvedTransient) -> Vec<Stage> {
         index.and_then(|i| rows.get(i + 1)).map_or(rows[0].time, |row| row.time)
     };
     let growth = after(overtaken.map(|block| (block + 1) * window - 1));
-    let settled = rows
-        .iter()
-        .rposition(|row| (size(row, main) - size(last, main)).abs() > 0.02 * size(last, main));
+    let is_far = |row| (size(row, main) - size(last, main)).abs() > 0.02 * size(last, main);
+    let settled = rows.iter().rposition(is_far);
     let (nonlinear, cycle) = match analysis.first_nonlinearity {
         Some(time) if analysis.settling.state == EndState::LimitCycle => {
             (time, after(settled).max(time))
