@@ -67,7 +67,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/transient", 4_648),
     ("crates/results", 17_632),
     ("crates/signal", 6_012),
-    ("crates/study", 10_552),
+    ("crates/study", 10_550),
     ("src/app", 4_540),
     ("src/guide", 70),
     ("src/lib.rs", 100),

@@ -89,12 +89,11 @@ impl<'a> DiscretizationError<'a> {
             elements.flat_map(|e| std::iter::repeat_n(e, first[e + 1] - first[e])).collect();
         let (count, width) = (self.components(), sampled.first().map_or(0, DMatrix::nrows));
         let of_region = |(region, weights): (usize, &[(usize, f64)])| {
-            let mut sum = DMatrix::zeros(width, count);
-            for &(sample, weight) in weights {
+            let terms = weights.iter().map(|&(sample, weight)| {
                 let e = element_of[sample];
-                add_multiple(&mut sum, weight, at_point(&sampled[e], sample - first[e], count));
-            }
-            (region, sum)
+                (weight, at_point(&sampled[e], sample - first[e], count))
+            });
+            (region, combination((width, count), terms))
         };
         let nodes = 0..self.mesh.node_count();
         crate::parallel::map(nodes, |node| self.recovery.at(node).map(of_region).collect())
@@ -118,11 +117,10 @@ impl<'a> DiscretizationError<'a> {
         let (count, width) = (self.components(), columns.nrows());
         let mut energies = vec![c64::new(0.0, 0.0); width / PARTS];
         for (k, point) in points.iter().enumerate() {
-            let mut error = DMatrix::zeros(width, count);
-            add_multiple(&mut error, -1.0, at_point(&own, k, count));
-            for (&value, nodal) in point.values.iter().zip(&nodes) {
-                add_multiple(&mut error, value, nodal.as_slice());
-            }
+            let nodal = nodes.iter().map(|nodal| nodal.as_slice());
+            let terms = point.values.iter().copied().zip(nodal);
+            let terms = std::iter::once((-1.0, at_point(&own, k, count))).chain(terms);
+            let error = combination((width, count), terms);
             let stress = &error * geometry.elasticity(self.material(e), point) * point.measure;
             for (error, stress) in error.column_iter().zip(stress.column_iter()) {
                 let of_pairs = error.as_slice().chunks(PARTS).zip(stress.as_slice().chunks(PARTS));
@@ -159,7 +157,16 @@ fn at_point(strains: &DMatrix<f64>, point: usize, count: usize) -> &[f64] {
     &strains.as_slice()[length * point..length * (point + 1)]
 }
 
-/// `sum += factor other`, entry by entry.
-fn add_multiple(sum: &mut DMatrix<f64>, factor: f64, other: &[f64]) {
-    sum.as_mut_slice().iter_mut().zip(other).for_each(|(sum, other)| *sum += factor * other);
+/// The sum of factors times values, with the instructions that the machine has for it.
+fn combination<'a>(
+    (rows, columns): (usize, usize),
+    terms: impl Iterator<Item = (f64, &'a [f64])>,
+) -> DMatrix<f64> {
+    let mut sum = DMatrix::zeros(rows, columns);
+    pulp::Arch::new().dispatch(|| {
+        for (factor, values) in terms {
+            sum.as_mut_slice().iter_mut().zip(values).for_each(|(sum, own)| *sum += factor * own);
+        }
+    });
+    sum
 }

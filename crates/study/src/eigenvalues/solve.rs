@@ -33,7 +33,7 @@ pub fn solve(
     let (mut shown, mut lefts_at) = (cea.shapes_at.clone(), Vec::new());
     if with_reading {
         shown.extend(shapes_needed(case, &model.model, &frictions, modes));
-        lefts_at = lefts_needed(case, cea.mass, &shown, modes);
+        lefts_at = lefts_needed(case, cea.mass, &shown);
     }
     let request = SweepRequest {
         shapes_at: &shown,

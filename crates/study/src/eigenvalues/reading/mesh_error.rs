@@ -21,8 +21,6 @@ use std::f64::consts::TAU;
 
 /// Damping factor from which on a frequency says little of a mode.
 const MOST_DAMPED: f64 = 0.2;
-/// Modes for which the estimate is made at every friction value; of more, at the ends and at the case's own friction.
-const MOST_MODES: f64 = 256.0;
 
 /// Whether it is made: not with a mass that is lumped, whose own error it would leave out, nor with a modulus that
 /// follows a table.
@@ -30,14 +28,14 @@ fn is_made(case: &Case, mass: MassKind) -> bool {
     mass == MassKind::Consistent && case.body.tables().next().is_none()
 }
 
-/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed, of about
-/// so many `modes` each.
-pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64], modes: f64) -> Vec<f64> {
+/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed: the least
+/// and the largest one and the case's own, as an error hardly depends on friction and an estimate takes as long as a
+/// third of a value's modes.
+pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64]) -> Vec<f64> {
     let [least, most] = frictionsim_physics::order::range(shown.iter().copied());
     let own = case.contact.sliding.friction_coefficient;
-    let is_wanted =
-        |mu: &f64| modes * shown.len() as f64 <= MOST_MODES || [least, most, own].contains(mu);
-    shown.iter().copied().filter(|mu| is_made(case, mass) && is_wanted(mu)).collect()
+    let is_wanted = |mu: &f64| is_made(case, mass) && [least, most, own].contains(mu);
+    shown.iter().copied().filter(is_wanted).collect()
 }
 
 /// Gives its error to each mode that has both vectors, and to each critical friction of the sweep.
