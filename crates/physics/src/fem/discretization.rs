@@ -1,16 +1,14 @@
 //! What the mesh leaves out of a bilinear form of two vectors.
 
+use super::MaterialField;
 use super::element::{ElementGeometry, IntegrationPoint};
 use super::recovery::{Degree, Recovery};
-use super::{ElasticMaterial, MaterialField};
 use crate::linalg::c64;
 use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 
-/// Pairs of vectors whose strains are held at a time, at least; of a small mesh as many as have so many values: the operators of an
-/// element are made once for all of them.
-const PAIRS_AT_A_TIME: usize = 16;
-const VALUES_AT_A_TIME: usize = 8_000_000;
+/// Pairs of vectors whose strains are held at a time: the operators of an element are made once for them.
+const PAIRS_AT_A_TIME: usize = 32;
 /// Real rows of a pair: real and imaginary part of both.
 const PARTS: usize = 4;
 
@@ -40,9 +38,7 @@ impl<'a> DiscretizationError<'a> {
 
     /// `a(e_w, e_x)` of each pair `[w, x]` over all dofs (m), region by region, J without conjugation.
     pub fn forms(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
-        let values = self.recovery.first_sample.last().unwrap_or(&0) * self.components() * PARTS;
-        let groups = pairs.chunks(PAIRS_AT_A_TIME.max(VALUES_AT_A_TIME / values.max(1)));
-        groups.flat_map(|group| self.forms_of(group)).collect()
+        pairs.chunks(PAIRS_AT_A_TIME).flat_map(|group| self.forms_of(group)).collect()
     }
 
     fn forms_of(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
@@ -77,7 +73,7 @@ impl<'a> DiscretizationError<'a> {
         columns: &DMatrix<f64>,
     ) -> DMatrix<f64> {
         let dofs: Vec<usize> = self.mesh.element_dofs(e).collect();
-        let operator = geometry.strain_operator(self.material(e), points);
+        let operator = geometry.strain_operator(self.materials.of(self.mesh.region(e)), points);
         columns.select_columns(&dofs) * operator.transpose()
     }
 
@@ -111,17 +107,17 @@ impl<'a> DiscretizationError<'a> {
         let own = self.strains((e, &geometry), &points, columns);
         let nodes = self.mesh.element_nodes(e).iter().map(|&node| {
             let at_node = recovered[node as usize].iter();
-            at_node.filter(|(own, _)| *own == region).map(|(_, strain)| strain)
+            at_node.filter(|(own, _)| *own == region).map(|(_, strain)| strain.as_slice())
         });
-        let nodes: Vec<&DMatrix<f64>> = nodes.flatten().collect();
+        let nodes: Vec<&[f64]> = nodes.flatten().collect();
         let (count, width) = (self.components(), columns.nrows());
         let mut energies = vec![c64::new(0.0, 0.0); width / PARTS];
         for (k, point) in points.iter().enumerate() {
-            let nodal = nodes.iter().map(|nodal| nodal.as_slice());
-            let terms = point.values.iter().copied().zip(nodal);
+            let terms = point.values.iter().copied().zip(nodes.iter().copied());
             let terms = std::iter::once((-1.0, at_point(&own, k, count))).chain(terms);
             let error = combination((width, count), terms);
-            let stress = &error * geometry.elasticity(self.material(e), point) * point.measure;
+            let stress =
+                &error * geometry.elasticity(self.materials.of(region), point) * point.measure;
             for (error, stress) in error.column_iter().zip(stress.column_iter()) {
                 let of_pairs = error.as_slice().chunks(PARTS).zip(stress.as_slice().chunks(PARTS));
                 for (energy, (w, x)) in energies.iter_mut().zip(of_pairs) {
@@ -135,10 +131,6 @@ impl<'a> DiscretizationError<'a> {
     /// Components of a strain: 3 in the plane, 6 in space.
     fn components(&self) -> usize {
         [0, 1, 3, 6][self.mesh.dimension]
-    }
-
-    fn material(&self, element: usize) -> &ElasticMaterial {
-        self.materials.of(self.mesh.region(element))
     }
 }
 
