@@ -133,10 +133,8 @@ impl<'a> BasisBuilder<'a> {
         let packed = PackedModes::of(modes, self.model.dimension());
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let mut open = OpenResiduals::none(matrices.dimension(), packed.coordinates.ncols());
-        for group in packed.groups(GROUP_WIDTH) {
-            let coordinates = packed.coordinates.get(.., group.columns.clone());
-            let vectors = self.model.expand(coordinates);
-            open.gather(&matrices, &group.entries, &vectors);
+        for (coordinates, entries) in packed.groups(GROUP_WIDTH) {
+            open.gather(&matrices, &entries, &self.model.expand(coordinates));
         }
         let mut corrections = open.columns.clone();
         self.factors.solve(corrections.as_mut(), false);

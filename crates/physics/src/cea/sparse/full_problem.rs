@@ -90,7 +90,7 @@ impl<'a> FullProblem<'a> {
         let images = self.transposed_images(w);
         for (k, own) in values.iter().enumerate() {
             for (factor, image) in images.terms(*own) {
-                add_complex_multiple(&mut sum, factor, image, 2 * k..2 * k + 2);
+                add_complex_multiple(&mut sum, factor, image, &(2 * k..2 * k + 2));
             }
         }
         sum

@@ -36,7 +36,7 @@ impl OpenResiduals {
     ) {
         let (residuals, momenta) = matrices.residuals_and_momenta(entries, x.as_ref());
         let largest = |a: &Mat<f64>, entry: &PackedEntry| {
-            let norms = entry.columns().map(|j| norm(column(a.as_ref(), j)));
+            let norms = entry.columns.clone().map(|j| norm(column(a.as_ref(), j)));
             norms.fold(0.0, f64::max)
         };
         for entry in entries {
@@ -44,7 +44,7 @@ impl OpenResiduals {
             if largest(&residuals, entry) <= CONVERGED * factor * largest(&momenta, entry) {
                 continue;
             }
-            let (first, own) = (self.columns.ncols(), entry.columns());
+            let (first, own) = (self.columns.ncols(), entry.columns.clone());
             let end = first + own.len();
             let energy = factor * products(x.as_ref(), momenta.as_ref(), own.clone());
             self.columns.resize_with(x.nrows(), end, |i, j| residuals[(i, own.start + j - first)]);

@@ -3,7 +3,7 @@
 use super::mode::ReducedMode;
 use crate::linalg::dense::{column, column_mut, dot, product, transpose_product};
 use crate::linalg::vectors::length;
-use crate::linalg::{Mat, c64};
+use crate::linalg::{Mat, MatRef, c64};
 use std::ops::Range;
 
 /// `w_i^T P x_j` of the left vectors of some modes and the right ones of others, by one product of real matrices.
@@ -43,7 +43,7 @@ pub fn add_complex_multiple(
     target: &mut Mat<f64>,
     factor: c64,
     source: &Mat<f64>,
-    columns: Range<usize>,
+    columns: &Range<usize>,
 ) {
     let j = columns.start;
     let real = column(source.as_ref(), j);
@@ -60,122 +60,79 @@ pub fn add_complex_multiple(
     sum.for_each(|(t, (p, q))| *t += factor.re * q + factor.im * p);
 }
 
-/// Where a vector is among packed columns.
-#[derive(Clone, Copy, Debug)]
+/// Where the vector of a mode is among packed columns.
+#[derive(Clone, Debug)]
 pub struct PackedEntry {
     /// The eigenvalue `s` it belongs to.
     pub inverse_value: c64,
-    /// Its first column, the real part.
-    pub column: usize,
-    /// Whether the next column is its imaginary part.
-    pub is_complex: bool,
+    /// One column of a real vector; real and imaginary part of a complex one.
+    pub columns: Range<usize>,
 }
 
 impl PackedEntry {
-    /// Its columns.
-    pub fn columns(&self) -> Range<usize> {
-        self.column..self.column + 1 + usize::from(self.is_complex)
+    /// The vector among the columns, or among what was made of them.
+    pub fn vector<'m>(&self, mapped: &'m Mat<f64>) -> PackedVector<'m> {
+        let mut parts = self.columns.clone().map(|j| column(mapped.as_ref(), j));
+        let real = parts.next().unwrap_or_default();
+        PackedVector { real, imaginary: parts.next() }
     }
 }
 
-/// Neighbouring packed columns that are worked on together.
-pub struct PackedGroup {
-    /// Their range among all packed columns.
-    pub columns: Range<usize>,
-    /// Their entries, columns counted from the first of the group.
-    pub entries: Vec<PackedEntry>,
-    /// The modes, stored or conjugate, whose vectors they hold.
-    pub modes: Vec<usize>,
-}
-
-/// Real and imaginary parts of right vectors, packed for real arithmetic.
-///
-/// Of two modes with conjugate `s` only the first is stored: the other's vector is its conjugate.
+/// Right vectors of modes, of unit length, packed in columns for real arithmetic.
 pub struct PackedModes {
-    /// Coordinates, of unit length; one column for a real vector, two for a complex one.
+    /// Their coordinates.
     pub coordinates: Mat<f64>,
-    /// The stored vectors.
-    pub entries: Vec<PackedEntry>,
-    /// For each mode its entry, and whether it is the conjugate of it.
-    places: Vec<(usize, bool)>,
+    /// Where each of them is.
+    entries: Vec<PackedEntry>,
 }
 
 impl PackedModes {
     /// Packs the right vectors of `modes`.
     pub fn of(modes: &[ReducedMode], dimension: usize) -> Self {
-        let mut entries: Vec<PackedEntry> = Vec::new();
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        let mut places = Vec::new();
-        for mode in modes {
-            let s = mode.inverse_value;
-            let twin = entries.iter().position(|e| s.im != 0.0 && e.inverse_value == s.conj());
-            if let Some(entry) = twin {
-                places.push((entry, true));
-                continue;
+        let (mut entries, mut columns) = (Vec::new(), Vec::<Vec<f64>>::new());
+        for ReducedMode { inverse_value, right, .. } in modes {
+            let (first, length) = (columns.len(), length(right));
+            columns.push(right.iter().map(|v| v.re / length).collect());
+            if right.iter().any(|v| v.im != 0.0) {
+                columns.push(right.iter().map(|v| v.im / length).collect());
             }
-            let vector = &mode.right;
-            let length = length(vector);
-            places.push((entries.len(), false));
-            let is_complex = vector.iter().any(|v| v.im != 0.0);
-            entries.push(PackedEntry { inverse_value: s, column: columns.len(), is_complex });
-            columns.push(vector.iter().map(|v| v.re / length).collect());
-            if is_complex {
-                columns.push(vector.iter().map(|v| v.im / length).collect());
-            }
+            entries
+                .push(PackedEntry { inverse_value: *inverse_value, columns: first..columns.len() });
         }
         let coordinates = Mat::from_fn(dimension, columns.len(), |i, j| {
             columns[j].get(i).copied().unwrap_or(0.0)
         });
-        Self { coordinates, entries, places }
+        Self { coordinates, entries }
     }
 
-    /// All columns in groups of about `width`, so that vectors over the unknowns need memory for a group only.
-    pub fn groups(&self, width: usize) -> Vec<PackedGroup> {
-        let mut groups: Vec<PackedGroup> = Vec::new();
-        for (index, entry) in self.entries.iter().enumerate() {
-            if groups.last().is_none_or(|g| g.columns.len() >= width) {
-                groups.push(PackedGroup {
-                    columns: entry.column..entry.column,
-                    entries: Vec::new(),
-                    modes: Vec::new(),
-                });
+    /// The coordinates in groups of about `width` columns, so that vectors over the unknowns need memory for a group only; and where the
+    /// vectors are in each.
+    pub fn groups(&self, width: usize) -> Vec<(MatRef<'_, f64>, Vec<PackedEntry>)> {
+        let mut first = 0;
+        let groups = self.entries.chunk_by(|own, next| {
+            let is_full = own.columns.end >= first + width;
+            if is_full {
+                first = next.columns.start;
             }
-            let group = groups.last_mut().expect("one was added");
-            group.columns.end = entry.columns().end;
-            group
-                .entries
-                .push(PackedEntry { column: entry.column - group.columns.start, ..*entry });
-            let modes = (0..self.places.len()).filter(|&mode| self.places[mode].0 == index);
-            group.modes.extend(modes);
-        }
-        groups
-    }
-
-    /// A mode's complex vector among the expanded (or otherwise mapped) columns of its group.
-    pub fn vector<'m>(
-        &self,
-        mode: usize,
-        group: &PackedGroup,
-        mapped: &'m Mat<f64>,
-    ) -> PackedVector<'m> {
-        let (entry, is_conjugate) = self.places[mode];
-        let entry = self.entries[entry];
-        let real = entry.column - group.columns.start;
-        let imaginary = real + 1;
-        PackedVector {
-            real: column(mapped.as_ref(), real),
-            imaginary: entry.is_complex.then(|| column(mapped.as_ref(), imaginary)),
-            sign: if is_conjugate { -1.0 } else { 1.0 },
-        }
+            !is_full
+        });
+        let relative = |own: &[PackedEntry]| {
+            let (first, end) = (own[0].columns.start, own[own.len() - 1].columns.end);
+            let moved = own.iter().map(|PackedEntry { inverse_value, columns }| PackedEntry {
+                inverse_value: *inverse_value,
+                columns: columns.start - first..columns.end - first,
+            });
+            (self.coordinates.get(.., first..end), moved.collect())
+        };
+        groups.map(relative).collect()
     }
 }
 
-/// A complex vector in two real columns.
+/// A complex vector in two real columns, or a real one in one.
 #[derive(Clone, Copy)]
 pub struct PackedVector<'m> {
     real: &'m [f64],
     imaginary: Option<&'m [f64]>,
-    sign: f64,
 }
 
 impl PackedVector<'_> {
@@ -194,6 +151,6 @@ impl PackedVector<'_> {
     /// Entry `i`.
     #[inline]
     pub fn at(&self, i: usize) -> c64 {
-        c64::new(self.real[i], self.imaginary.map_or(0.0, |q| self.sign * q[i]))
+        c64::new(self.real[i], self.imaginary.map_or(0.0, |q| q[i]))
     }
 }

@@ -54,7 +54,7 @@ impl<'a> StructureMatrices<'a> {
         let add = |sum: &mut Mat<f64>, image: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
             for entry in entries {
                 let value = self.linearization.value(entry.inverse_value);
-                add_complex_multiple(sum, factor(value), image, entry.columns());
+                add_complex_multiple(sum, factor(value), image, &entry.columns);
             }
         };
         if let Linearization::Reduced(..) = self.linearization {

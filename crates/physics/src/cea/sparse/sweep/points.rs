@@ -105,30 +105,28 @@ impl SparseSweep<'_> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let packed = PackedModes::of(modes, model.dimension());
         let norms = matrices.norms();
-        let mut checks: Vec<(usize, ModeCheck)> = Vec::with_capacity(modes.len());
-        for group in packed.groups(GROUP_WIDTH) {
-            let x = model.expand(packed.coordinates.get(.., group.columns.clone()));
-            let (residuals, momenta) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
-            for &j in &group.modes {
-                let lambda = modes[j].eigenvalue;
+        let (mut checks, mut modes) = (Vec::with_capacity(modes.len()), modes.iter());
+        for (coordinates, entries) in packed.groups(GROUP_WIDTH) {
+            let x = model.expand(coordinates);
+            let (residuals, momenta) = matrices.residuals_and_momenta(&entries, x.as_ref());
+            for (entry, mode) in entries.iter().zip(&mut modes) {
+                let lambda = mode.eigenvalue;
                 let [residual, momentum, shape] =
-                    [&residuals, &momenta, &x].map(|mapped| packed.vector(j, &group, mapped));
+                    [&residuals, &momenta, &x].map(|mapped| entry.vector(mapped));
                 let force = matrices.residual_factor(lambda) * residual.norm();
                 let inertia = self.linearization.inertia(lambda) * momentum.norm();
                 let scale = magnitude(norms, lambda);
-                let check = ModeCheck {
+                checks.push(ModeCheck {
                     residual: force / (scale * shape.norm()),
                     force_residual: force / inertia,
-                    uncertainty: uncertainty(norms, &modes[j]),
+                    uncertainty: uncertainty(norms, mode),
                     contact_share: self.contact_share(shape, momentum),
                     edge: self.edge.restrict(|unknown| shape.at(unknown)),
                     peak: shape.peak(),
-                };
-                checks.push((j, check));
+                });
             }
         }
-        checks.sort_by_key(|(j, _)| *j);
-        checks.into_iter().map(|(_, check)| check).collect()
+        checks
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole. `momentum` is `M(mu) x`, which differs from
