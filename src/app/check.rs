@@ -176,9 +176,7 @@ fn lines(case: &Case, found: &Preflight) -> Vec<(&'static str, String, RunCost)>
 
 /// The meshes and time steps of a convergence study.
 fn meshes(case: &Case) -> String {
-    let Some(study) = &case.convergence else {
-        return String::new();
-    };
+    let Some(study) = &case.convergence else { return String::new() };
     let meshes = study.factors.iter().map(|factor| {
         let Some(grid) = case.body.grid() else {
             let elements = case.body.element_count() as f64 * factor * factor;

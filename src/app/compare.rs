@@ -66,8 +66,7 @@ fn default_folder(runs: &[ComparedRun], manifest: &Manifest, is_forced: bool) ->
         let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
         parts.join("-")
     });
-    let name = names.collect::<Vec<_>>().join("-and-");
-    let name: String = name.chars().take(LONGEST_NAME).collect();
+    let name: String = names.collect::<Vec<_>>().join("-and-").chars().take(LONGEST_NAME).collect();
     let folder = Path::new("results").join("compare");
     let plain = folder.join(&name);
     let found = read_manifest(&plain).ok();
@@ -99,8 +98,7 @@ fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {
 fn names_of(paths: &[PathBuf]) -> Vec<String> {
     let parts = |path: &Path| -> Vec<String> {
         let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let parts = path.components().map(|part| part.as_os_str().to_string_lossy().into_owned());
-        parts.collect()
+        path.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
     };
     let all: Vec<Vec<String>> = paths.iter().map(|path| parts(path)).collect();
     let longest = all.iter().map(Vec::len).max().unwrap_or(1);
@@ -112,6 +110,5 @@ fn names_of(paths: &[PathBuf]) -> Vec<String> {
             return names;
         }
     }
-    let numbered = paths.iter().enumerate();
-    numbered.map(|(at, path)| format!("{} ({})", path.display(), at + 1)).collect()
+    paths.iter().enumerate().map(|(at, path)| format!("{} ({})", path.display(), at + 1)).collect()
 }

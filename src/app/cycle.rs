@@ -87,8 +87,7 @@ fn written(
     }
     found.write(folder, body)?;
     session.options.output.write_result(folder, told, found, || {
-        let bodies = session.case.body.assembly().into_iter();
-        let surfaces = bodies.flat_map(|body| &body.contacts);
+        let surfaces = session.case.body.assembly().into_iter().flat_map(|body| &body.contacts);
         let surfaces = surfaces.map(|own| (own.name.clone(), own.surface)).collect();
         found.figures(body, surfaces, session.case.materials())
     })

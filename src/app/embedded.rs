@@ -178,8 +178,7 @@ fn build_pool(
     run: Option<EmbeddedRun>,
     log: Dispatch,
 ) -> Result<ThreadPool, ThreadPoolBuildError> {
-    let builder = ThreadPoolBuilder::new().num_threads(threads);
-    let builder = builder.spawn_handler(move |thread| {
+    let builder = ThreadPoolBuilder::new().num_threads(threads).spawn_handler(move |thread| {
         let (run, log) = (run.clone(), log.clone());
         let work = move || {
             if let Some(run) = run {
@@ -202,6 +201,5 @@ pub fn is_stopped(cause: &(dyn Any + Send)) -> bool {
 /// What a panic said.
 pub fn panic_text(cause: &(dyn Any + Send)) -> String {
     let text = cause.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| cause.downcast_ref::<&str>().copied());
-    text.unwrap_or("of unknown cause").to_owned()
+    text.or_else(|| cause.downcast_ref::<&str>().copied()).unwrap_or("of unknown cause").to_owned()
 }

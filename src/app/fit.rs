@@ -39,8 +39,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let lines = read_modes(&bytes, &input_name(&asked.modes))?;
     // Results belong to case and table.
     session.manifest.case_hash = hash_of([session.manifest.case_hash.as_bytes(), &bytes]);
-    let shapes = asked.shapes.as_ref();
-    let shapes = shapes.map(|path| measured_shapes(path, asked.scale, &mut session));
+    let shapes = asked.shapes.as_ref().map(|path| measured_shapes(path, asked.scale, &mut session));
     let shapes = shapes.transpose()?;
     refuse_too_few(&session.case, &lines)?;
     let folder = session.begin()?;

@@ -64,8 +64,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     }
     let name = asked.template.as_str();
     let case = if name == REFERENCE { None } else { Some(find(name)?) };
-    let own = asked.out.clone();
-    let path = own.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+    let path = asked.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
     let is_stdout = path == Path::new("-");
     let shown = match path.file_name() {
         Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
@@ -151,8 +150,7 @@ fn find(name: &str) -> Result<ShippedCase, Failure> {
     let short = SHORT_NAMES.iter().find(|pair| pair.0 == name);
     let own = short.map_or(name, |pair| pair.1);
     let cases = all_cases();
-    let case = cases.iter().find(|case| case.name() == own);
-    case.copied().ok_or_else(|| {
+    cases.iter().find(|case| case.name() == own).copied().ok_or_else(|| {
         let short = SHORT_NAMES.iter().map(|pair| pair.0);
         let names = short.chain([REFERENCE]).chain(cases.iter().map(ShippedCase::name));
         let names: Vec<&str> = names.collect();

@@ -90,9 +90,7 @@ impl<'a> SideFile<'a> {
         measurement: &Path,
         force: bool,
     ) -> Result<Option<Self>, Failure> {
-        let Some(path) = path else {
-            return Ok(None);
-        };
+        let Some(path) = path else { return Ok(None) };
         let shown = path.display();
         let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
         if same(path, measurement) == Some(true) {
@@ -122,8 +120,7 @@ impl<'a> SideFile<'a> {
             // As any file that a program creates, under the user's umask.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(parent.unwrap_or(Path::new(".")));
-        let mut file = file.map_err(fail)?;
+        let mut file = builder.tempfile_in(parent.unwrap_or(Path::new("."))).map_err(fail)?;
         file.write_all(bytes).map_err(fail)?;
         let kept = match self.force {
             true => file.persist(self.path),

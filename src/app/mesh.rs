@@ -77,9 +77,7 @@ fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
 
 /// Shear wavelength at the highest frequency that the case asks modes for, m.
 fn shortest_wave(case: &Case) -> Option<f64> {
-    let ModeLimit::MaxFrequency(frequency) = case.cea.as_ref()?.modes else {
-        return None;
-    };
+    let ModeLimit::MaxFrequency(frequency) = case.cea.as_ref()?.modes else { return None };
     let speeds = case.body.materials.iter().map(|material| {
         let material = &material.elastic;
         (material.lame_constants()[1] / material.density).sqrt()

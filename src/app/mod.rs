@@ -270,8 +270,7 @@ pub fn main() -> ExitCode {
 pub fn run_arguments(given: Vec<OsString>) -> u8 {
     let command = command_line();
     let given = options_behind_subcommand(&command, given);
-    let matches = command.clone().try_get_matches_from(given);
-    let parsed = matches.and_then(|found| {
+    let parsed = command.clone().try_get_matches_from(given).and_then(|found| {
         let threads = found.subcommand().and_then(|own| own.1.try_get_one("threads").ok()?);
         if let Some(threads) = threads {
             start_threads(Some(*threads));

@@ -64,8 +64,7 @@ pub struct CaseChanges {
 impl CaseChanges {
     /// The overrides: what is taken away, then what is set.
     pub fn overrides(&self) -> Vec<String> {
-        let unsets = self.unset.iter().map(|key| unset(key));
-        unsets.chain(self.set.iter().cloned()).collect()
+        self.unset.iter().map(|key| unset(key)).chain(self.set.iter().cloned()).collect()
     }
 }
 
@@ -138,16 +137,12 @@ impl OutputOptions {
             _ => input.file_stem().unwrap_or(input.as_os_str()),
         };
         let plain = Path::new("results").join(stem).join(&manifest.command);
-        let Ok(found) = read_manifest(&plain) else {
-            return (plain, replace);
-        };
+        let Ok(found) = read_manifest(&plain) else { return (plain, replace) };
         let is_same = found.case_hash == manifest.case_hash && found.command == manifest.command;
         if is_same || self.force {
             return (plain, replace);
         }
-        let Some(difference) = difference(manifest, &found) else {
-            return (plain, replace);
-        };
+        let Some(difference) = difference(manifest, &found) else { return (plain, replace) };
         let own = plain.with_file_name(format!("{}-{difference}", manifest.command));
         if is_continued && !own.exists() {
             return (plain, replace);
@@ -261,9 +256,7 @@ fn refuse_input_inside(folder: &Path, input: &Path) -> Result<(), Failure> {
     let (Ok(folder), Ok(input)) = (folder.canonicalize(), input.canonicalize()) else {
         return Ok(());
     };
-    let Ok(name) = input.strip_prefix(&folder) else {
-        return Ok(());
-    };
+    let Ok(name) = input.strip_prefix(&folder) else { return Ok(()) };
     let is_case = name.extension().is_some_and(|extension| extension == "toml");
     if is_case && !is_result(&folder, name) {
         return Ok(());

@@ -107,8 +107,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     bar.finish_and_clear();
     let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
         analysed.into_iter().unzip();
-    let main = channels.iter().filter_map(|c| c.main_frequency_hz);
-    let highest = main.fold(0.0, f64::max);
+    let highest = channels.iter().filter_map(|c| c.main_frequency_hz).fold(0.0, f64::max);
     let modes = match &case {
         Some(case) if highest > 0.0 => {
             ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.body.has_sectors())

@@ -78,8 +78,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
 
 /// Memory that the analyses of one point take, bytes.
 fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
-    let first = plan.point_case(1);
-    let cost = first.as_ref().unwrap_or(&session.case).cost();
+    let cost = plan.point_case(1).as_ref().unwrap_or(&session.case).cost();
     let cea = cost.cea.map_or(0.0, |cea| cea.run.memory_bytes);
     let transient = cost.transient.map_or(0.0, |own| own.run.memory_bytes);
     cost.mesh_memory_bytes + cea.max(transient)

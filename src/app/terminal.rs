@@ -168,9 +168,7 @@ pub fn progress(quiet: bool, length: u64, message: &'static str) -> ProgressBar 
 
 /// How far `done` of `length` pieces are, as a bar; nothing of a single piece, which would be empty to its end.
 fn track(done: u64, length: Option<u64>) -> String {
-    let Some(length) = length.filter(|length| *length > 1) else {
-        return String::new();
-    };
+    let Some(length) = length.filter(|length| *length > 1) else { return String::new() };
     let filled = (BAR * done.min(length) / length) as usize;
     let head = if filled < BAR as usize { ">" } else { "" };
     format!("[{:<1$}] ", "=".repeat(filled) + head, BAR as usize)

@@ -117,9 +117,7 @@ fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), 
 
 /// Runs one block and keeps it, unless it is finished or another process has it.
 fn run_block(sampler: &Sampler<'_>, folder: &SweepFolder, block: usize) -> Result<(), Failure> {
-    let Some(_claim) = folder.take(block)? else {
-        return Ok(());
-    };
+    let Some(_claim) = folder.take(block)? else { return Ok(()) };
     let start = Instant::now();
     let samples = serde_json::to_value(sampler.block(block)).map_err(Failure::run)?;
     let manifest = folder.output().manifest();

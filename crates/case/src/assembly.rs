@@ -68,8 +68,7 @@ impl AssemblyBody {
 
     /// A point of the axis of what turns first, and its direction; none where nothing turns.
     pub fn axis(&self) -> Option<[[f64; 3]; 2]> {
-        let own = self.motions.first().map(|motion| [motion.center, motion.axis]);
-        own.or_else(|| {
+        self.motions.first().map(|motion| [motion.center, motion.axis]).or_else(|| {
             let rigid = self.rigid_counterface()?;
             matches!(rigid.motion, RigidMotion::Turning(_)).then_some([rigid.center, rigid.axis])
         })
@@ -127,10 +126,9 @@ pub(super) fn sections(own: &Description<'_>) -> (AssemblyParts, Contact) {
             decay: first.and_then(|contact| contact.surfaces.friction.decay),
             interference: rigid.map_or(0.0, |rigid| rigid.interference),
             // Where the counterface is at rest, the body slides under it.
-            rotation_speed: speed.filter(|speed| *speed != 0.0).unwrap_or_else(|| {
-                let first = motions.first();
-                first.map_or(0.0, |motion| motion.1.rotation_speed)
-            }),
+            rotation_speed: speed
+                .filter(|speed| *speed != 0.0)
+                .unwrap_or_else(|| motions.first().map_or(0.0, |motion| motion.1.rotation_speed)),
         },
         stiffness: first.map(|contact| contact.surfaces.stiffness).unwrap_or_default(),
     };
@@ -171,8 +169,7 @@ pub(super) fn assemble(
     let mesh = Mesh::from_solids(&read, own.scale, &own.conditions);
     let mesh = mesh.map_err(|error| own.unusable(error))?;
     let find = |known: &[String], what: &str, name: &str, key: &str| {
-        let place = known.iter().position(|other| other == name);
-        place.ok_or_else(|| {
+        known.iter().position(|other| other == name).ok_or_else(|| {
             let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
             let message = format!(
                 "{key}: the mesh file has no {what} \"{name}\"; it has {}{}",

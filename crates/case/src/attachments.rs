@@ -66,9 +66,7 @@ pub(super) fn attach(
         if own.coefficients == [0.0; 2] {
             continue;
         }
-        let Some(((center, radius), mesh)) = own.within.zip(body.whole_mesh()) else {
-            continue;
-        };
+        let Some(((center, radius), mesh)) = own.within.zip(body.whole_mesh()) else { continue };
         let elements = mesh.elements_within(center, radius);
         refuse_if!(elements.is_empty(); section, "radius" => "holds no element's middle";
             "no element within it"; "center and radius are in metres");

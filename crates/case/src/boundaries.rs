@@ -86,9 +86,7 @@ pub(super) fn no_axial_support(
         ],
     };
     for (name, condition) in boundaries {
-        let BoundaryCondition::Support(support) = condition else {
-            continue;
-        };
+        let BoundaryCondition::Support(support) = condition else { continue };
         refuse_if!(support.axial_stiffness.is_some_and(|own| own > 0.0); section, name,
             "boundaries.{name}.axial_stiffness has no effect on {body}"; "{label}"; "{help}");
         support.axial_stiffness = None;

@@ -66,8 +66,7 @@ impl Case {
 
     /// The springs of each contact that has them.
     pub(super) fn springs(&self) -> Vec<Springs> {
-        let contacts = self.contact_sections().into_iter();
-        let springs = contacts.filter_map(|(section, own)| {
+        let springs = self.contact_sections().into_iter().filter_map(|(section, own)| {
             Some(Springs { section, stiffness: own.normal_stiffness?, law: own.law })
         });
         springs.collect()

@@ -76,8 +76,7 @@ impl Case {
             return Ok(cycle);
         }
         let key = self.speed_key();
-        let value = self.raw.find(&key).map(|item| item.value.to_string());
-        let value = value.unwrap_or_default();
+        let value = self.raw.find(&key).map(|item| item.value.to_string()).unwrap_or_default();
         Err(match self.has_rotating_waves() {
             true => {
                 refusal!(self, &key, "{key} = {value}: limit cycles need a cylinder that turns";

@@ -109,8 +109,7 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
 /// Whether `[material]` has the constants of regions without a section of their own; a formulation alone gives them
 /// none.
 pub(super) fn has_common_constants(root: &Section<'_>) -> bool {
-    let given = root.section("material", false).remaining();
-    given.iter().any(|(key, _)| *key != "formulation")
+    root.section("material", false).remaining().iter().any(|(key, _)| *key != "formulation")
 }
 
 /// `[material]`. Where every region of a mesh file may have a section of its own, it can be left out: the constants are

@@ -163,9 +163,7 @@ pub(super) fn place_axes(
     material: &mut ElasticMaterial,
     body: &Surroundings,
 ) {
-    let Some(orthotropy) = &mut material.orthotropy else {
-        return;
-    };
+    let Some(orthotropy) = &mut material.orthotropy else { return };
     let reject = |message: String, label: &str, help: &str| {
         let outer = root.section(path[0], false);
         let inner = path.get(1).map(|name| outer.section(name, false));

@@ -241,8 +241,7 @@ fn numbers(values: &[f64]) -> RawValue {
 
 /// `value 10^power`, its decimal digits kept: 7.85e-9 times 10^12 is 7850.
 fn scaled(value: f64, power: i32) -> f64 {
-    let text = format!("{value:e}");
-    let parts = text.split_once('e').and_then(|(digits, exponent)| {
+    let parts = format!("{value:e}").split_once('e').and_then(|(digits, exponent)| {
         let exponent: i32 = exponent.parse().ok()?;
         format!("{digits}e{}", exponent + power).parse().ok()
     });

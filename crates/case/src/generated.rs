@@ -233,8 +233,7 @@ fn materials(own: &Description<'_>, has_shaft: bool) -> Option<RegionMaterial> {
                 "describe the disc in [material] and a shaft in [materials.shaft]"),
         }
     }
-    let read = imported::materials(own);
-    let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
+    let mut shafts = imported::materials(own).into_iter().filter(|(name, _)| name == "shaft");
     shafts.next().map(|(_, material)| material)
 }
 

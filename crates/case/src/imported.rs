@@ -123,9 +123,7 @@ impl FileParts<'_> {
     /// What the file has, or all the sectors of which it has one.
     fn whole(&self) -> Result<Arc<FileMesh>, BodyError> {
         let read = self.bytes.read()?;
-        let Some(symmetry) = &self.symmetry else {
-            return Ok(read);
-        };
+        let Some(symmetry) = &self.symmetry else { return Ok(read) };
         let point = symmetry.point.map(|x| x / self.own.scale);
         repeated_file(&read, &CyclicSymmetry { point, ..*symmetry }).map(Arc::new)
     }
@@ -134,8 +132,7 @@ impl FileParts<'_> {
     pub(super) fn shaped(&self, contact: &str) -> Result<(Arc<FileMesh>, [f64; 2]), Diagnostic> {
         let own = self.own;
         let whole = self.whole().map_err(|error| own.unusable(error))?;
-        let shaped = reshaped(whole, own.scale, contact, &own.modifications);
-        shaped.map_err(|misfit| own.misfit(misfit))
+        reshaped(whole, own.scale, contact, &own.modifications).map_err(|misfit| own.misfit(misfit))
     }
 
     /// The material of each region; `find` refuses a name that none of them has.
@@ -249,8 +246,7 @@ pub(super) fn import(
         own.error("contact.counter_boundary", message, "the bodies do not meet")
     })?;
     let find = |name: &str| {
-        let place = mesh.regions.iter().position(|region| region == name);
-        place.ok_or_else(|| {
+        mesh.regions.iter().position(|region| region == name).ok_or_else(|| {
             let regions = mesh.regions.iter().map(|region| format!("\"{region}\""));
             let message = format!(
                 "{}: no physical surface is called \"{name}\"; the file has {}{}",
@@ -324,9 +320,7 @@ fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String
 
 /// Two bodies must have their curves before each other, at most as far into each other as the interference.
 fn check_meeting(mesh: &Mesh, body: &BodySpecification, interference: f64) -> Result<(), String> {
-    let Some(other) = &body.opposite else {
-        return Ok(());
-    };
+    let Some(other) = &body.opposite else { return Ok(()) };
     let interface = ContactInterface::of(mesh);
     let name = &body.contact;
     if interface.is_empty() {

@@ -181,9 +181,7 @@ impl CaseKey {
     /// The key of a declaration, `name | values | unit | default | example`, and of what it is.
     pub(super) fn read(head: &'static str, text: &'static str) -> Option<Self> {
         let fields: Vec<&str> = head.split(" | ").collect();
-        let [name, declared, unit, default, example] = fields[..] else {
-            return None;
-        };
+        let [name, declared, unit, default, example] = fields[..] else { return None };
         let (text, called) = text.split_once(" also called: ").unwrap_or((text, ""));
         let (meaning, of_waves) = text.split_once(" of waves: ").unwrap_or((text, ""));
         let default = match default.strip_prefix("= ") {

@@ -82,8 +82,7 @@ static ELEMENTS: LazyLock<Vec<CaseKey>> = LazyLock::new(|| {
 /// A dotted name with places in lists as parts of it: `KEY[2]` as `KEY.2`.
 pub(super) fn dotted(name: &str) -> Cow<'_, str> {
     let mut parts = name.split('[');
-    let first = parts.next().unwrap_or_default();
-    let mut with_parts = first.to_owned();
+    let mut with_parts = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let digits = part.split_once(']').filter(|(place, _)| {
             !place.is_empty() && place.bytes().all(|byte| byte.is_ascii_digit())
@@ -103,8 +102,7 @@ pub(super) fn list_place(part: &str) -> Option<usize> {
 
 /// The entry of a dotted key, of a number in a list, or of a key of a range.
 pub fn find(name: &str) -> Option<&'static CaseKey> {
-    let known = KEYS.iter().find(|key| key.is_named(name));
-    known.or_else(|| {
+    KEYS.iter().find(|key| key.is_named(name)).or_else(|| {
         let name = dotted(name);
         list_place(name.rsplit('.').next()?).filter(|place| *place < 3)?;
         ELEMENTS.iter().find(|key| key.is_named(&name))

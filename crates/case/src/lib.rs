@@ -205,9 +205,7 @@ impl Case {
         warnings.extend(taken.warning(&at_file));
         raw.mesh = mesh;
         raw.tables = tables;
-        let Some(body) = body.filter(|_| errors.is_empty()) else {
-            return Err(raw.errors(errors));
-        };
+        let Some(body) = body.filter(|_| errors.is_empty()) else { return Err(raw.errors(errors)) };
         let mut case = Self {
             title,
             thickness,

@@ -139,9 +139,7 @@ pub(super) fn reshaped(
         }
     }
     for own in modifications.iter().filter(|own| own.is_removed) {
-        let Some((center, radius)) = own.within else {
-            continue;
-        };
+        let Some((center, radius)) = own.within else { continue };
         let near = |middle: [f64; 3]| {
             let away = Vector3::from(middle.map(|x| scale * x)) - Vector3::from(center);
             away.norm() <= radius

@@ -135,9 +135,7 @@ fn insert(
     path: &[(String, Location)],
     item: RawItem,
 ) -> Result<(), Vec<Diagnostic>> {
-    let Some(((key, key_at), rest)) = path.split_first() else {
-        return Ok(());
-    };
+    let Some(((key, key_at), rest)) = path.split_first() else { return Ok(()) };
     if rest.is_empty() {
         let key_at = key_at.clone();
         table.insert(key.clone(), RawEntry { key_at, item });

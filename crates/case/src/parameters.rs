@@ -222,7 +222,6 @@ impl super::Case {
 
     /// The number that the case, or its mesh file, gives a key, if one does.
     pub fn number(&self, key: &str) -> Option<f64> {
-        let own = self.raw.find(key).and_then(|item| item.value.number());
-        own.or_else(|| self.taken.number(key))
+        self.raw.find(key).and_then(|item| item.value.number()).or_else(|| self.taken.number(key))
     }
 }

@@ -95,8 +95,7 @@ impl RawCase {
             }
         };
         let (mesh, tables) = (None, Vec::new());
-        let case = Self { name, text, overrides: Vec::new(), root, mesh, tables };
-        case.lay(overrides, diagnostics)
+        Self { name, text, overrides: Vec::new(), root, mesh, tables }.lay(overrides, diagnostics)
     }
 
     /// Lays overrides over the case, or gives the errors so far and theirs.
@@ -148,9 +147,7 @@ impl RawCase {
         let own = own.map(|file| ("material-table.csv".to_owned(), file.to_owned()));
         let mut found: Vec<(String, String)> = own.into_iter().collect();
         for (group, key) in [("materials", "table"), ("contacts", "gap")] {
-            let Some(sections) = table_of(&self.root, group) else {
-                continue;
-            };
+            let Some(sections) = table_of(&self.root, group) else { continue };
             for name in sections.keys() {
                 let own = table_of(sections, name).and_then(|own| own.get(key));
                 let file = own.and_then(|own| own.item.value.text());
@@ -162,8 +159,7 @@ impl RawCase {
 
     /// The tables that were read, each with the name under which it lies beside the results.
     pub fn kept_tables(&self) -> Vec<(String, &TableBytes)> {
-        let named = self.table_files().into_iter();
-        let kept = named.filter_map(|(name, file)| {
+        let kept = self.table_files().into_iter().filter_map(|(name, file)| {
             let table = self.tables.iter().find(|table| table.file == file)?;
             Some((name, table))
         });

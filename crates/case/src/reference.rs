@@ -23,8 +23,7 @@ fn keys_of(section: &str) -> impl Iterator<Item = &'static CaseKey> {
 pub fn markdown() -> String {
     // Code keeps its brackets.
     let plain = |text: &str| -> String {
-        let parts = text.split('`').enumerate();
-        let parts = parts.map(|(k, part)| match k % 2 {
+        let parts = text.split('`').enumerate().map(|(k, part)| match k % 2 {
             0 => part.replace('[', "\\["),
             _ => part.to_owned(),
         });

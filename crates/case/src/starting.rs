@@ -157,16 +157,10 @@ fn write_section(section: &FileSection, shown: &str, out: &mut String) {
 /// surface.
 fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], out: &mut String) {
     let has = |group: &str| sections.iter().any(|section| section.path.0 == group);
-    let Some(contact) = file.model.contacts.first() else {
-        return;
-    };
+    let Some(contact) = file.model.contacts.first() else { return };
     let faces = file.surfaces.get(&contact.counter);
-    let (true, false, Some(faces)) = (has("contacts"), has("motion"), faces) else {
-        return;
-    };
-    let Some(region) = faces.first().and_then(|face| region_of(file, face)) else {
-        return;
-    };
+    let (true, false, Some(faces)) = (has("contacts"), has("motion"), faces) else { return };
+    let Some(region) = faces.first().and_then(|face| region_of(file, face)) else { return };
     let normal = faces.iter().map(|face| area_of(file, face)).sum::<Vector3<f64>>();
     let axis = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
     // Round-off is no part of a proposal.
@@ -202,8 +196,7 @@ fn region_of(file: &FileMesh, (_, nodes): &SurfaceFace) -> Option<String> {
 
 fn area_of(file: &FileMesh, (kind, nodes): &SurfaceFace) -> Vector3<f64> {
     let points: Vec<[f64; 3]> = nodes.iter().map(|&node| file.points[node as usize]).collect();
-    let quadrature = kind.quadrature().into_iter();
-    quadrature.map(|point| Vector3::from(kind.at(&points, point).area)).sum()
+    kind.quadrature().into_iter().map(|point| Vector3::from(kind.at(&points, point).area)).sum()
 }
 
 /// `[contact]` of a plane body, which has one.

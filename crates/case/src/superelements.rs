@@ -63,8 +63,7 @@ impl FreeSystem {
         let mut digest = Sha256::new_with_prefix(raw.canonical());
         let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
         let read = names.first().and_then(|name| {
-            let section = all.section(name, true);
-            section.closed(|own| superelement(own, name, folder, &mut digest))
+            all.section(name, true).closed(|own| superelement(own, name, folder, &mut digest))
         });
         all.close();
         let unknowns = read.as_ref().map_or(0, |own| own.mass.rows as u128);
@@ -140,9 +139,7 @@ fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
     for &(_, column, value) in entries {
         is_met[column] |= value != 0.0;
     }
-    let Some(unknown) = is_met.iter().position(|met| !met) else {
-        return true;
-    };
+    let Some(unknown) = is_met.iter().position(|met| !met) else { return true };
     refuse!(section, "stiffness",
         "unknown {} of superelement {} has no entry in any of its matrices: nothing holds it and \
          it has no mass", unknown + 1, own.name;

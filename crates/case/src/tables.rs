@@ -34,8 +34,7 @@ impl<'a> TableFiles<'a> {
         let bytes = match known.next() {
             Some(table) => Arc::clone(&table.bytes),
             None => {
-                let folder = Path::new(&self.raw.name).parent().unwrap_or(Path::new(""));
-                let path = folder.join(file);
+                let path = Path::new(&self.raw.name).parent().unwrap_or(Path::new("")).join(file);
                 let bytes = frictionsim_bounds::read(&path, TABLE);
                 let fail = |why| format!("cannot read the table {}: {why}", path.display());
                 bytes.map_err(fail)?.into()

@@ -42,19 +42,13 @@ pub struct Taken {
 pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     let table = raw.root.clone();
     let text = |key: &str| raw.find(key)?.value.text();
-    let Some(name) = text("mesh.file").map(str::to_owned) else {
-        return (table, Taken::default());
-    };
+    let Some(name) = text("mesh.file").map(str::to_owned) else { return (table, Taken::default()) };
     let units = text("mesh.units").and_then(choice_of);
     // A file that cannot be read is told where the body is made of it.
     let unread = Taken { is_unread: true, ..Taken::default() };
-    let Ok(bytes) = imported::mesh_bytes(raw, &name) else {
-        return (table, unread);
-    };
+    let Ok(bytes) = imported::mesh_bytes(raw, &name) else { return (table, unread) };
     raw.mesh = Some(bytes.clone());
-    let Ok(file) = bytes.read() else {
-        return (table, unread);
-    };
+    let Ok(file) = bytes.read() else { return (table, unread) };
     let at = raw.place("mesh.file");
     let mut taken = Taken {
         file: name,

@@ -291,9 +291,7 @@ fn probes(section: &Section<'_>, body: Option<&Body>) -> (Vec<usize>, Vec<Placed
     let (mut probes, mut placed) = (Vec::new(), Vec::new());
     for named in section.nodes("probes") {
         let found = body.and_then(|body| body.find_node(section, "probes", &named));
-        let (Some(body), Some((node, place))) = (body, found) else {
-            continue;
-        };
+        let (Some(body), Some((node, place))) = (body, found) else { continue };
         if probes.contains(&(node + 1)) {
             refuse_at!(section, &named.1, "output.probes names node {} twice", body.node_label(node);
                 "must not be listed twice"; "leave one of them out");

@@ -98,9 +98,7 @@ pub fn significant(value: f64, digits: usize) -> String {
         return "0".to_owned();
     }
     let rounded = format!("{:.*e}", digits.saturating_sub(1), value);
-    let Some((mantissa, exponent)) = rounded.split_once('e') else {
-        return rounded;
-    };
+    let Some((mantissa, exponent)) = rounded.split_once('e') else { return rounded };
     let power: i32 = exponent.parse().unwrap_or(0);
     if (-4..10).contains(&power) {
         let decimals = (digits as i32 - 1 - power).max(0) as usize;

@@ -199,8 +199,7 @@ impl Entry {
 
 /// The entries of declared columns, behind a prefix.
 pub fn entries<T>(prefix: &str, columns: &[Column<T>]) -> Vec<Entry> {
-    let columns = columns.iter();
-    columns.map(|own| Entry::new(format!("{prefix}{}", own.key), own.meaning)).collect()
+    columns.iter().map(|own| Entry::new(format!("{prefix}{}", own.key), own.meaning)).collect()
 }
 
 /// The head of a column in a table.
@@ -215,9 +214,7 @@ pub struct Head {
 impl Head {
     /// Label and unit.
     fn label(&self) -> String {
-        let Some((_, label, format)) = &self.look else {
-            return self.key.clone();
-        };
+        let Some((_, label, format)) = &self.look else { return self.key.clone() };
         let unit = match format {
             Format::Percent(_) => "%",
             _ => unit_of(&self.key).1,
@@ -323,9 +320,7 @@ impl Table {
     /// The same without a column in which no row has anything.
     #[must_use]
     pub fn without_empty(mut self, key: &str) -> Self {
-        let Some(at) = self.heads.iter().position(|head| head.key == key) else {
-            return self;
-        };
+        let Some(at) = self.heads.iter().position(|head| head.key == key) else { return self };
         if self.is_empty_at(at) {
             self.heads.remove(at);
             self.rows.iter_mut().for_each(|row| drop(row.remove(at)));

@@ -251,8 +251,7 @@ fn search(summary: &BasinSummary) -> Figure {
         let own = own.filter(|run| run.winner == winner && run.is_settled == is_settled);
         Points::new(own.filter_map(place)).marker(marker, 2.6, colour).name(name)
     });
-    let bounds = [summary.boundary.low, summary.boundary.high];
-    let bounds = bounds.into_iter().flatten().map(|ratio| {
+    let bounds = [summary.boundary.low, summary.boundary.high].into_iter().flatten().map(|ratio| {
         Rule::vertical(ratio).stroke(Stroke::dashed(INK, 0.8)).name("bounds of the boundary")
     });
     let names = [(0.0, shown(first)), (1.0, shown(second))];

@@ -26,8 +26,7 @@ pub fn sorted<T>(items: impl IntoIterator<Item = T>, number: impl FnMut(&T) -> f
 
 /// Ascending numbers with runs drawn together: `1-4, 7`.
 pub fn number_ranges(numbers: &[usize]) -> String {
-    let runs = numbers.chunk_by(|number, next| number + 1 == *next);
-    let texts = runs.map(|run| match run {
+    let texts = numbers.chunk_by(|number, next| number + 1 == *next).map(|run| match run {
         [first, .., last] => format!("{first}-{last}"),
         one => one[0].to_string(),
     });

@@ -200,8 +200,7 @@ fn fit(summary: &FitSummary) -> Figure {
         let own = modes.iter().filter(|mode| mode.is_unstable() == unstable);
         Points::new(own.map(|mode| (mode.frequency_hz, mode.real_hz)))
     };
-    let heard = lines().filter(|line| line.real_hz.is_none());
-    let rules = heard.map(|line| {
+    let rules = lines().filter(|line| line.real_hz.is_none()).map(|line| {
         let rule = Rule::vertical(line.frequency_hz).stroke(Stroke::dashed(INK, 0.8));
         rule.name("measured frequency")
     });

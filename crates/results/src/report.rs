@@ -108,8 +108,7 @@ mod tests {
         page.figures[0].name = "</script><img>".into();
         page.document.sections[0].figures.push("</script>".into());
         let html = html_of(&page);
-        let data = html.split("id=\"data\">").nth(1).unwrap();
-        let data = data.split("</script>").next().unwrap();
+        let data = html.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
         let data: Value = serde_json::from_str(data).unwrap();
         assert_eq!(data["figures"][0]["name"], "</script><img>");
         assert!(!html.contains("<img"));

@@ -39,9 +39,7 @@ impl<'a> ShownBody<'a> {
 
     /// Where a node of the whole body is, m.
     pub fn position(&self, node: usize) -> [f64; 3] {
-        let Some(sector) = self.sector else {
-            return self.mesh.nodes[node];
-        };
+        let Some(sector) = self.sector else { return self.mesh.nodes[node] };
         let (own, turn) = (node % sector.node_count(), node / sector.node_count());
         let (sine, cosine) = sector.angle(own, turn).sin_cos();
         let place = &sector.nodes[own];

@@ -72,8 +72,7 @@ pub fn document(summary: &SignalSummary) -> Document {
                 count => format!("mean of {count} blocks"),
             }
         );
-        let table = Table::new("", caption);
-        table.columns(PEAKS, rows(channel)).columns(WORDS, rows(channel))
+        Table::new("", caption).columns(PEAKS, rows(channel)).columns(WORDS, rows(channel))
     };
     let said = |channel: &ChannelSummary| {
         let none = channel.peaks.is_empty().then(|| "no peak stands out from the noise".to_owned());

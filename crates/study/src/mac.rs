@@ -132,8 +132,7 @@ impl Placed {
     fn of(case: &Case, mesh: &Mesh, shape: &MeasuredShape, scale: f64) -> Result<Self, StudyError> {
         let reach = FAR * case.body.size();
         let nearest = |factor: f64| -> Vec<(usize, f64)> {
-            let points = shape.points.iter();
-            points.map(|point| nearest_node(mesh, point.map(|x| factor * x))).collect()
+            shape.points.iter().map(|point| nearest_node(mesh, point.map(|x| factor * x))).collect()
         };
         let own = nearest(scale);
         let off = own.iter().filter(|(_, away)| *away > reach).count();
@@ -238,8 +237,7 @@ fn paired(matrix: &[Vec<f64>]) -> Vec<MacPair> {
     let cost = |(shape, mode): (usize, usize)| 1.0 - matrix[shape][mode];
     let row = |few: usize| (0..rows.max(columns)).map(|many| cost(places(few, many))).collect();
     let costs: Vec<Vec<f64>> = (0..rows.min(columns)).map(row).collect();
-    let pairs = least_cost(&costs).into_iter().enumerate();
-    let pairs = pairs.map(|(few, many)| places(few, many));
+    let pairs = least_cost(&costs).into_iter().enumerate().map(|(few, many)| places(few, many));
     let mut pairs: Vec<MacPair> = pairs
         .map(|(shape, mode)| MacPair { shape: shape + 1, mode: mode + 1, mac: matrix[shape][mode] })
         .collect();

@@ -84,8 +84,7 @@ fn powers<'a>(
     role: fn(FrictionPower) -> MatrixRole,
 ) -> impl Iterator<Item = ExportedMatrix> + 'a {
     let (size, pattern) = (polynomial.dimension(), polynomial.pattern());
-    let coefficients = polynomial.about(friction).into_iter().enumerate();
-    coefficients.filter_map(move |(power, values)| {
+    polynomial.about(friction).into_iter().enumerate().filter_map(move |(power, values)| {
         let entries = (0..size).flat_map(|column| {
             let (nonzeros, values) = (pattern.column(column), &values);
             nonzeros.map(move |(position, row)| (row, column, values[position]))
@@ -152,8 +151,7 @@ fn contact_rows(
                 }
             }
         }
-        let kept = sum.into_iter();
-        kept.filter(|entry| entry.1.abs() > 1e-14 * largest).collect()
+        sum.into_iter().filter(|entry| entry.1.abs() > 1e-14 * largest).collect()
     };
     let (mut normal, mut slip) = (Vec::new(), Vec::new());
     let points = body.contact_points(case);

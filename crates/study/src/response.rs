@@ -170,8 +170,7 @@ impl Response {
     /// The quantity that `[frf]` asks for, `h (i omega)^d`, with its noise.
     pub fn observed(&self, frf: &Frf) -> Vec<c64> {
         let mut noise = GaussianNoise::new(frf.noise_seed as u64);
-        let lines = frf.frequencies_hz.iter().zip(&self.solved);
-        let observed = lines.map(|(f, h)| {
+        let observed = frf.frequencies_hz.iter().zip(&self.solved).map(|(f, h)| {
             let rate = c64::new(0.0, TAU * f).powi(frf.quantity.derivatives());
             let value = h * rate / self.thickness;
             value + noise.draw() * (frf.noise * value.norm())

@@ -50,9 +50,7 @@ impl SweepRun<'_> {
         let work = || {
             let mut ran = 0;
             while !is_stopped.load(Ordering::Relaxed) {
-                let Some(&point) = points.get(next.fetch_add(1, Ordering::Relaxed)) else {
-                    break;
-                };
+                let Some(&point) = points.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
                 let is_new = self.run_point(point);
                 ran +=
                     usize::from(is_new.inspect_err(|_| is_stopped.store(true, Ordering::Relaxed))?);

@@ -53,9 +53,7 @@ fn sliding_radius(case: &Case) -> f64 {
             Counterface::Plane { .. } => case.body.size(),
         },
         BodyKind::Assembly(own) => {
-            let Some([point, direction]) = own.axis() else {
-                return case.body.size();
-            };
+            let Some([point, direction]) = own.axis() else { return case.body.size() };
             let first = own.contacts.first();
             let nodes = first.map_or(&[][..], |first| &own.mesh.boundaries[first.surface].nodes);
             let away = |&node: &u32| {
@@ -181,6 +179,5 @@ pub(super) fn stiffness(case: &Case) -> Option<Limit> {
             "{label}"; "{help}");
         Some(Limit { is_possible: share <= last, said })
     };
-    let found = case.springs().into_iter().filter_map(unlikely);
-    found.min_by_key(|limit| limit.is_possible)
+    case.springs().into_iter().filter_map(unlikely).min_by_key(|limit| limit.is_possible)
 }

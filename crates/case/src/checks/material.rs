@@ -74,8 +74,7 @@ fn wave_speed_in(case: &Case, (section, own): (String, &ElasticMaterial)) -> Opt
 
 /// A density that no solid has, where the speed of waves does not give it away.
 pub(super) fn density(case: &Case) -> Option<Diagnostic> {
-    let parameters = case.model_numbers();
-    let densities = parameters.into_iter().filter(|(key, _)| key.ends_with(".density"));
+    let densities = case.model_numbers().into_iter().filter(|(key, _)| key.ends_with(".density"));
     let (key, value) = densities.into_iter().find(|(_, value)| !DENSITIES.contains(value))?;
     let is_said = wave_speed(case).is_some_and(|limit| limit.said.message.contains(&key));
     (!is_said).then(|| {

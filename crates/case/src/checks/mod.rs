@@ -67,14 +67,12 @@ fn limited(case: &Case, is_possible: bool) -> impl Iterator<Item = Diagnostic> {
 
 /// What a case asks for in vain.
 pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
-    let found = IMPOSSIBLE.iter().filter_map(|check| check(case));
-    found.chain(limited(case, false)).collect()
+    IMPOSSIBLE.iter().filter_map(|check| check(case)).chain(limited(case, false)).collect()
 }
 
 /// What of a case is hardly meant.
 pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
-    let found = DOUBTFUL.iter().filter_map(|check| check(case));
-    found.chain(limited(case, true)).collect()
+    DOUBTFUL.iter().filter_map(|check| check(case)).chain(limited(case, true)).collect()
 }
 
 impl Case {

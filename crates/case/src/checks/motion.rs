@@ -15,9 +15,7 @@ const LARGEST_SEED: f64 = 0.01;
 
 /// A time step that is unstable, or longer than the samples.
 pub(super) fn time_step(case: &Case) -> Option<Diagnostic> {
-    let TimeStep::Seconds(step) = case.transient.as_ref()?.settings.time_step else {
-        return None;
-    };
+    let TimeStep::Seconds(step) = case.transient.as_ref()?.settings.time_step else { return None };
     let (stable, interval) = (case.cost().transient?.stable_step, case.output.sample_interval);
     if step > UNSTABLE * stable {
         return Some(diagnosis!(case, "transient.time_step",

@@ -166,8 +166,7 @@ impl Case {
         if let Some(solid) = self.body.revolution() {
             return solid_frf_cost(frf, solid, dofs);
         }
-        let sectors = self.body.sector_count();
-        let sectors = sectors.filter(|_| self.responds_by_harmonics(frf));
+        let sectors = self.body.sector_count().filter(|_| self.responds_by_harmonics(frf));
         // Entries of the factor of a plane mesh under a minimum-degree ordering, 12 bytes each, as measured.
         let fill = 9.0 * dofs * dofs.max(2.0).log2();
         let (bytes, each) = match (frf.method, sectors, self.body.assembly()) {
@@ -278,8 +277,7 @@ fn solid_modes(mesh: &Mesh, materials: &[RegionMaterial], omega: f64) -> f64 {
         surfaces[mesh.region(face.element as usize)].push(face);
     }
     let volumes = mesh.region_measures();
-    let regions = volumes.iter().zip(&surfaces).zip(materials);
-    let each = regions.map(|((volume, faces), material)| {
+    let each = volumes.iter().zip(&surfaces).zip(materials).map(|((volume, faces), material)| {
         let material = &material.elastic;
         // A region within others has no surface of its own.
         let area = (0.5 * mesh.face_area(faces)).max(volume.powf(2.0 / 3.0));

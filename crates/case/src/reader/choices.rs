@@ -10,8 +10,7 @@ impl Section<'_> {
         let items = self.item(key).map_or(&[][..], RawItem::listed);
         refuse_if!(self.list_length(key) == Some(0); self, key => "is an empty list";
             "at least one word");
-        let words = items.iter();
-        words.filter_map(|item| self.read_choice(key, item)).collect()
+        items.iter().filter_map(|item| self.read_choice(key, item)).collect()
     }
 
     /// Texts: one or a list; empty where it is not given.
@@ -29,8 +28,7 @@ impl Section<'_> {
 
     /// One of a few words; the default where the key is left out or wrong.
     pub fn choice<T: Choice>(&self, key: &str) -> T {
-        let given = self.item(key);
-        given.and_then(|item| self.read_choice(key, item)).unwrap_or_else(|| {
+        self.item(key).and_then(|item| self.read_choice(key, item)).unwrap_or_else(|| {
             let default = self.declared(key).default_text().trim_matches('"');
             words::choice_of(default).unwrap_or(T::WORDS[0].1)
         })

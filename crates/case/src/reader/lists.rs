@@ -52,9 +52,7 @@ impl<'a> Section<'a> {
         let mut values: Vec<(usize, Location)> = Vec::new();
         let mut seen = std::collections::BTreeSet::new();
         for item in listed.listed() {
-            let Some(value) = self.read_count(key, item, least) else {
-                continue;
-            };
+            let Some(value) = self.read_count(key, item, least) else { continue };
             if seen.insert(value) {
                 values.push((value, item.at.clone()));
             } else {

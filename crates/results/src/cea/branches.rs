@@ -160,8 +160,7 @@ mod tests {
         };
         let all = branches(&sweep);
         let lengths = |branch: usize, changes: &[f64]| -> Vec<usize> {
-            let pieces = pieces(&all[&(0, branch, 0)], &sweep, changes);
-            pieces.iter().map(|piece| piece.len()).collect()
+            pieces(&all[&(0, branch, 0)], &sweep, changes).iter().map(|piece| piece.len()).collect()
         };
         assert_eq!(lengths(0, &[]), [4]);
         assert_eq!(lengths(0, &[0.25]), [2, 2]);

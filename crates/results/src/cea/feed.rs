@@ -69,8 +69,7 @@ pub(super) fn write_fields(
 impl ModeFeed {
     /// Growth for each area around each node; NaN where there is no contact point.
     fn around_nodes(&self, field: &BaseField, count: usize) -> Vec<f64> {
-        let places = field.contact.iter().map(|own| &own.place);
-        let points = places.zip(self.rates.iter().copied());
+        let points = field.contact.iter().map(|own| &own.place).zip(self.rates.iter().copied());
         means_around(count, points, |rate, _, share| rate * share)
     }
 }
@@ -147,8 +146,7 @@ fn lines(
 
 fn pictures(mesh: &Mesh, field: &BaseField, modes: &[&ModeFeed], caption: String) -> Figure {
     let surfaces = &field.surfaces;
-    let shown = modes.iter().take(PICTURES);
-    let panels = shown.flat_map(|own| {
+    let panels = modes.iter().take(PICTURES).flat_map(|own| {
         let values = own.around_nodes(field, mesh.node_count());
         let numbers = values.iter().copied().filter(|value| value.is_finite());
         let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);

@@ -40,8 +40,7 @@ impl<'a> KeptSteps<'a> {
         is_continued: bool,
         heard: &'a (dyn Fn(SweepProgress) + Sync),
     ) -> Result<Self, FolderError> {
-        let entries = fs::read_dir(folder.path().join(FOLDER));
-        let files = entries.into_iter().flatten().flatten();
+        let files = fs::read_dir(folder.path().join(FOLDER)).into_iter().flatten().flatten();
         let names = files.filter_map(|entry| entry.file_name().into_string().ok());
         let steps = Self {
             folder,

@@ -24,9 +24,7 @@ const LEFT_SHARE: f64 = 3.0;
 fn real_ends(reals: &[f64]) -> (f64, f64, usize) {
     let mut sorted: Vec<f64> = reals.iter().copied().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
-    let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else {
-        return (-1.0, 1.0, 0);
-    };
+    let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { return (-1.0, 1.0, 0) };
     let usual = sorted[sorted.len() / 10];
     let furthest = -LEFT_SHARE * high.max(-usual).max(f64::MIN_POSITIVE);
     let left = low.max(furthest).min(0.0);
@@ -64,8 +62,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
     let (left, right, hidden) = real_ends(&reals);
     let (lowest, highest) = extremes(report.modes().map(|(.., mode)| mode.frequency_hz()));
     let points = sweep.points.iter();
-    let first = points.map(|p| p.friction_coefficient);
-    let first = first.fold(f64::INFINITY, f64::min);
+    let first = points.map(|p| p.friction_coefficient).fold(f64::INFINITY, f64::min);
 
     // Branches with their numbers at the ends of those that turn unstable.
     let unstable: BTreeSet<Branch> = sweep.intervals.iter().map(branch_of).collect();

@@ -101,8 +101,7 @@ impl<'a> CeaReport<'a> {
     fn own_point(&self) -> Option<&FrictionPoint> {
         let own = self.base.friction_coefficient;
         let distance = |point: &&FrictionPoint| (point.friction_coefficient - own).abs();
-        let points = self.solution.sweep.points.iter();
-        points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        self.solution.sweep.points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
     /// Number of a branch's mode at that friction value, by frequency from 1.
@@ -132,8 +131,7 @@ impl<'a> CeaReport<'a> {
         let own = self.base.friction_coefficient;
         let is_listed =
             move |friction| friction == own || self.friction_coefficients.contains(&friction);
-        let points = self.solution.sweep.points.iter();
-        points.filter(move |point| is_listed(point.friction_coefficient))
+        self.solution.sweep.points.iter().filter(move |point| is_listed(point.friction_coefficient))
     }
 
     /// Largest relative residual of any eigenpair, that of the quadratic problem.

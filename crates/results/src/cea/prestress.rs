@@ -17,9 +17,7 @@ const ARROW: f64 = 0.15;
 
 /// Contact pressure and friction traction around a plane edge, and the von Mises stress field.
 pub(super) fn plane(mesh: &Mesh, field: &BaseField) -> Option<Figure> {
-    let BodyStress::Plane(stress) = &field.stress else {
-        return None;
-    };
+    let BodyStress::Plane(stress) = &field.stress else { return None };
     let disc = Disc::new(mesh);
     let von_mises = stress.iter().map(NodalStress::von_mises).collect();
     let stress = Axis::new("von Mises stress", "Pa").prefixed();
@@ -66,8 +64,7 @@ fn with_tractions(
 /// reaches both ends of its axis.
 fn wrapped(points: Vec<(f64, f64)>, is_closed: bool) -> Vec<(f64, f64)> {
     let turned = |point: Option<&(f64, f64)>, by: f64| {
-        let point = point.filter(|_| is_closed);
-        point.map(|&(angle, value)| (angle + by, value))
+        point.filter(|_| is_closed).map(|&(angle, value)| (angle + by, value))
     };
     let (before, after) = (turned(points.last(), -TAU), turned(points.first(), TAU));
     before.into_iter().chain(points).chain(after).collect()

@@ -105,8 +105,7 @@ impl Reading {
         let own = self.couplings.iter().filter(|row| row.mode.friction_coefficient == friction);
         let unstable = grouped(own.map(|row| (row.mode, row)));
         let unstable = sorted(unstable, |(_, own)| -own[0].growth_rate);
-        let modes = unstable.iter().take(most);
-        modes.map(|(mode, own)| self.sentence(mode, own)).collect()
+        unstable.iter().take(most).map(|(mode, own)| self.sentence(mode, own)).collect()
     }
 
     /// An unstable mode, and what it consists of.
@@ -123,8 +122,7 @@ impl Reading {
             _ => "consists of many modes".to_owned(),
         };
         let budget = self.contributions.iter().filter(|row| row.mode == *mode);
-        let largest = budget.clone().map(|row| row.growth_rate_per_s.abs());
-        let largest = largest.fold(0.0, f64::max);
+        let largest = budget.clone().map(|row| row.growth_rate_per_s.abs()).fold(0.0, f64::max);
         let budget: Vec<String> = budget
             .filter(|row| row.growth_rate_per_s.abs() >= LEAST_RATE * largest)
             .map(|row| {

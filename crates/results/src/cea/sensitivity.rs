@@ -131,9 +131,7 @@ impl SensitivityReport {
     /// What decides the growth of the mode that grows fastest, in words.
     pub fn print(&self) -> String {
         let fastest = self.rows.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re));
-        let Some(row) = fastest else {
-            return String::new();
-        };
+        let Some(row) = fastest else { return String::new() };
         let changes = self.per_cent(row).into_iter();
         let changes = changes.map(|(name, change)| format!(" {name} {:+.2}", change.re));
         format!(

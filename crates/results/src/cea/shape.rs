@@ -127,8 +127,7 @@ pub(super) fn moving(report: &CeaReport<'_>, shapes: &[ModeShape<'_>]) -> Motion
     let body = MovingBody::new(mesh);
     let (unstable, stable): (Vec<&ModeShape<'_>>, Vec<_>) =
         shapes.iter().partition(|s| s.mode.is_unstable());
-    let chosen = unstable.into_iter().chain(stable).take(body.most_states());
-    let states = chosen.map(|shape| {
+    let states = unstable.into_iter().chain(stable).take(body.most_states()).map(|shape| {
         let values = shape.mode.shape.as_deref().unwrap_or(&[]);
         let part = |of: fn(&c64) -> f64| {
             body.cartesian(|node| {
@@ -162,8 +161,7 @@ fn crest_phase(mesh: &Mesh, shape: &[c64], harmonic: usize) -> c64 {
         return turned_back(square.sqrt());
     }
     let wave = |sign: f64| {
-        let nodes = shape.chunks_exact(2).zip(mesh.frame_angles());
-        nodes.fold(c64::ZERO, |sum, (u, &angle)| {
+        shape.chunks_exact(2).zip(mesh.frame_angles()).fold(c64::ZERO, |sum, (u, &angle)| {
             let phase = sign * harmonic as f64 * angle;
             sum + u[1] * c64::new(phase.cos(), phase.sin())
         })

@@ -223,8 +223,7 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
     let base = report.base;
     let Solution { sweep, dofs, method, notes, .. } = report.solution;
     let modes_at = |point: &FrictionPoint| -> Vec<ModeSummary> {
-        let modes = point.modes.iter();
-        modes.map(|mode| ModeSummary::of(mode, report.has_harmonics)).collect()
+        point.modes.iter().map(|mode| ModeSummary::of(mode, report.has_harmonics)).collect()
     };
     let may_open = !report.has_harmonics || report.body.sector.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);

@@ -181,9 +181,7 @@ fn multiples(spectrum: &AmplitudeSpectrum, highest_hz: f64, main_hz: Option<f64>
         let centre = f64::from(multiple) * main;
         // A line lies within a few values of the spectrum, and within a twentieth of the main frequency, of its place.
         let (from, to) = (place(centre - 0.05 * main), place(centre + 0.05 * main) + 1);
-        let Some(peak) = largest(from, to).filter(|_| centre <= highest_hz) else {
-            break;
-        };
+        let Some(peak) = largest(from, to).filter(|_| centre <= highest_hz) else { break };
         let (from, to) = (place(centre - 0.5 * main), place(centre + 0.5 * main));
         let mut around: Vec<f64> = amplitudes[from..to.max(from)].to_vec();
         around.sort_by(f64::total_cmp);
@@ -209,10 +207,8 @@ mod tests {
     fn named(samples: &[f64], rate: f64, main_hz: Option<f64>) -> f64 {
         let spectrum = amplitude_spectrum(samples, rate, Window::Hann, 2).unwrap();
         let panel = spectrum_panel(&[("signal", &spectrum)], "", (3e4, main_hz), &[]);
-        let svg = Figure::new("spectrum", "Spectrum.").panel(panel).to_svg(None);
-        let svg = svg.unwrap();
-        let after = svg.split(" = ").nth(1).unwrap();
-        after.split(' ').next().unwrap().parse().unwrap()
+        let svg = Figure::new("spectrum", "Spectrum.").panel(panel).to_svg(None).unwrap();
+        svg.split(" = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap()
     }
 
     #[test]

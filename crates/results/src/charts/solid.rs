@@ -37,8 +37,7 @@ impl<'a> SolidView<'a> {
     /// One boundary from outside, along its mean normal.
     pub fn of_boundary(mesh: &'a Mesh, boundary: usize) -> Self {
         let faces = mesh.boundaries[boundary].faces.clone();
-        let normals = mesh.nodal_normals(&faces);
-        let sum = normals.values().map(|&normal| Vector3::from(normal)).sum();
+        let sum = mesh.nodal_normals(&faces).values().map(|&normal| Vector3::from(normal)).sum();
         Self::of(mesh, faces, sum)
     }
 
@@ -155,12 +154,10 @@ pub fn contact_surfaces(
 ) -> Figure {
     let panels = surfaces.iter().enumerate().map(|(k, (name, boundary))| {
         let view = SolidView::of_boundary(mesh, *boundary);
-        let arrows = arrows.get(k).map(|ends| {
-            let line = Line::through(ends.map(|end| view.at(end)));
-            line.solid("black", 1.2).arrows(1)
-        });
-        let panel = view.panel(values, axis(), ColourMap::Viridis, 0.05);
-        panel.caption(literal(name)).layers(arrows)
+        let arrows = arrows
+            .get(k)
+            .map(|ends| Line::through(ends.map(|end| view.at(end))).solid("black", 1.2).arrows(1));
+        view.panel(values, axis(), ColourMap::Viridis, 0.05).caption(literal(name)).layers(arrows)
     });
     let columns = surfaces.len().clamp(1, 3);
     let figure = Figure::new(name, caption).columns(columns).panels(panels);
@@ -179,8 +176,7 @@ pub fn speeds_of_bodies<'a>(
         let speeds = velocity.chunks_exact(3);
         let speeds: Vec<f64> = speeds.map(|v| v[0].hypot(v[1]).hypot(v[2])).collect();
         let axis = Axis::new("velocity |*v*|", "m/s");
-        let panel = view.panel(&speeds, axis, ColourMap::Viridis, 0.04);
-        panel.heading(heading).colour_bar(Side::Below)
+        view.panel(&speeds, axis, ColourMap::Viridis, 0.04).heading(heading).colour_bar(Side::Below)
     });
     let panels: Vec<Panel> = panels.collect();
     let columns = panels.len().clamp(1, 3);
@@ -225,8 +221,7 @@ fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
             let (p, q) = (face.nodes[edge], face.nodes[(edge + 1) % corners]);
             let middle = face.nodes.get(corners + edge).copied();
             let path = [Some(p), middle, Some(q)].into_iter().flatten().collect();
-            let entry = edges.entry([p.min(q), p.max(q)]);
-            entry.or_insert_with(|| (path, Vec::new())).1.push(side);
+            edges.entry([p.min(q), p.max(q)]).or_insert_with(|| (path, Vec::new())).1.push(side);
         }
     }
     let is_sharp = |sides: &[Side]| match sides {
@@ -234,6 +229,5 @@ fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
         [one, other] => one.1 != other.1 || one.0.dot(&other.0) < SHARP,
         _ => true,
     };
-    let sharp = edges.into_values().filter(|(_, sides)| is_sharp(sides));
-    sharp.map(|(path, _)| path).collect()
+    edges.into_values().filter(|(_, sides)| is_sharp(sides)).map(|(path, _)| path).collect()
 }

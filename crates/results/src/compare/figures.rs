@@ -24,8 +24,7 @@ struct Curves<'a> {
 pub fn overlaid(runs: &[ComparedRun]) -> Vec<Figure> {
     let is_curve = |series: &Series| series.kind != SeriesKind::Field;
     let figures = runs.iter().enumerate().flat_map(|(run, own)| {
-        let figures = own.page.iter().flat_map(|page| &page.figures);
-        figures.map(move |figure| {
+        own.page.iter().flat_map(|page| &page.figures).map(move |figure| {
             let mut panels = figure.numbers();
             panels.iter_mut().for_each(|panel| panel.series.retain(is_curve));
             Curves { run, title: &own.name, name: &figure.name, panels }

@@ -52,9 +52,7 @@ impl Verdict {
 ///
 /// Source: Roache, "Verification and Validation in Computational Science and Engineering", section 5.
 pub fn estimate(sizes: &[f64], values: &[f64]) -> Verdict {
-    let (&[.., h1, h2, h3], &[.., f1, f2, f3]) = (sizes, values) else {
-        return Verdict::Missing;
-    };
+    let (&[.., h1, h2, h3], &[.., f1, f2, f3]) = (sizes, values) else { return Verdict::Missing };
     if !values.iter().all(|value| value.is_finite()) {
         return Verdict::Missing;
     }

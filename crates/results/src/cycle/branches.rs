@@ -35,8 +35,7 @@ pub fn draw_branches(
     });
     let curves: Vec<Curve<'_>> = curves.collect();
     let curves = &curves[..];
-    let figures = [frequencies(curves, two_waves), shares(curves)].into_iter();
-    figures.filter(Figure::has_data).collect()
+    [frequencies(curves, two_waves), shares(curves)].into_iter().filter(Figure::has_data).collect()
 }
 
 /// The branch of one family.
@@ -130,8 +129,7 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveSummary]) -> Figure {
                 .layers(threshold)
         })
     });
-    let both = curves.iter().flat_map(|curve| &curve.branch.coexistence);
-    let both = both.map(|ends| {
+    let both = curves.iter().flat_map(|curve| &curve.branch.coexistence).map(|ends| {
         let [from, to] = ends.map(|value| significant(value, 4));
         format!(" Stable sliding and a limit cycle coexist from {from} to {to}.")
     });

@@ -29,9 +29,7 @@ impl CycleSummary {
         let fields = Fields { folder, body, interface, mesh: OnceCell::new() };
         let mut waves = Vec::new();
         for (place, sought) in self.cycles.iter().enumerate() {
-            let Some(own) = sought.shown() else {
-                continue;
-            };
+            let Some(own) = sought.shown() else { continue };
             let tag = own.name.tag();
             if let Some(interface) = interface {
                 folder.write_bulk(&format!("contact-{tag}.npz"), |out| {

@@ -158,9 +158,7 @@ impl CycleFigures<'_> {
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
     fn shown_speed(&self, own: ShownCycle<'_>) -> f64 {
         let motion = own.motion;
-        let Some(sector) = self.body.sector else {
-            return motion.counterface_speed;
-        };
+        let Some(sector) = self.body.sector else { return motion.counterface_speed };
         let radius = |ring: usize| sector.rings[ring].radius;
         let rings = sector.rings.len();
         motion.counterface_speed * radius(rings / 2) / radius(motion.node % rings)

@@ -150,9 +150,7 @@ impl SoughtCycle {
         body: &ShownBody<'_>,
         interface: Option<&ContactInterface>,
     ) -> Vec<Table> {
-        let Some(own) = self.shown() else {
-            return Vec::new();
-        };
+        let Some(own) = self.shown() else { return Vec::new() };
         let table = |what: &str| Table::new(format!("{what}-{}.csv", self.name.tag()), "");
         let key = self.branch.as_ref().map(|branch| branch.key.as_str());
         let mut tables = Vec::new();

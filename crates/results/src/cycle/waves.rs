@@ -140,8 +140,7 @@ impl FoundWave {
         let branch = self.branch.as_ref()?;
         let in_units = |value: f64| branch.parameter.in_key_units(value);
         let saturation = branch.cycles.iter().find_map(|own| own.saturation_speed(inner_radius));
-        let changes = self.stability_changes.iter();
-        let changes = changes.map(|change| {
+        let changes = self.stability_changes.iter().map(|change| {
             StabilityChangeSummary::By(ModeOfChange {
                 at: in_units(change.value),
                 harmonic: change.harmonic,

@@ -213,8 +213,7 @@ pub fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
     let (contact, others): (Vec<_>, Vec<_>) = boundaries().partition(|own| own.0 == mesh.contact);
     let edges = others.into_iter().chain(contact).filter_map(|own| edge(mesh, own, longest));
     // Names are for the curves of a file; those of the annulus go without saying.
-    let names = boundaries().filter(|_| !mesh.is_cyclic);
-    let names = names.filter_map(|(_, boundary)| {
+    let names = boundaries().filter(|_| !mesh.is_cyclic).filter_map(|(_, boundary)| {
         let middle = boundary.nodes.get(boundary.nodes.len() / 2)?;
         let style = TextStyle::new(6.75).bold().with_halo();
         Some(Label::new(place(*middle), literal(&boundary.name)).style(style))
@@ -239,8 +238,7 @@ pub fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
 
 /// Nodes around an element, mid-side nodes between their corners.
 fn outline(mesh: &Mesh, element: usize) -> Vec<[f64; 2]> {
-    let nodes = mesh.element_outline(element).into_iter();
-    nodes.map(|node| mesh.plane_node(node as usize)).collect()
+    mesh.element_outline(element).into_iter().map(|node| mesh.plane_node(node as usize)).collect()
 }
 
 /// The edges of the elements, region by region.
@@ -251,8 +249,7 @@ fn elements(mesh: &Mesh) -> Vec<Line> {
         let rings = own.flat_map(|element| {
             let ring = outline(mesh, element);
             let again = ring.first().copied();
-            let points = ring.into_iter().chain(again).map(|[x, y]| (x, y));
-            points.chain([GAP]).collect::<Vec<_>>()
+            ring.into_iter().chain(again).map(|[x, y]| (x, y)).chain([GAP]).collect::<Vec<_>>()
         });
         let name = match (mesh.regions.len(), mesh.regions.get(region)) {
             (2.., Some(name)) => format!("{}: {count} elements", literal(name)),

@@ -148,8 +148,7 @@ pub fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -
     let region = |face: &BoundaryFace| mesh.region(face.element as usize);
     let conditions = conditions_of_faces(mesh, roles);
     let condition = |face: &BoundaryFace| {
-        let found = conditions.get(&sorted(face));
-        found.copied().unwrap_or(CONDITION_COLOURS.len() - 1)
+        conditions.get(&sorted(face)).copied().unwrap_or(CONDITION_COLOURS.len() - 1)
     };
     let legend = CONDITION_COLOURS.iter().enumerate().map(|(k, entry)| {
         let is_there = k + 1 == CONDITION_COLOURS.len() || conditions.values().any(|&c| c == k);
@@ -179,8 +178,7 @@ pub fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -
 }
 
 fn panel(surface: Surface, caption: String) -> Panel {
-    let panel = Panel::plane(surface.window(0.05)).height(210.0);
-    panel.caption(caption).layer(surface)
+    Panel::plane(surface.window(0.05)).height(210.0).caption(caption).layer(surface)
 }
 
 /// The kind of each face of a boundary that holds, loads or touches, by its nodes. A face of several boundaries is of

@@ -66,8 +66,7 @@ fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
         let ends = [ruler.low, ruler.high];
         json!({ "title": plain(&ruler.title), "log": is_logarithmic, "ends": ends })
     };
-    let series = panel.series.iter().map(|series| of_series(series, numbers));
-    let series: Vec<Value> = series.collect();
+    let series: Vec<Value> = panel.series.iter().map(|series| of_series(series, numbers)).collect();
     let [x, y] = &panel.axes;
     let rules: Vec<_> = panel.rules.iter().filter(|rule| rule.1.is_finite()).collect();
     let labels: Vec<_> =

@@ -162,9 +162,7 @@ impl ChannelSummary {
             peak.nearest_mode = mode_beside(modes, peak.line.frequency_hz);
         }
         let growing = self.grows().map(|g| g.frequency_hz.value);
-        let Some(frequency_hz) = growing.or(self.main_frequency_hz) else {
-            return;
-        };
+        let Some(frequency_hz) = growing.or(self.main_frequency_hz) else { return };
         self.nearest_unstable_mode = NearestMode::of(modes, frequency_hz, |mode| mode.unstable);
         self.mode = match growing {
             Some(frequency_hz) => mode_beside(modes, frequency_hz),

@@ -255,8 +255,7 @@ impl OutputFolder {
         // A process that is killed from here on leaves a run of this case that has not ended.
         let names: String = written.keys().map(|name| format!("{name}\n")).collect();
         fs::write(&journal_path, names).map_err(|e| FolderError::io("write", &journal_path, e))?;
-        let both = replaced.keys().chain(written.keys());
-        let both = both.map(|name| (name.clone(), None)).collect();
+        let both = replaced.keys().chain(written.keys()).map(|name| (name.clone(), None)).collect();
         write_manifest(destination, &self.manifest, &both)?;
         for name in written.keys() {
             let (from, to) = (self.path.join(name), destination.join(name));
@@ -403,9 +402,7 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
         // Temporary files of a killed run start with a dot, as does the lock.
         .filter(|name| !name.starts_with('.'));
-    let Some(found) = names.min() else {
-        return Ok(());
-    };
+    let Some(found) = names.min() else { return Ok(()) };
     let reason = format!(
         "holds files that this program did not write (for example {found}). Choose another folder \
          with --out, or write there all the same with --force"

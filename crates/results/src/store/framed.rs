@@ -93,9 +93,7 @@ pub fn read_sealed(bytes: &[u8]) -> Result<(Value, bool), Defect> {
     let Some(entries) = object.as_object_mut() else {
         return Err(Defect::damage("it is no object"));
     };
-    let Some(found) = entries.shift_remove(CHECKSUM) else {
-        return Ok((object, false));
-    };
+    let Some(found) = entries.shift_remove(CHECKSUM) else { return Ok((object, false)) };
     let wanted = checksum(&object).map_err(Defect::damage)?;
     if found.as_str() != Some(&wanted) {
         return Err(Defect::damage("its checksum does not fit its contents"));

@@ -89,9 +89,7 @@ pub(crate) fn share(
 /// Removes what a killed run left, such as half-written files; this process holds the lock, so nobody uses them.
 pub(crate) fn remove_remnants(path: &Path, is_remnant: fn(&str) -> bool) {
     for entry in fs::read_dir(path).into_iter().flatten().flatten() {
-        let Ok(kind) = entry.file_type() else {
-            continue;
-        };
+        let Ok(kind) = entry.file_type() else { continue };
         if kind.is_dir() {
             remove_remnants(&entry.path(), is_remnant);
         } else if is_remnant(&entry.file_name().to_string_lossy()) {

@@ -65,8 +65,7 @@ impl Contents {
             let text = self.checksums.get(name)?;
             u32::from_str_radix(text, 16).ok()
         };
-        let files = self.files.iter();
-        files.map(|name| (name.clone(), checksum(name))).collect()
+        self.files.iter().map(|name| (name.clone(), checksum(name))).collect()
     }
 }
 

@@ -12,8 +12,7 @@ const RANDOM: usize = 6;
 
 /// Whether a file has a name as half-written ones have.
 pub(crate) fn is_temporary(name: &str) -> bool {
-    let random = name.strip_prefix(TEMPORARY);
-    random.is_some_and(|rest| {
+    name.strip_prefix(TEMPORARY).is_some_and(|rest| {
         rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
     })
 }
@@ -70,8 +69,7 @@ fn try_write(path: &Path, is_durable: bool, fill: Fill<'_>) -> io::Result<u32> {
     let summing = Summing { out: temporary.as_file_mut(), checksum: crc32fast::Hasher::new() };
     let mut out = BufWriter::with_capacity(1 << 16, summing);
     fill(&mut out)?;
-    let summing = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-    let checksum = summing.checksum.finalize();
+    let checksum = out.into_inner().map_err(io::IntoInnerError::into_error)?.checksum.finalize();
     if is_durable {
         temporary.as_file().sync_all()?;
     }

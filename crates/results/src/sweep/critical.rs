@@ -20,9 +20,7 @@ fn name(onset: &CriticalFriction) -> (Option<usize>, usize, i8) {
 /// Nothing where not one key was swept through eigenvalue analyses.
 pub fn critical_friction(records: &[PointRecord], highest: f64) -> Option<Figure> {
     let mut keys = records.first()?.swept.keys().filter(|key| *key != FRICTION);
-    let (Some(key), None) = (keys.next(), keys.next()) else {
-        return None;
-    };
+    let (Some(key), None) = (keys.next(), keys.next()) else { return None };
     let point = |record: &PointRecord| {
         let onsets = record.summaries.get("cea")?.get("critical_frictions");
         Some((record.swept.get(key)?.as_f64()?, listed::<CriticalFriction>(onsets)))

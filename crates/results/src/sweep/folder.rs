@@ -198,8 +198,7 @@ impl SweepFolder {
         let bytes =
             read_file(&self.output.path().join(clock_name(point)), RESULT).unwrap_or_default();
         let value = own_value(&bytes, false).ok();
-        let clock = value.and_then(|value| serde_json::from_value(value).ok());
-        clock.unwrap_or_default()
+        value.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default()
     }
 
     /// Claims a point for this process; `None` where it is finished or another one has it.

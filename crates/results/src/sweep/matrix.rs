@@ -76,8 +76,7 @@ impl<'a> OperatingMatrix<'a> {
 
     /// Every unstable mode with its condition.
     fn modes(&self) -> impl Iterator<Item = (&Condition<'a>, &UnstableMode)> {
-        let conditions = self.conditions.iter();
-        conditions.flat_map(|own| own.unstable.iter().map(move |mode| (own, mode)))
+        self.conditions.iter().flat_map(|own| own.unstable.iter().map(move |mode| (own, mode)))
     }
 
     /// The unstable modes as a table.

@@ -67,8 +67,7 @@ pub(crate) fn operating_matrix(records: &[PointRecord]) -> Option<Figure> {
             layout.draw(panel, &own, (&bounds, ends))
         })
         .collect();
-    let columns = layout.columns.as_ref().map_or(2, |d| d.labels.len());
-    let columns = columns.min(panels.len()).max(1);
+    let columns = layout.columns.as_ref().map_or(2, |d| d.labels.len()).min(panels.len()).max(1);
     let figure = Figure::new("operating-matrix", layout.caption())
         .columns(columns)
         .shared_y()
@@ -101,8 +100,7 @@ impl Layout {
     }
 
     fn panel_count(&self) -> usize {
-        let panels = self.rest.iter().chain(&self.columns);
-        panels.map(|own| own.labels.len()).product()
+        self.rest.iter().chain(&self.columns).map(|own| own.labels.len()).product()
     }
 
     /// The panel that a condition belongs to.
@@ -281,8 +279,7 @@ fn of_numbers(key: &str, numbers: &[f64], found: &mut Vec<Dimension>) {
         let name = (parameter_name(key), String::new());
         add(found, Role::Direction, name, (&is_reverse, &[false, true]), way);
     }
-    let sizes = numbers.iter().map(|v| if is_both_ways { v.abs() } else { *v });
-    let sizes: Vec<f64> = sizes.collect();
+    let sizes: Vec<f64> = numbers.iter().map(|v| if is_both_ways { v.abs() } else { *v }).collect();
     let (factor, unit) = shared_unit(key, low.abs().max(high.abs()));
     let role = if key.ends_with("pressure") { Role::Pressure } else { Role::Other };
     let name = (parameter_name(key), unit);

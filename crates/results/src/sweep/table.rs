@@ -72,9 +72,7 @@ fn scalars(record: &PointRecord, longest: &mut BTreeMap<String, usize>) -> Vec<(
     let mut out = Vec::new();
     for (analysis, summary) in &record.summaries {
         let prefix = if record.summaries.len() == 1 { "" } else { analysis.as_str() };
-        let Value::Object(entries) = summary else {
-            continue;
-        };
+        let Value::Object(entries) = summary else { continue };
         for (key, value) in entries {
             if !LEFT_OUT.contains(&key.as_str()) {
                 flatten(&join(prefix, key), value, &mut out, longest);

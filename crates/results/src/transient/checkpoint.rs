@@ -72,9 +72,7 @@ pub fn read_checkpoint(
     let path = folder.join(CHECKPOINT);
     let unusable = |why: String| FolderError::unusable(&path, why);
     let again = "run without --resume to start over";
-    let Some(bytes) = read_existing(&path)? else {
-        return Ok(None);
-    };
+    let Some(bytes) = read_existing(&path)? else { return Ok(None) };
     let checkpoint: Checkpoint = decoded(&bytes).map_err(|defect| {
         unusable(match defect {
             Defect::Version(found) => format!(

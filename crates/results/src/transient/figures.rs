@@ -178,9 +178,7 @@ impl RecordedRun<'_> {
         let components = if self.body.is_solid() { 3 } else { 2 };
         let slip = |(i, &node): (usize, &u32)| {
             let velocity = snapshot.velocity[components * node as usize + 1];
-            let Some(opposite) = self.interface.opposite.get(i) else {
-                return velocity;
-            };
+            let Some(opposite) = self.interface.opposite.get(i) else { return velocity };
             let met = opposite.moves[1].iter();
             let met: f64 = met.map(|&(dof, share)| share * snapshot.velocity[dof]).sum();
             self.peripheral_speed + met - velocity

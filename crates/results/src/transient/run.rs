@@ -112,8 +112,7 @@ impl RecordedRun<'_> {
             return 1;
         }
         let size = |component: usize| -> f64 {
-            let signal = self.component(probe, component);
-            signal.iter().map(|a| a * a).sum()
+            self.component(probe, component).iter().map(|a| a * a).sum()
         };
         (0..3).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(1)
     }
@@ -166,14 +165,10 @@ const SHORTEST: f64 = 2e-3;
 pub(super) fn stages(run: &SolvedTransient) -> Vec<Stage> {
     let (rows, analysis) = (&run.record.rows, &run.analysis);
     let size = |row: &SampleRow, n: usize| row.harmonics[n][0].hypot(row.harmonics[n][1]);
-    let Some(last) = rows.last() else {
-        return Vec::new();
-    };
+    let Some(last) = rows.last() else { return Vec::new() };
     let strongest =
         (1..last.harmonics.len()).max_by(|&a, &b| size(last, a).total_cmp(&size(last, b)));
-    let Some(main) = strongest else {
-        return Vec::new();
-    };
+    let Some(main) = strongest else { return Vec::new() };
     let linear_end = analysis.first_nonlinearity.unwrap_or(last.time);
     let window = rows.partition_point(|row| row.time < rows[0].time + 5e-4).max(2);
     let linear = rows.partition_point(|row| row.time < linear_end);

@@ -238,6 +238,5 @@ fn predicted(
 
 /// Where the linear stage ends.
 fn nonlinear(time: f64) -> Rule {
-    let rule = Rule::vertical(time).stroke(Stroke::dotted(MUTED, 0.7));
-    rule.beside("first stick or separation")
+    Rule::vertical(time).stroke(Stroke::dotted(MUTED, 0.7)).beside("first stick or separation")
 }

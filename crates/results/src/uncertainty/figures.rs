@@ -21,8 +21,7 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     });
     let own = || {
         summary.friction_coefficient.map(|friction| {
-            let rule = Rule::vertical(friction).stroke(Stroke::dashed(INK, 0.8));
-            rule.name("friction of the case")
+            Rule::vertical(friction).stroke(Stroke::dashed(INK, 0.8)).name("friction of the case")
         })
     };
     let (value, interval) = probability(&summary.probability_over_friction);
@@ -53,8 +52,7 @@ fn probability(points: &[[f64; 4]]) -> (Line, Fill) {
 /// The friction coefficient up to which something happens, with a little room: onsets of families, changes of the
 /// probability, the case's own friction.
 fn shown_friction(summary: &UncertaintySummary) -> f64 {
-    let families = summary.families.iter();
-    let onsets = families.flat_map(|family| &family.critical_friction_percentiles);
+    let onsets = summary.families.iter().flat_map(|family| &family.critical_friction_percentiles);
     let over = &summary.probability_over_friction;
     let last = over.last().map_or(0.0, |row| row[1]);
     let changes = over.iter().filter(|row| row[1] != last).map(|row| row[0]);

@@ -27,8 +27,7 @@ pub fn along(
                     Some((own, settled)) if is_scaled(own, cycle) => Ok(settled.scaled_to(cycle)),
                     _ => {
                         let neighbour = before.as_ref().map(|(_, settled)| settled);
-                        let settled = stepping.settle(cycle, neighbour);
-                        settled.map_err(|error| error.to_string())
+                        stepping.settle(cycle, neighbour).map_err(|error| error.to_string())
                     }
                 };
                 if let Ok(settled) = &found {

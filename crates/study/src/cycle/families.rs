@@ -19,9 +19,7 @@ pub fn continuation(
     cycle: &Cycle,
     is_round: bool,
 ) -> Result<Option<(Parameter, Vec<f64>)>, StudyError> {
-    let Some(continuation) = &cycle.continuation else {
-        return Ok(None);
-    };
+    let Some(continuation) = &cycle.continuation else { return Ok(None) };
     let suits = |known: &&Parameter| match case.body.assembly() {
         Some(_) => known.is_of_solid_bodies(),
         None => known.suits(is_round),
@@ -34,8 +32,7 @@ pub fn continuation(
             "limit cycles cannot be followed over {}", continuation.key;
             "not one of the parameters of a cycle"; "one of {}", known.join(", "))));
     };
-    let values = continuation.values().into_iter();
-    let values = values.map(|value| value * parameter.unit()).collect();
+    let values = continuation.values().into_iter().map(|value| value * parameter.unit()).collect();
     Ok(Some((parameter, values)))
 }
 

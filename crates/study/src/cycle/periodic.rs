@@ -236,8 +236,7 @@ impl<'a> PeriodicStudy<'a> {
             None => find_from(&mut map, &self.steady.mode(place))?,
         };
         watch.keep_value("cycle", &found);
-        let branch = self.branch(operator, mode, &found, watch);
-        let mut branch = branch.transpose()?;
+        let mut branch = self.branch(operator, mode, &found, watch).transpose()?;
         if self.start.is_some() {
             (map, found) = self.here(operator, mode, branch.as_mut())?;
         }
@@ -350,9 +349,7 @@ fn onset(of: (&Case, &SteppedMesh<'_>), parameter: Parameter, ends: [f64; 2]) ->
 fn name_repeated(results: &mut [PeriodicResult]) {
     for later in 1..results.len() {
         let (known, rest) = results.split_at_mut(later);
-        let Ok(own) = &rest[0].outcome else {
-            continue;
-        };
+        let Ok(own) = &rest[0].outcome else { continue };
         let same = known.iter().find(|result| {
             let other = result.outcome.as_ref();
             result.name.same_as.is_none() && other.is_ok_and(|other| other.motion.is(&own.motion))

@@ -21,9 +21,7 @@ impl CycleStudy<'_> {
         let solvers = solvers.filter_map(|(solver, result)| Some((solver.as_ref().ok()?, result)));
         let mut found: Vec<TwoWaveSummary> = Vec::new();
         for (solver, result) in solvers {
-            let Some((cycle, second)) = loses_to_another(result) else {
-                continue;
-            };
+            let Some((cycle, second)) = loses_to_another(result) else { continue };
             let harmonics = [result.name.harmonic, second];
             let is_same = |own: &&TwoWaveSummary| {
                 own.error.is_none() && own.harmonics == [harmonics[1], harmonics[0]]
@@ -74,8 +72,7 @@ impl CycleStudy<'_> {
 /// first along the branch, and that harmonic.
 fn loses_to_another(result: &CycleResult) -> Option<(&LimitCycle, usize)> {
     let found = result.outcome.as_ref().ok()?;
-    let branch = found.branch.iter().flat_map(|branch| &branch.cycles);
-    let along = branch.zip(&found.branch_stability);
+    let along = found.branch.iter().flat_map(|branch| &branch.cycles).zip(&found.branch_stability);
     [(&found.cycle, &found.stability)].into_iter().chain(along).find_map(|(cycle, finding)| {
         let leading = known(finding)?.leading()?;
         let other = leading.mode?.harmonic;

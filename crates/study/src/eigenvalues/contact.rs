@@ -46,8 +46,7 @@ pub(super) fn places<'s>(
     let all = contacts.iter().flat_map(|(contact, surface)| {
         let is_edge = contact.is_edge();
         let angles = if is_edge { ContactInterface::of(mesh).angles } else { Vec::new() };
-        let points = surface.points.iter().zip(&surface.sites).enumerate();
-        points.map(move |(i, (point, site))| {
+        surface.points.iter().zip(&surface.sites).enumerate().map(move |(i, (point, site))| {
             let place = ContactPlace {
                 contact: contact.name.clone(),
                 position: site.position,
@@ -94,8 +93,7 @@ impl SolidState {
         let sectors = sector.sector_count();
         let state = |(i, ring): (usize, &ContactRing)| {
             let nodes = (0..sectors).flat_map(|j| {
-                let own = ring.nodes.iter();
-                own.map(move |node| ((j * sector.node_count() + node) as u32, 1.0))
+                ring.nodes.iter().map(move |node| ((j * sector.node_count() + node) as u32, 1.0))
             });
             let place = ContactPlace {
                 contact: CONTACT.to_owned(),
@@ -141,8 +139,7 @@ pub(super) fn mean_friction(solid: &SolidState) -> (f64, SteadyFriction, f64) {
 pub(super) fn open_note(solid: &SolidState) -> Option<String> {
     let SolidState { sector, base } = solid;
     let rings = sector.rings.iter().zip(&base.is_pressed);
-    let pressed = rings.filter(|(_, pressed)| **pressed).map(|(ring, _)| ring);
-    let pressed: Vec<_> = pressed.collect();
+    let pressed: Vec<_> = rings.filter(|(_, pressed)| **pressed).map(|(ring, _)| ring).collect();
     let open = sector.rings.len() - pressed.len();
     let is_edge = sector.specification.contact.face().normal_component() == 0;
     let place = |ring: &&ContactRing| if is_edge { ring.height } else { ring.radius };

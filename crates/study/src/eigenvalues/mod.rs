@@ -63,8 +63,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     let frictions = cea.solved_friction_coefficients();
     let shapes_at: &[f64] = if case.body.has_sectors() { &[] } else { &cea.shapes_at };
     let request = SweepRequest { shapes_at, ..SweepRequest::new(&frictions, cea.modes) };
-    let model = Model::new(case, &cea)?;
-    let sweep = model.spectrum(case, &request)?.sweep;
+    let sweep = Model::new(case, &cea)?.spectrum(case, &request)?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;
     Ok(sweep)
 }
@@ -88,9 +87,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
         let solution = solve(case, &one, &SlidingModel::new(case, &one)?, None)?;
         return refuse_no_modes(case, &one, &solution.sweep);
     }
-    let ModeLimit::MaxFrequency(limit_hz) = cea.modes else {
-        return Ok(());
-    };
+    let ModeLimit::MaxFrequency(limit_hz) = cea.modes else { return Ok(()) };
     let kappa = (TAU * limit_hz).powi(2);
     let tangent = match &model {
         Model::Whole(whole) => {

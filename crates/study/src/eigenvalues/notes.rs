@@ -211,8 +211,7 @@ const WEAK: f64 = 1e-6;
 /// Branches that count as unstable while they hardly grow, as where friction hardly feeds a mode that nothing damps.
 pub(super) fn weak_note(sweep: &FrictionSweep) -> Option<String> {
     let growth = |own: &UnstableInterval| {
-        let modes = sweep.points.iter().flat_map(|point| &point.modes);
-        let own = modes.filter(|mode| own.is_of(mode));
+        let own = sweep.points.iter().flat_map(|point| &point.modes).filter(|mode| own.is_of(mode));
         own.map(|mode| -mode.damping_factor()).filter(|growth| *growth > 0.0).reduce(f64::max)
     };
     let weak = sweep.intervals.iter().filter(|own| growth(own).is_some_and(|most| most < WEAK));

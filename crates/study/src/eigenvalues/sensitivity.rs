@@ -95,9 +95,7 @@ pub fn body_sensitivities(
     for (j, mode) in modes.iter().enumerate() {
         let at = next_onset;
         next_onset += usize::from(mode.onset.is_some());
-        let Some((eigenvalue, by_friction)) = found[j] else {
-            continue;
-        };
+        let Some((eigenvalue, by_friction)) = found[j] else { continue };
         let onset = mode.onset.and_then(|onset| {
             let by = |column: &Vec<Option<c64>>| Some(-column[at]?.re / found[at]?.1.re);
             found[at].map(|_| OnsetRates {

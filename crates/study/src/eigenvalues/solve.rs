@@ -156,9 +156,7 @@ fn on_whole_mesh<'a>(
     error: CeaError,
     progress: Option<&Progress<'_>>,
 ) -> Result<Solved<'a>, StudyError> {
-    let Ok(case) = case.on_whole_mesh() else {
-        return Err(error.into());
-    };
+    let Ok(case) = case.on_whole_mesh() else { return Err(error.into()) };
     let (mut case, whole) = (case.into_owned(), Cea { method: CeaMethod::Sparse, ..cea.clone() });
     // Nor waves around it.
     case.cea = case.cea.map(|own| Cea { method: CeaMethod::Sparse, ..own });

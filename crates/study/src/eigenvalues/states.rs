@@ -105,9 +105,7 @@ impl WholeMesh {
             let own = frictions.iter().zip(&range.state_of);
             let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
             values.sort_by(f64::total_cmp);
-            let Some(&first) = values.first() else {
-                continue;
-            };
+            let Some(&first) = values.first() else { continue };
             // Branches are followed from where the state before ends. A state between friction values asked for is
             // solved where it begins to hold, too: another one may be found that ends there.
             let unknown = k.checked_sub(1).map_or(first..first, |k| range.unknown_between(k));

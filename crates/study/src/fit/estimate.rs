@@ -48,9 +48,7 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
     let found: Vec<Result<Trial, String>> =
         frictionsim_physics::parallel::map(starts, |start| squares.descend(start));
     let minima = by_squares(found, &mut reason);
-    let Some(first) = minima.first() else {
-        return Err(failed(reason));
-    };
+    let Some(first) = minima.first() else { return Err(failed(reason)) };
     let (best, degrees) = reweighted(&mut squares, first.clone()).map_err(failed)?;
     refuse_unmatched(problem, &best)?;
     let (parameters, correlations) = estimates(&squares, &best, degrees).map_err(failed)??;

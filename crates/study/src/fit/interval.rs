@@ -31,8 +31,7 @@ pub fn estimates(
     }
     let covariance = (jacobian.transpose() * &jacobian).try_inverse();
     let degrees = problem.data_count() as f64 - free.len() as f64;
-    let residuals = squares.residuals(best);
-    let variance = residuals.iter().map(|r| r * r).sum::<f64>() / degrees.max(1.0);
+    let variance = squares.residuals(best).iter().map(|r| r * r).sum::<f64>() / degrees.max(1.0);
     let half_width = |k: usize| {
         let covariance = covariance.as_ref().filter(|_| degrees >= 1.0)?;
         let quantile = student_95(degrees.min(most_degrees));

@@ -96,8 +96,7 @@ fn product(base: &Base<'_>, mode: &PairedMode, node: usize) -> Product {
 fn form(mode: &PairedMode, dofs: &[usize], matrix: &DMatrix<f64>) -> c64 {
     let mut sum = c64::ZERO;
     for (j, &column) in dofs.iter().enumerate() {
-        let along = dofs.iter().enumerate();
-        let along = along.map(|(i, &row)| mode.left[row] * matrix[(i, j)]);
+        let along = dofs.iter().enumerate().map(|(i, &row)| mode.left[row] * matrix[(i, j)]);
         sum += along.fold(c64::ZERO, |sum, value| sum + value) * mode.right[column];
     }
     sum

@@ -214,9 +214,7 @@ fn shortlist(
     count: usize,
 ) -> Result<Vec<Trial>, StudyError> {
     let growth = |trial: Trial| -> Result<(f64, Trial), frictionsim_physics::linalg::LinalgError> {
-        let Target::Patch(_, elements) = &trial.target else {
-            return Ok((f64::INFINITY, trial));
-        };
+        let Target::Patch(_, elements) = &trial.target else { return Ok((f64::INFINITY, trial)) };
         let (dofs, own) = patch_matrices(search.base, elements, trial.kind, 0.0);
         let [m, c, k] = own.map(|matrix| -matrix);
         let outlook = modal.outlook(&modal.local(&dofs, [&m, &c, &k]))?;

@@ -140,8 +140,7 @@ impl<'a> ModalModel<'a> {
             let mut lost = block(&shared, &shared);
             if !inner.is_empty() {
                 let mut carried = block(&inner, &shared);
-                let within = ComplexDenseLu::factorize(block(&inner, &inner));
-                within.solve_in_place(carried.as_mut());
+                ComplexDenseLu::factorize(block(&inner, &inner)).solve_in_place(carried.as_mut());
                 lost -= &block(&shared, &inner) * &carried;
             }
             -lost
@@ -229,15 +228,10 @@ impl<'a> ModalModel<'a> {
 
     /// Eigenvalues with `Im > 0` after a change.
     fn spectrum(&self, change: &Change) -> Result<Vec<c64>, LinalgError> {
-        let Some(attached) = &change.attached else {
-            return self.of_listed(change);
-        };
+        let Some(attached) = &change.attached else { return self.of_listed(change) };
         // Modes beyond its range by the listed ones alone.
         let [low, high] = attached.range;
-        let mut found = match self.near.holds_all() {
-            true => Vec::new(),
-            false => self.of_listed(change)?,
-        };
+        let mut found = if self.near.holds_all() { Vec::new() } else { self.of_listed(change)? };
         found.retain(|value| !(low..=high).contains(&value.im));
         found.extend(attached.spectrum()?);
         frictionsim_physics::order::sort_by_number(&mut found, |a| a.im);

@@ -108,9 +108,7 @@ fn refuse_unknown(base: &Base<'_>, forbidden: &[String]) -> Result<(), CaseError
     let mesh = &base.mesh;
     let boundaries = mesh.boundaries.iter().map(|boundary| &boundary.name);
     let known: Vec<&String> = mesh.regions.iter().chain(boundaries).collect();
-    let Some(unknown) = forbidden.iter().find(|name| !known.contains(name)) else {
-        return Ok(());
-    };
+    let Some(unknown) = forbidden.iter().find(|name| !known.contains(name)) else { return Ok(()) };
     let names: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
     Err(refusal!(base.case, "improve.forbidden",
         "improve.forbidden names \"{unknown}\", which the body does not have";

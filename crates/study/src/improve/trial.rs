@@ -61,8 +61,7 @@ impl Search<'_> {
 
     /// Largest growth rate of the targets with changes of their eigenvalues.
     fn growth(&self, change: &dyn Fn(&Derivatives) -> c64) -> f64 {
-        let all = self.derivatives.iter();
-        let growth = all.map(|own| own.eigenvalue.re + change(own).re);
+        let growth = self.derivatives.iter().map(|own| own.eigenvalue.re + change(own).re);
         growth.fold(f64::NEG_INFINITY, f64::max)
     }
 

@@ -214,8 +214,7 @@ impl<'a> TransientStudy<'a> {
     /// Mean speed at which the contacts of an assembly slide, m/s.
     fn sliding_speed(&self) -> f64 {
         let contacts = self.stepped.assembly.iter();
-        let contacts = contacts.flat_map(Assembly::contacts);
-        let points = contacts.flat_map(|(_, surface)| &surface.points);
+        let points = contacts.flat_map(Assembly::contacts).flat_map(|(_, surface)| &surface.points);
         let [speed, area] = points.fold([0.0; 2], |[speed, area], point| {
             [speed + point.weight * point.speed, area + point.weight]
         });

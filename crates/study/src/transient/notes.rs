@@ -109,9 +109,7 @@ impl TransientStudy<'_> {
 
     /// That the run vibrates at a frequency that the eigenvalue analysis of the case does not look at.
     fn beyond_modes(&self, analysis: &TransientAnalysis) -> Option<String> {
-        let ModeLimit::MaxFrequency(limit) = self.case.cea.as_ref()?.modes else {
-            return None;
-        };
+        let ModeLimit::MaxFrequency(limit) = self.case.cea.as_ref()?.modes else { return None };
         let frequency = analysis.last_fifth.main_frequency_hz?;
         (frequency > limit).then(|| {
             format!(

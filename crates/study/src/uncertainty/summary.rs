@@ -47,8 +47,7 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
         return vec![[0.0; 2]; mixed.len()];
     }
     let distance = |x: &[f64], y: &[f64]| {
-        let squares = x.iter().zip(y).map(|(x, y)| (x - y).powi(2));
-        squares.sum::<f64>() / (2.0 * count * variance)
+        x.iter().zip(y).map(|(x, y)| (x - y).powi(2)).sum::<f64>() / (2.0 * count * variance)
     };
     let of = |column: &Vec<f64>| [1.0 - distance(b, column), distance(a, column)];
     mixed.iter().map(of).collect()

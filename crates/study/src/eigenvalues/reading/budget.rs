@@ -77,8 +77,7 @@ impl Parts<'_> {
                 shapes.add(balance, &image, |lambda| terms.dynamic(term, lambda));
             }
         }
-        let bodies = forms.iter().enumerate();
-        let rows = bodies.map(|(body, forms)| {
+        let rows = forms.iter().enumerate().map(|(body, forms)| {
             for (mode, own) in forms.iter().enumerate() {
                 sums.kinetic[mode] += own.mass;
                 sums.strain[mode] += own.stiffness;

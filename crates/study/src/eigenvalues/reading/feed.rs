@@ -29,9 +29,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
     let friction = case.contact.sliding.friction_coefficient;
     let own = points.iter().find(|p| p.friction_coefficient == friction);
     let shapes = own.map(|own| Shapes::of(own, case.body.has_sectors(), |mode| mode.is_unstable()));
-    let Some(shapes) = shapes.filter(|own| !own.modes.is_empty()) else {
-        return Vec::new();
-    };
+    let Some(shapes) = shapes.filter(|own| !own.modes.is_empty()) else { return Vec::new() };
     let pressed = whole.contact_points(case);
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
@@ -50,8 +48,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
     let terms = places.map(|(first, own)| terms(own, (&at_own, first), friction));
     let terms: Vec<PointTerms> = terms.collect();
     let beta = parts.whole.options.damping_of_tangent().stiffness_coefficient;
-    let balance = sums.balance.unwrap_or_default();
-    let modes = balance.into_iter().enumerate().map(|(i, mut forces)| {
+    let modes = sums.balance.unwrap_or_default().into_iter().enumerate().map(|(i, mut forces)| {
         let (lambda, phi) = (shapes.modes[i].1.eigenvalue, shapes.column(i));
         // beta_R multiplies stiffness of prestress and contact too, where the damping has them.
         let of_stiffness = c64::ONE + lambda * beta;

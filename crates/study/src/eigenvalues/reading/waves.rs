@@ -68,8 +68,7 @@ impl<'t> Apart<'t> {
     }
 
     fn waving<'a>(&self, point: &'a FrictionPoint) -> Vec<Waving<'a>> {
-        let numbered = point.modes.iter().enumerate();
-        let own = numbered.filter_map(|(index, mode)| {
+        let own = point.modes.iter().enumerate().filter_map(|(index, mode)| {
             let wave = mode.wave.as_ref()?;
             let momentum = self.harmonics[&mode.harmonic].momentum(&wave.unknowns);
             Some(Waving {
@@ -119,8 +118,7 @@ impl<'t> Apart<'t> {
             let repeats = contact.len() / works.len();
             let scale = 1.0 / (2.0 * root.im * own.mass * repeats as f64);
             let is_own = |row: &&Contribution| row.mode == own.name && row.kind == Source::Contact;
-            let fed = contributions.iter().find(is_own);
-            let fed = fed.map_or(0.0, |row| row.growth_rate_per_s);
+            let fed = contributions.iter().find(is_own).map_or(0.0, |row| row.growth_rate_per_s);
             let rates = works.iter().cycle().take(contact.len()).map(|work| scale * work);
             let rates: Vec<f64> = rates.collect();
             let left = (fed - rates.iter().sum::<f64>()) / area;

@@ -46,8 +46,7 @@ pub(super) fn step_of(key: &str, value: f64) -> f64 {
     let last = key.rsplit('.').next().unwrap_or(key);
     match value {
         0.0 => {
-            let own = STEPS_FROM_ZERO.iter().find(|(name, _)| *name == last);
-            own.map_or(0.0, |(_, step)| *step)
+            STEPS_FROM_ZERO.iter().find(|(name, _)| *name == last).map_or(0.0, |(_, step)| *step)
         }
         // Moduli run away where a body becomes incompressible.
         _ if last == "poisson_ratio" => STEP * value.abs().min((0.5 - value).abs().max(0.01)),

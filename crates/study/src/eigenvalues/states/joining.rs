@@ -47,8 +47,7 @@ struct Jump<'a> {
 
 /// The branches that both of two neighbours know where they meet, and whose stability changes there.
 fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = Jump<'a>> {
-    let ends = before.last().zip(after.first());
-    ends.into_iter().flat_map(|(last, first)| {
+    before.last().zip(after.first()).into_iter().flat_map(|(last, first)| {
         first.known().enumerate().filter_map(move |(j, mode)| {
             let (i, same) = last.known().enumerate().find(|(_, other)| is_same(other, mode))?;
             let is_listed = i < last.modes.len() || j < first.modes.len();
@@ -72,8 +71,7 @@ fn is_same(one: &ComplexMode, other: &ComplexMode) -> bool {
 
 /// Friction coefficients at which the growth of a branch jumps across zero.
 pub fn jumps(parts: &[Part]) -> impl Iterator<Item = f64> {
-    let decided = parts.windows(2).filter(|pair| unknown(pair).is_empty());
-    decided.filter_map(|pair| {
+    parts.windows(2).filter(|pair| unknown(pair).is_empty()).filter_map(|pair| {
         let mut jumps = jumps_between(&pair[0], &pair[1]);
         jumps.next().map(|jump| jump.friction_coefficient)
     })
@@ -95,8 +93,7 @@ pub struct Undecided {
 /// All of them.
 pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
     let gaps = parts.windows(2).map(|pair| (unknown(pair), pair));
-    let gaps = gaps.filter(|(gap, _)| !gap.is_empty());
-    gaps.filter_map(|(gap, pair)| {
+    gaps.filter(|(gap, _)| !gap.is_empty()).filter_map(|(gap, pair)| {
         let ends = |interval: &UnstableInterval| {
             let onset = interval.is_located().then_some(interval.critical_friction);
             let end = interval.restabilized.map(|(mu, _)| mu);
@@ -191,9 +188,7 @@ fn joined_intervals(parts: &mut [Part], frictions: &[f64]) -> Vec<UnstableInterv
 
 /// Gives the branches of `after` the names that their nearest eigenvalues have in `before` where both meet.
 fn relabel(before: &Part, after: &mut Part) {
-    let (Some(last), Some(first)) = (before.last(), after.first()) else {
-        return;
-    };
+    let (Some(last), Some(first)) = (before.last(), after.first()) else { return };
     // Nearest pairs first, each mode once; those just above the list too, which may enter it.
     let [old, new] = [last, first].map(|point| point.known().collect::<Vec<_>>());
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
