@@ -19,7 +19,7 @@ pub enum MassKind {
 /// Elements that are rotated copies of one another share one matrix to the last bit, so that a
 /// rotationally symmetric mesh gives an exactly rotationally symmetric operator.
 pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets {
-    assemble_congruent(mesh, &|_| true, |e| element_stiffness(mesh, material, e))
+    sum_elements((mesh, &|_| true), true, |e| element_stiffness(mesh, material, e))
 }
 
 /// Global mass `M` over all dofs, point masses included, kg for each metre of thickness.
@@ -77,7 +77,7 @@ pub fn element_mass(
 /// Stiffness of the elements of one region alone, over all dofs: N/m, in the plane for each metre of thickness.
 pub fn region_stiffness(mesh: &Mesh, material: &dyn MaterialField, region: usize) -> Triplets {
     let is_own = |e: usize| mesh.region(e) == region;
-    assemble_congruent(mesh, &is_own, |e| element_stiffness(mesh, material, e))
+    sum_elements((mesh, &is_own), true, |e| element_stiffness(mesh, material, e))
 }
 
 /// Those of all regions.
@@ -105,7 +105,7 @@ fn mass_of(
 ) -> Triplets {
     match kind {
         MassKind::Consistent => {
-            assemble_congruent(mesh, keep, |e| element_mass(mesh, material, kind, e))
+            sum_elements((mesh, keep), true, |e| element_mass(mesh, material, kind, e))
         }
         MassKind::Lumped => diagonal(mesh, masses_of(mesh, material, keep).into_iter().enumerate()),
     }
@@ -169,15 +169,13 @@ fn sum_around(
     (mesh, material): (&Mesh, &dyn MaterialField),
     base: &[f64],
     region: Option<usize>,
-    of: impl Fn(&ElementGeometry, &ElasticMaterial, &[f64]) -> DMatrix<f64>,
+    of: impl Fn(&ElementGeometry, &ElasticMaterial, &[f64]) -> DMatrix<f64> + Sync,
 ) -> Triplets {
     let is_own = |e: usize| region.is_none_or(|region| mesh.region(e) == region);
-    let mut sum = ElementSum::new(mesh, &is_own);
-    for e in (0..mesh.element_count()).filter(|&e| is_own(e)) {
+    sum_elements((mesh, &is_own), false, |e| {
         let values = element::nodal_values(mesh, e, base);
-        sum.add(e, &of(&ElementGeometry::new(mesh, e), material.of(mesh.region(e)), &values));
-    }
-    sum.finish()
+        of(&ElementGeometry::new(mesh, e), material.of(mesh.region(e)), &values)
+    })
 }
 
 /// What damping coefficients of their own, of regions and of patches, add to `alpha_R M + beta_R K_e` of the whole body, Pa s,
@@ -224,65 +222,55 @@ pub fn assemble_patch_damping(
     triplets
 }
 
-/// Sums the element matrices of those that are kept, each kind of them computed once.
-fn assemble_congruent(
-    mesh: &Mesh,
-    keep: &dyn Fn(usize) -> bool,
-    compute: impl Fn(usize) -> DMatrix<f64>,
-) -> Triplets {
-    let mut sum = ElementSum::new(mesh, keep);
-    // Only what several elements share is kept.
-    let mut copies = vec![0_u32; mesh.element_count()];
-    mesh.congruent_to.iter().for_each(|&first| copies[first as usize] += 1);
-    let mut cache: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
-    for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
-        let first = mesh.congruent_to[e] as usize;
-        match copies[first] {
-            1 => sum.add(e, &compute(e)),
-            _ => sum.add(e, cache[first].get_or_insert_with(|| compute(e))),
-        }
-    }
-    sum.finish()
-}
-
 /// Entries of solid bodies that are kept before those of one place are summed: an element shares each of its nodes with many.
 const MANY_ENTRIES: usize = 1 << 22;
+/// Element matrices that are computed side by side.
+const ELEMENTS_AT_A_TIME: usize = 4096;
 
-/// Element matrices on their way into a global one.
-struct ElementSum<'a> {
-    mesh: &'a Mesh,
-    triplets: Triplets,
-    /// Entries at which those of one place are summed.
-    limit: usize,
-}
-
-impl<'a> ElementSum<'a> {
-    fn new(mesh: &'a Mesh, keep: &dyn Fn(usize) -> bool) -> Self {
-        let mut triplets = Triplets::default();
-        let is_solid = mesh.dimension == 3;
-        let sizes = (0..mesh.element_count())
-            .filter(|&e| keep(e))
-            .map(|e| (mesh.dimension * mesh.element_kinds[e].node_count()).pow(2));
-        let size: usize = sizes.sum();
-        let limit = if is_solid { MANY_ENTRIES } else { usize::MAX };
-        triplets.entries.reserve_exact(size.min(limit));
-        Self { mesh, triplets, limit }
-    }
-
-    fn add(&mut self, element: usize, matrix: &DMatrix<f64>) {
-        scatter(&mut self.triplets, self.mesh, element, matrix);
-        if self.triplets.entries.len() > self.limit {
-            self.triplets.merge();
-            self.limit = MANY_ENTRIES + 2 * self.triplets.entries.len();
+/// Sums the matrices of the elements that are kept; with `shares` that of the first of several congruent ones serves all.
+fn sum_elements(
+    (mesh, keep): (&Mesh, &dyn Fn(usize) -> bool),
+    shares: bool,
+    compute: impl Fn(usize) -> DMatrix<f64> + Sync,
+) -> Triplets {
+    let kept: Vec<usize> = (0..mesh.element_count()).filter(|&e| keep(e)).collect();
+    let kind = |e: usize| if shares { mesh.congruent_to[e] as usize } else { e };
+    // Only what several elements share is held.
+    let mut first: Vec<Option<usize>> = vec![None; mesh.element_count()];
+    let mut shared: Vec<usize> = Vec::new();
+    for &e in &kept {
+        match first[kind(e)] {
+            Some(own) => shared.push(own),
+            None => first[kind(e)] = Some(e),
         }
     }
+    shared.sort_unstable();
+    shared.dedup();
+    let mut held: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
+    let matrices: Vec<DMatrix<f64>> = crate::parallel::map(&shared, |&e| compute(e));
+    shared.iter().zip(matrices).for_each(|(&e, matrix)| held[kind(e)] = Some(matrix));
 
-    fn finish(mut self) -> Triplets {
-        if self.mesh.dimension == 3 {
-            self.triplets.merge();
+    let is_solid = mesh.dimension == 3;
+    let sizes = kept.iter().map(|&e| (mesh.dimension * mesh.element_kinds[e].node_count()).pow(2));
+    let (size, mut limit): (usize, _) =
+        (sizes.sum(), if is_solid { MANY_ENTRIES } else { usize::MAX });
+    let mut sum = Triplets::default();
+    sum.entries.reserve_exact(size.min(limit));
+    for elements in kept.chunks(ELEMENTS_AT_A_TIME) {
+        let own = |&e: &usize| held[kind(e)].is_none().then(|| compute(e));
+        let own: Vec<Option<DMatrix<f64>>> = crate::parallel::map(elements, own);
+        for (&e, own) in elements.iter().zip(&own) {
+            own.iter().chain(&held[kind(e)]).for_each(|matrix| scatter(&mut sum, mesh, e, matrix));
+            if sum.entries.len() > limit {
+                sum.merge();
+                limit = MANY_ENTRIES + 2 * sum.entries.len();
+            }
         }
-        self.triplets
     }
+    if is_solid {
+        sum.merge();
+    }
+    sum
 }
 
 fn scatter(triplets: &mut Triplets, mesh: &Mesh, element: usize, matrix: &DMatrix<f64>) {

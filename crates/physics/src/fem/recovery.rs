@@ -71,10 +71,9 @@ impl Recovery {
             let weights = weights_at(mesh.nodes[node], &places, degree, thinnest);
             RecoveredNode { region, weights: own.into_iter().zip(weights).collect() }
         };
-        let nodes = patches.iter().enumerate().map(|(node, patches)| {
+        let nodes = crate::parallel::map(patches.iter().enumerate(), |(node, patches)| {
             patches.iter().map(|(region, patch)| recovered(node, *region, patch)).collect()
         });
-        let nodes = nodes.collect();
         Self { nodes, first_sample: samples.first, places: samples.places }
     }
 
