@@ -178,8 +178,7 @@ impl RigidCounterface {
                 placed.inward = -sum.normalize();
                 self.check_along(&placed.inward, surface)?;
                 let height = |node: u32| position(node).dot(&placed.inward);
-                let all = nodes.iter().map(|&node| height(node));
-                let lowest = all.fold(f64::INFINITY, f64::min);
+                let lowest = nodes.iter().map(|&node| height(node)).fold(f64::INFINITY, f64::min);
                 let heights = nodes.iter().map(|&node| (node, height(node) - lowest));
                 placed.heights = heights.collect();
                 return Ok(placed);

@@ -26,8 +26,7 @@ pub enum NormalLaw {
 fn excess_of_mean(x: f64) -> f64 {
     if x.abs() < 0.03 {
         // x / 2! + x^2 / 3! + ..., to the last bit.
-        let terms = (2..11).rev().map(f64::from);
-        return terms.fold(0.0, |sum, n| (x + x * sum) / n);
+        return (2..11).rev().map(f64::from).fold(0.0, |sum, n| (x + x * sum) / n);
     }
     x.exp_m1() / x - 1.0
 }

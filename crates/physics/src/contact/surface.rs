@@ -112,8 +112,7 @@ impl FacetPoint {
         let [a, b] = &self.tangents;
         let [across_a, across_b] = [b.cross(normal), normal.cross(a)];
         let dual = [across_a / across_a.dot(a), across_b / across_b.dot(b)];
-        let shapes = self.shapes.iter();
-        shapes.map(|(_, slopes)| dual[0] * slopes[0] + dual[1] * slopes[1]).collect()
+        self.shapes.iter().map(|(_, slopes)| dual[0] * slopes[0] + dual[1] * slopes[1]).collect()
     }
 }
 
@@ -174,8 +173,7 @@ impl<'a> Facet<'a> {
 }
 
 fn facets_of<'a>(mesh: &Mesh, boundary: &'a Boundary) -> Vec<Facet<'a>> {
-    let faces = boundary.faces.iter();
-    faces.map(|face| Facet::of(mesh, face)).collect()
+    boundary.faces.iter().map(|face| Facet::of(mesh, face)).collect()
 }
 
 /// Newton steps that find a point on a face at most; plane faces with straight edges take one or two.
@@ -308,8 +306,7 @@ impl SurfacePair {
         let own = facets_of(mesh, surface);
         let points = own.iter().enumerate().flat_map(|(f, facet)| {
             let plane = Plane::of(facet);
-            let corners = facet.corners().iter();
-            let polygon: Vec<_> = corners.map(|corner| plane.flat(corner)).collect();
+            let polygon: Vec<_> = facet.corners().iter().map(|corner| plane.flat(corner)).collect();
             let meet = |_: Vector2<f64>, position: &Vector3<f64>, _: &Vector3<f64>| {
                 let normal = placed.normal(position);
                 Some(Meeting { counter: Vec::new(), slopes: Vec::new(), gap: 0.0, normal })

@@ -111,8 +111,7 @@ impl TransientAnalysis {
         let sizes = record.followed_harmonics().map(|n| (n, size(n).unwrap_or(0.0)));
         // The edge moves with its modes: its harmonics are so many sensors.
         let sensor = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
-        let strongest = sensor.and_then(|(n, _)| growth(record, stage, n));
-        analysis.growth = strongest.into_iter().collect();
+        analysis.growth = sensor.and_then(|(n, _)| growth(record, stage, n)).into_iter().collect();
         analysis.growth.iter_mut().for_each(|growth| growth.harmonic = None);
         if let Some(Unsettled::Growing { harmonic, .. }) = &mut analysis.settling.reason {
             *harmonic = None;

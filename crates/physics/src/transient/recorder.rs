@@ -364,8 +364,7 @@ fn waves(interface: &ContactInterface, higher: &[usize]) -> Vec<[f64; 2]> {
     let nodes = interface.angles.iter().zip(&interface.tributary_lengths);
     nodes
         .flat_map(|(angle, length)| {
-            let harmonics = (0..HARMONIC_COUNT).chain(higher.iter().copied());
-            harmonics.map(move |harmonic| {
+            (0..HARMONIC_COUNT).chain(higher.iter().copied()).map(move |harmonic| {
                 let scale = if harmonic == 0 { 1.0 } else { 2.0 } / total;
                 let (sin, cos) = (harmonic as f64 * angle).sin_cos();
                 [scale * length * cos, scale * length * sin]

@@ -87,8 +87,7 @@ impl Relaxation {
             part.look(NOW);
             for (i, &place) in part.places.iter().enumerate() {
                 part.before[i] = [fields.elastic[place], fields.velocity[place]];
-                let elements = part.elements.iter();
-                let force: f64 = elements.map(|own| own.stiffness * own.image[i]).sum();
+                let force: f64 = part.elements.iter().map(|own| own.stiffness * own.image[i]).sum();
                 fields.elastic[place] += force / part.masses[i];
             }
         }
@@ -118,8 +117,7 @@ impl Relaxation {
 
     /// Energy of their springs at `n - 1/2`, `n` the next step, J/m.
     pub fn energy(&self) -> f64 {
-        let elements = self.parts.iter().flat_map(|part| &part.elements);
-        let energy = elements.map(|own| {
+        let energy = self.parts.iter().flat_map(|part| &part.elements).map(|own| {
             let pairs = own.image.iter().zip(&own.stretch[NOW]);
             0.5 * own.stiffness * pairs.map(|(force, z)| force * z).sum::<f64>()
         });

@@ -61,8 +61,7 @@ impl Sample<'_> {
     /// Distance of contact node `i` from the counterface at `n`, m; negative where a compliant contact is compressed.
     pub fn gap(&self, i: usize) -> f64 {
         let share = self.run.expanded_share(self.row.time);
-        let contact = self.run.contact();
-        contact.gap(i, self.displacement_before, share)
+        self.run.contact().gap(i, self.displacement_before, share)
     }
 
     /// Forces on the contact nodes and their status at `n`.

@@ -42,8 +42,7 @@ pub(super) fn main_vibration(record: &Recorder, range: Range<usize>) -> Option<(
         return None;
     }
     let rate = 1.0 / record.sample_interval;
-    let followed = record.followed_harmonics();
-    let vibrations = followed.filter_map(|n| {
+    let vibrations = record.followed_harmonics().filter_map(|n| {
         let (frequency, amplitude) = strongest_vibration(&series(record, range.clone(), n)?, rate)?;
         Some((n, frequency, amplitude))
     });

@@ -286,6 +286,5 @@ fn spectrum_of(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Ve
         (false, true) => x[(i - n, j)] / scale,
         (false, false) => -sigma * y[(i - n, j - n)],
     });
-    let values = complex_eigenvalues(inverse.as_ref())?;
-    Ok(values.iter().map(|value| sigma + value.inv()).collect())
+    Ok(complex_eigenvalues(inverse.as_ref())?.iter().map(|value| sigma + value.inv()).collect())
 }

@@ -69,8 +69,7 @@ pub(super) fn wanted(
 /// `kappa` of the modes of harmonic `n`, of each wave once.
 fn of_all_waves(tangent: &WaveTangent, n: usize, modes: &Modes) -> Vec<f64> {
     let waves = if tangent.is_standing(n) { 1 } else { 2 };
-    let kappas = modes.iter().flat_map(|mode| vec![mode.0; waves]);
-    kappas.collect()
+    modes.iter().flat_map(|mode| vec![mode.0; waves]).collect()
 }
 
 /// A little more than the lowest `kappa` but `asked - 1`.

@@ -188,8 +188,7 @@ pub(super) fn describe(
         point.axial_share = problem.axial_share(&point.x);
         point.uncertainty = problem.uncertainty(at, point);
     }
-    let earlier = earlier.iter_mut().rev();
-    for point in earlier.take_while(|point| !point.x.is_empty()) {
+    for point in earlier.iter_mut().rev().take_while(|point| !point.x.is_empty()) {
         if !kept.contains(&point.parameter) {
             (point.x, point.y) = (Vec::new(), Vec::new());
         }

@@ -178,8 +178,7 @@ impl HarmonicProblem {
     pub fn rate_of(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64], slope: c64) -> c64 {
         let [a, b, _, _] = self.factors(theta);
         let terms = [a, b, c64::ONE].into_iter().zip(&at.rates);
-        let gains = at.now.losses.iter().map(|(gain, _)| gain.at(theta));
-        let losses = gains.zip(&at.loss_rates);
+        let losses = at.now.losses.iter().map(|(gain, _)| gain.at(theta)).zip(&at.loss_rates);
         let change: c64 = terms
             .chain(losses)
             .filter_map(|(factor, values)| values.as_ref().map(|v| (factor, v)))

@@ -75,8 +75,7 @@ fn largest_error(
     (reduction, harmonic, pencil): (&Reduction, &HarmonicTangent, &Pencil),
     wanted: f64,
 ) -> f64 {
-    let ends = paths.paths.iter().filter_map(|path| path.points.last());
-    let errors = ends.map(|end| {
+    let errors = paths.paths.iter().filter_map(|path| path.points.last()).map(|end| {
         let lambda = paths.problem.eigenvalue(end.theta);
         let is_listed = lambda.norm_sqr() <= wanted && !paths.problem.is_ending(end.theta);
         if is_listed { reduction.error(harmonic, pencil, lambda, end) } else { 0.0 }

@@ -66,8 +66,7 @@ impl Reduction {
         let kappas = modes.iter().map(|mode| mode.0).collect();
         let mut columns: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.1).collect();
         let mut momenta: Vec<Vec<f64>> = columns.iter().map(|x| pencil.mass.multiply(x)).collect();
-        let held = held.into_iter().map(|mode| mode.1);
-        for mut x in held.chain(first).chain(second) {
+        for mut x in held.into_iter().map(|mode| mode.1).chain(first).chain(second) {
             let length = |x: &[f64], p: &[f64]| dot(x, p).sqrt();
             let before = length(&x, &pencil.mass.multiply(&x));
             for _ in 0..2 {

@@ -263,8 +263,7 @@ fn match_modes(
         link_by_extrapolation(from, to, needed, &mut links);
     }
     let mut passed = grown_between((from, to), &links, needed, model)?;
-    let pairs = links.into_iter().enumerate().zip(from.1);
-    let links = pairs.map(|((i, link), mode)| match link {
+    let links = links.into_iter().enumerate().zip(from.1).map(|((i, link), mode)| match link {
         Some(next) => Ok((next, std::mem::take(&mut passed[i]))),
         None => Err((ModeAt { mu: from.0, mode: mode.clone() }, to.0)),
     });

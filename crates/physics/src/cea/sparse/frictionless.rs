@@ -238,8 +238,7 @@ fn frequency_amid(frequencies: &[f64]) -> Option<f64> {
         ((place - pair[0]).min(pair[1] - place), place)
     });
     let amid = gaps.filter(|(distance, _)| *distance > NEAR * highest);
-    let widest = amid.max_by(|a, b| a.0.total_cmp(&b.0));
-    widest.map(|(_, place)| place)
+    amid.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place)
 }
 
 /// Counts the eigenvalues of the symmetric pencil at `mu = 0` below a shift.
@@ -349,8 +348,7 @@ impl<'a> Inertia<'a> {
     /// Values of `K - shift M`.
     fn shifted(&self, shift: f64) -> Vec<f64> {
         let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
-        let pairs = stiffness.iter().zip(&mass);
-        pairs.map(|(k, m)| k - shift * m).collect()
+        stiffness.iter().zip(&mass).map(|(k, m)| k - shift * m).collect()
     }
 
     /// About the largest eigenvalue of the pencil: the largest ratio of the diagonals.

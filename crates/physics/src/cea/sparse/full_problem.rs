@@ -111,8 +111,7 @@ impl<'a> FullProblem<'a> {
 
     /// `w^T (dK/d omega) x` of stiffness that depends on frequency, at that of `lambda`.
     pub fn own_slope(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
-        let tabled = self.values.own_rates(lambda);
-        tabled.map(|(rate, k)| rate * form(self.pattern, k, w, x)).sum()
+        self.values.own_rates(lambda).map(|(rate, k)| rate * form(self.pattern, k, w, x)).sum()
     }
 }
 

@@ -68,8 +68,7 @@ fn counts(tangents: &[SlidingTangent], limit: ModeLimit) -> Result<Vec<Option<us
                     return Ok(known.clone());
                 }
                 let limit = ModeLimit::Lowest(count);
-                let modes = FrictionlessModes::compute(tangent, limit)?;
-                Ok(modes.frequencies)
+                Ok(FrictionlessModes::compute(tangent, limit)?.frequencies)
             });
         found = solved?;
         let mut all: Vec<f64> = found.iter().flatten().copied().collect();
@@ -147,8 +146,7 @@ fn solve(
 fn short_of(parts: &[Option<FrictionSweep>], count: usize, counts: &[Option<usize>]) -> Vec<usize> {
     let frequencies = |n: usize, k: usize| {
         let point = parts[n].as_ref().map(|part| &part.points[k]);
-        let modes = point.into_iter().flat_map(|point| &point.modes);
-        modes.map(|mode| mode.eigenvalue.im)
+        point.into_iter().flat_map(|point| &point.modes).map(|mode| mode.eigenvalue.im)
     };
     let points = parts.iter().flatten().map(|part| part.points.len()).max();
     let is_short = |&n: &usize| {
@@ -261,8 +259,7 @@ fn ranked(parts: &mut [FrictionSweep]) -> BTreeMap<(usize, usize), usize> {
     }
     for (part, sweep) in parts.iter_mut().enumerate() {
         for point in &mut sweep.points {
-            let all = point.modes.iter_mut().chain(&mut point.above);
-            all.for_each(|mode| {
+            point.modes.iter_mut().chain(&mut point.above).for_each(|mode| {
                 mode.branch = rank_of.get(&(part, mode.branch)).copied().unwrap_or_default();
             });
         }

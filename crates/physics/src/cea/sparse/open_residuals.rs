@@ -36,8 +36,7 @@ impl OpenResiduals {
     ) {
         let (residuals, momenta) = matrices.residuals_and_momenta(entries, x.as_ref());
         let largest = |a: &Mat<f64>, entry: &PackedEntry| {
-            let norms = entry.columns.clone().map(|j| norm(column(a.as_ref(), j)));
-            norms.fold(0.0, f64::max)
+            entry.columns.clone().map(|j| norm(column(a.as_ref(), j))).fold(0.0, f64::max)
         };
         for entry in entries {
             let factor = matrices.inertia_factor(entry);

@@ -48,8 +48,7 @@ pub fn add_complex_multiple(
     let j = columns.start;
     let real = column(source.as_ref(), j);
     if columns.len() == 1 {
-        let sum = column_mut(target, j).iter_mut().zip(real);
-        sum.for_each(|(t, p)| *t += factor.re * p);
+        column_mut(target, j).iter_mut().zip(real).for_each(|(t, p)| *t += factor.re * p);
         return;
     }
     let imaginary = column(source.as_ref(), j + 1);

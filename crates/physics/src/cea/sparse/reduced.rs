@@ -360,8 +360,7 @@ impl ReducedModel {
     pub fn mode_near(&self, mu: f64, guess: &ReducedMode) -> Option<ReducedMode> {
         if let Some(part) = self.surroundings(mu) {
             let guess = guess.map(|own| inside(&part.columns, own));
-            let found = part.model.mode_near(mu, &guess)?;
-            return Some(found.map(|own| combined(&part.columns, own)));
+            return Some(part.model.mode_near(mu, &guess)?.map(|own| combined(&part.columns, own)));
         }
         let at = self.at(mu);
         let mut modes = [at.mode_near(guess)?];

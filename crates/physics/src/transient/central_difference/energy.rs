@@ -25,8 +25,7 @@ impl CentralDifference<'_> {
     /// Kinetic and strain energy (8) at `n + 1/2`, from `K u_{n+1}` and the copy of `u_n`.
     pub(super) fn energies(&self) -> [f64; 2] {
         let masses = self.operator.masses();
-        let velocity = self.fields.velocity.iter().zip(masses);
-        let kinetic: f64 = velocity.map(|(v, m)| m * v * v).sum();
+        let kinetic: f64 = self.fields.velocity.iter().zip(masses).map(|(v, m)| m * v * v).sum();
         let forces = self.fields.elastic.iter().zip(masses);
         let strain: f64 =
             forces.zip(self.displacement_before.iter()).map(|((q, m), u)| m * q * u).sum();

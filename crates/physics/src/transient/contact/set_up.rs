@@ -62,8 +62,7 @@ impl LagrangeContact {
                 });
             }
             let nodes = part.nodes.into_iter().map(|points| {
-                let points = points.into_iter();
-                points.map(|(point, share)| (first + point, share)).collect()
+                points.into_iter().map(|(point, share)| (first + point, share)).collect()
             });
             contact.nodes.extend::<Vec<_>>(nodes.collect());
             contact.surfaces.push(TouchingSurfaces {

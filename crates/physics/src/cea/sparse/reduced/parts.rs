@@ -33,8 +33,7 @@ impl BasisParts {
 /// Coordinates of a vector in the space of orthonormal `columns`.
 pub fn inside(columns: &Mat<f64>, vector: &[c64]) -> Vec<c64> {
     let along = |j: usize| -> c64 {
-        let pairs = vector.iter().zip(column(columns.as_ref(), j));
-        pairs.map(|(v, c)| *v * *c).sum()
+        vector.iter().zip(column(columns.as_ref(), j)).map(|(v, c)| *v * *c).sum()
     };
     (0..columns.ncols()).map(along).collect()
 }

@@ -81,8 +81,7 @@ impl SparseSweep<'_> {
         let [damping, mass] = [&self.tangent.damping, &self.tangent.mass].map(|p| p.evaluate(mu));
         let terms = values.iter_mut().zip(damping.iter().zip(&mass));
         terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m));
-        let found = analysis.ln_determinant(&values);
-        Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
+        Ok(analysis.ln_determinant(&values).unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }
 
     /// `det K(mu) / exp size`.
