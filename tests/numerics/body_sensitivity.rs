@@ -53,9 +53,7 @@ impl Body {
             for row in &report.rows {
                 let found = sides.each_ref().map(|s| nearest(s, row.eigenvalue));
                 hold(row.eigenvalue, row.derivatives[at].unwrap(), found, 5e-7);
-                let Some(onset) = &row.onset else {
-                    continue;
-                };
+                let Some(onset) = &row.onset else { continue };
                 onsets += 1;
                 let friction = onset.critical_friction;
                 let distance = |other: &f64| (other - friction).abs();

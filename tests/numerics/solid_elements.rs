@@ -32,9 +32,7 @@ fn distorted(kind: ElementKind, bend: f64) -> FileMesh {
     let mut is_done = vec![false; before.len()];
     for element in &file.elements {
         for (edge, ends) in kind.edges().iter().enumerate() {
-            let Some(&middle) = element.nodes.get(corners + edge) else {
-                continue;
-            };
+            let Some(&middle) = element.nodes.get(corners + edge) else { continue };
             if std::mem::replace(&mut is_done[middle as usize], true) {
                 continue;
             }

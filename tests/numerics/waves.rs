@@ -159,9 +159,7 @@ impl Differences {
         let all = pairs(&model.tangent(), &found.branches, Self::FRICTION);
         assert!(all.len() >= 5, "{what}: {}", all.len());
         for (name, scale, step, change) in parameters(model) {
-            let Some(scale) = scale else {
-                continue;
-            };
+            let Some(scale) = scale else { continue };
             let changed = |offset: f64| model.with(|own| change(own, offset));
             let step_of_rate = STEP * if name == "nu" { 0.1 } else { scale };
             let own = rates(&all, step_of_rate, &|offset| changed(offset).tangent());

@@ -162,9 +162,7 @@ fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
             continue;
         }
         let longest = part.iter().copied().max_by(|&a, &b| length(a).total_cmp(&length(b)));
-        let Some(step) = longest.filter(|&step| length(step) > 0.0) else {
-            continue;
-        };
+        let Some(step) = longest.filter(|&step| length(step) > 0.0) else { continue };
         let ((ax, ay), (bx, by)) = step;
         let (dx, dy) = ((bx - ax) / length(step), (by - ay) / length(step));
         let (x, y) = (0.5 * (ax + bx), 0.5 * (ay + by));

@@ -244,9 +244,7 @@ impl Layer for Surface {
     }
 
     fn keys(&self) -> Vec<(Key, String)> {
-        let Paint::Parts(_, parts) = &self.paint else {
-            return Vec::new();
-        };
+        let Paint::Parts(_, parts) = &self.paint else { return Vec::new() };
         let named = parts.iter().filter(|(_, name)| !name.is_empty());
         let keys = named.map(|(colour, name)| (Key::patch(*colour, 1.0), name.clone()));
         keys.collect()

@@ -95,9 +95,7 @@ fn cea(bench: &Bench, twin: Option<&Bench>) -> Verdict {
     let (summary, own) = done(bench.run("cea", &[]))?;
     let residual = summary["largest_residual"].as_f64().unwrap();
     verdict(residual <= 1e-8, || format!("residual {residual:e}"))?;
-    let Some(twin) = twin else {
-        return Ok(());
-    };
+    let Some(twin) = twin else { return Ok(()) };
     let (_, other) = needed(twin.run("cea", &[]))?;
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
@@ -271,9 +269,7 @@ fn basin(bench: &Bench, _: Option<&Bench>) -> Verdict {
 fn is_boundary(summary: &Value) -> bool {
     let runs = summary["runs"].as_array().cloned().unwrap_or_default();
     let rivals = &summary["harmonics"];
-    let [Some(first), Some(last)] = [runs.first(), runs.get(1)] else {
-        return false;
-    };
+    let [Some(first), Some(last)] = [runs.first(), runs.get(1)] else { return false };
     let is_whole = [first, last].map(|run| &run["seed_ratio"]) == [&json!(0.5), &json!(2.0)];
     let is_known = |run: &Value| [&rivals[0], &rivals[1]].contains(&&run["winner"]);
     let ratios = [first, last].map(|run| run["saturation_ratio"].as_f64());

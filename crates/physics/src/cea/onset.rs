@@ -78,9 +78,7 @@ pub(super) fn instabilities<B: BranchSolver>(
 ) -> Result<Vec<Instability<B::State>>, B::Error> {
     let mut search = Search { solver };
     let mut found: Vec<Instability<B::State>> = Vec::new();
-    let Some(first) = states.first() else {
-        return Ok(found);
-    };
+    let Some(first) = states.first() else { return Ok(found) };
     let mut was_growing = search.is_growing(first) || search.grows_from_zero(first);
     if was_growing {
         let onset = first.clone();
@@ -220,9 +218,7 @@ impl<B: BranchSolver> Search<'_, B> {
         let (mut best, mut is_there) = (if is_first { start.clone() } else { end.clone() }, false);
         for _ in 0..60 {
             let origin = first.friction_coefficient;
-            let Some(state) = self.solve(&low, &high, &cubic, origin, friction)? else {
-                break;
-            };
+            let Some(state) = self.solve(&low, &high, &cubic, origin, friction)? else { break };
             let point = self.solver.point(&state);
             // The bracket closes from the side that the new state is on.
             let growth = height(self, &state);

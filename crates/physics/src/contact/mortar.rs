@@ -113,9 +113,7 @@ fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u
     let points = points.iter().map(|point| &point.at);
     let bases = points.clone().map(|point| (point.area, positive_basis(face, point)));
     let bases: Vec<(f64, Vec<f64>)> = bases.collect();
-    let Some(weights) = dual_weights(face.nodes.len(), &bases) else {
-        return;
-    };
+    let Some(weights) = dual_weights(face.nodes.len(), &bases) else { return };
     for (point, weights) in points.zip(weights) {
         for (&node, psi) in face.nodes.iter().zip(weights) {
             let sum = sums.entry(node).or_default();

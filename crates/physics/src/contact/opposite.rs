@@ -185,9 +185,7 @@ fn mortar(
             (weight, edge.shapes(share).into_iter().map(|shape| shape.1).collect())
         });
         let bases: Vec<(f64, Vec<f64>)> = bases.collect();
-        let Some(weights) = dual_weights(edge.face.nodes.len(), &bases) else {
-            continue;
-        };
+        let Some(weights) = dual_weights(edge.face.nodes.len(), &bases) else { continue };
         for (&(other, share, _), weights) in points.iter().zip(weights) {
             let met = other.shapes(edge.share_on(other, share, surface));
             for (&node, psi) in edge.face.nodes.iter().zip(weights) {

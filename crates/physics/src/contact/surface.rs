@@ -163,9 +163,7 @@ impl<'a> Facet<'a> {
             if off.norm() < 1e-14 * self.radius {
                 break;
             }
-            let Some(step) = Matrix2::from_columns(&[a, b]).lu().solve(&off) else {
-                break;
-            };
+            let Some(step) = Matrix2::from_columns(&[a, b]).lu().solve(&off) else { break };
             place = [place[0] + step[0], place[1] + step[1]];
         }
         found.expect("there is at least one step")
@@ -272,9 +270,7 @@ impl SurfacePair {
         if facet.normal.dot(&other.normal) > FACING {
             return;
         }
-        let Some(polygon) = shared_polygon(facet, other, plane) else {
-            return;
-        };
+        let Some(polygon) = shared_polygon(facet, other, plane) else { return };
         let meet = |target: Vector2<f64>, position: &Vector3<f64>, outward: &Vector3<f64>| {
             let opposite = other.at(plane, target);
             let gap = (opposite.position - position).dot(outward);
@@ -357,9 +353,7 @@ fn quadrature(
             let target = parts.sum::<Vector2<f64>>();
             let own = facet.at(plane, target);
             let outward = own.normal();
-            let Some(met) = meet(target, &own.position, &outward) else {
-                continue;
-            };
+            let Some(met) = meet(target, &own.position, &outward) else { continue };
             let at = SurfacePoint {
                 position: own.position.into(),
                 normal: met.normal.into(),

@@ -296,13 +296,9 @@ impl Way for Half<'_> {
 
     /// One step of the branch, with the cycle where it ends at a value asked for.
     fn advance(&mut self) -> Result<Option<BranchEnd>, Infallible> {
-        let Some(left) = self.steps.checked_sub(1) else {
-            return Ok(Some(BranchEnd::Steps));
-        };
+        let Some(left) = self.steps.checked_sub(1) else { return Ok(Some(BranchEnd::Steps)) };
         self.steps = left;
-        let Some(step) = self.branch.advance(self.values) else {
-            return Ok(Some(BranchEnd::Lost));
-        };
+        let Some(step) = self.branch.advance(self.values) else { return Ok(Some(BranchEnd::Lost)) };
         self.turning.follow(self.branch.value());
         let state = &self.branch.state;
         if let Step::At(value) = step {

@@ -149,9 +149,7 @@ impl WaveDofs {
     ) {
         let turns = self.turns(n, parity).map(|turn| factor * turn);
         for (row, ends) in term.starts.windows(2).enumerate() {
-            let Some(i) = self.unknown_of[row] else {
-                continue;
-            };
+            let Some(i) = self.unknown_of[row] else { continue };
             let band = sum.row_mut(i);
             for entry in &term.entries[ends[0]..ends[1]] {
                 if let Some(j) = self.unknown_of[entry.column as usize] {

@@ -160,9 +160,7 @@ impl ElasticMaterial {
     /// strains `2 epsilon_xy, ...`; what a plane formulation says of the third direction is in it, so that strains of a plane
     /// body, which have none, give its stresses in the plane.
     pub fn elasticity_at(&self, place: [f64; 3]) -> Elasticity {
-        let Some(orthotropy) = &self.orthotropy else {
-            return self.isotropic_elasticity();
-        };
+        let Some(orthotropy) = &self.orthotropy else { return self.isotropic_elasticity() };
         let mut law = orthotropy.elasticity_at(place);
         if self.formulation == PlaneFormulation::PlaneStress {
             // sigma_zz = 0 gives epsilon_zz = -(D_zx epsilon_xx + D_zy epsilon_yy + ...) / D_zz.

@@ -130,17 +130,13 @@ fn nonnegative_least_squares(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Vec
         let gradient = matrix.transpose() * &residual;
         let bound = (0..count).filter(|&j| !is_free[j]);
         let best = bound.max_by(|&a, &b| gradient[a].total_cmp(&gradient[b]));
-        let Some(best) = best.filter(|&j| gradient[j] > 1e-12 * right.norm()) else {
-            break;
-        };
+        let Some(best) = best.filter(|&j| gradient[j] > 1e-12 * right.norm()) else { break };
         is_free[best] = true;
         // Free variables that would fall below zero go back to their bound.
         loop {
             let free: Vec<usize> = (0..count).filter(|&j| is_free[j]).collect();
             let columns = matrix.select_columns(&free);
-            let Ok(solved) = columns.svd(true, true).solve(right, 1e-12) else {
-                return x;
-            };
+            let Ok(solved) = columns.svd(true, true).solve(right, 1e-12) else { return x };
             if solved.iter().all(|value| *value > 0.0) {
                 for (&j, value) in free.iter().zip(solved.iter()) {
                     x[j] = *value;

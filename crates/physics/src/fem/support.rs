@@ -146,9 +146,7 @@ pub fn assemble_attachments(mesh: &Mesh) -> [Triplets; 2] {
 pub fn assemble_pressures(mesh: &Mesh) -> Option<Vec<f64>> {
     let mut forces: Option<Vec<f64>> = None;
     for boundary in &mesh.boundaries {
-        let BoundaryCondition::Pressure(pressure) = boundary.condition else {
-            continue;
-        };
+        let BoundaryCondition::Pressure(pressure) = boundary.condition else { continue };
         let forces = forces.get_or_insert_with(|| vec![0.0; mesh.dof_count()]);
         if mesh.dimension == 2 {
             let nodes = boundary.nodes.iter().zip(&boundary.tributary_lengths);

@@ -10,9 +10,7 @@ impl Mesh {
     /// Takes up the symmetry of the file that the mesh was made of, lengths multiplied by `scale`: turns the nodal frames of a solid
     /// body with the sectors. Nothing happens to nodes that are not where it says.
     pub(super) fn take_symmetry(&mut self, of_file: Option<CyclicSymmetry>, scale: f64) {
-        let Some(mut symmetry) = of_file else {
-            return;
-        };
+        let Some(mut symmetry) = of_file else { return };
         symmetry.point = symmetry.point.map(|x| scale * x);
         let own = self.node_count() / symmetry.count;
         let center = Vector3::from(symmetry.point);
@@ -38,9 +36,7 @@ impl Mesh {
         let held = self.held_directions();
         let frames = (0..self.node_count()).map(|node| {
             let turned = turns[node / own] * self.frame(node % own);
-            let Some(held) = held.get(&(node as u32)) else {
-                return turned;
-            };
+            let Some(held) = held.get(&(node as u32)) else { return turned };
             let is_held = |axis: &usize| {
                 let column = turned.column(*axis);
                 held.iter().map(|b| b.dot(&column).powi(2)).sum::<f64>() > 1.0 - 1e-12

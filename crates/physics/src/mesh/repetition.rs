@@ -219,9 +219,7 @@ impl Cut {
         let mut is_overlapping = false;
         for face in &self.outer {
             let partners = face.nodes.iter().map(|node| self.second_of.get(node).copied());
-            let Some(partners) = partners.collect::<Option<Vec<u32>>>() else {
-                continue;
-            };
+            let Some(partners) = partners.collect::<Option<Vec<u32>>>() else { continue };
             let key = face_key(partners.into_iter().take(face.kind.corner_count()));
             if let Some(partner) = of_key.get(&key) {
                 let [own, other] = [face, *partner].map(|face| outward(sector, face));

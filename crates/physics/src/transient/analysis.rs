@@ -157,9 +157,7 @@ fn refuse_powers(growths: &mut [Growth]) {
         .filter(|wave| wave.1 > 0.0 && wave.0 > 0)
         .collect();
     for growth in growths {
-        let (Some(own), Ok(stage)) = (growth.harmonic, &growth.stage) else {
-            continue;
-        };
+        let (Some(own), Ok(stage)) = (growth.harmonic, &growth.stage) else { continue };
         let is_near = |value: f64, expected: f64, share: f64| {
             (value - expected).abs() < share * expected.abs()
         };

@@ -163,9 +163,7 @@ impl LagrangeContact {
     pub fn energy(&self, fields: &MotionFields, shares: [f64; 2], dt: f64) -> f64 {
         let mut energy = 0.0;
         for surfaces in &self.surfaces {
-            let Some(springs) = &surfaces.springs else {
-                continue;
-            };
+            let Some(springs) = &surfaces.springs else { continue };
             for (k, i) in surfaces.points.clone().enumerate() {
                 let pushed = shares.map(|share| surfaces.pushed(k, &self.points[i], share));
                 let mean = self.along(i, 0, |dof| {

@@ -105,9 +105,7 @@ impl<'a> TransientModel<'a> {
 
     /// A matrix over all dofs without those that are held or follow others.
     fn bound(&self, matrix: Triplets) -> Triplets {
-        let SteppedBody::Assembly { assembly, .. } = self.body else {
-            return matrix;
-        };
+        let SteppedBody::Assembly { assembly, .. } = self.body else { return matrix };
         let (basis, unknowns) = (&assembly.joined.basis, assembly.joined.basis.unknowns());
         let mut matrix = basis.congruent(&matrix);
         let moves = |dof: usize| unknowns.unknown_of[dof].is_some();

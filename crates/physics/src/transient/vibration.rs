@@ -91,9 +91,7 @@ pub(super) fn quarters(record: &Recorder, stretch: &Range<usize>, harmonic: usiz
 /// Whether the strongest vibration is below a `share` of the deformation and falls off as a mode does that decays.
 pub(super) fn dies_out(record: &Recorder, fifth: &Range<usize>, share: f64) -> bool {
     let sizes = record.followed_harmonics().map(|harmonic| quarters(record, fifth, harmonic));
-    let Some(sizes) = sizes.max_by(|a, b| a[0].total_cmp(&b[0])) else {
-        return false;
-    };
+    let Some(sizes) = sizes.max_by(|a, b| a[0].total_cmp(&b[0])) else { return false };
     let losses: [f64; 3] = std::array::from_fn(|k| 1.0 - sizes[k + 1] / sizes[k]);
     let [least, most] = range_of(losses);
     sizes[0] < share * record.largest_motion(fifth.clone())

@@ -199,9 +199,7 @@ impl Content {
                 };
                 let names: Vec<String> = names.chunks(length.max(1)).map(field).collect();
                 for field in names.iter().cycle() {
-                    let Some((MATRIX, inner)) = parts.next() else {
-                        break;
-                    };
+                    let Some((MATRIX, inner)) = parts.next() else { break };
                     self.matrix(inner, is_big, &format!("{name}.{field}"), depth + 1);
                 }
             }

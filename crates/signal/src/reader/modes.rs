@@ -78,9 +78,7 @@ fn number_in(
     column: usize,
     admits: fn(f64) -> bool,
 ) -> Result<Option<f64>, ReadError> {
-    let Some(cell) = row.cell(places[column]) else {
-        return Ok(None);
-    };
+    let Some(cell) = row.cell(places[column]) else { return Ok(None) };
     let (field, name) = (shortened(cell), format!("`{}`", COLUMNS[column][0]));
     let value = match cell {
         // As the tables of the program's own say it.

@@ -108,9 +108,7 @@ fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
 
 impl Row<'_> {
     fn value(&self, column: Option<usize>, name: &str) -> Result<Option<c64>, ReadError> {
-        let Some(cell) = self.cell(column) else {
-            return Ok(None);
-        };
+        let Some(cell) = self.cell(column) else { return Ok(None) };
         let (field, name) = (shortened(cell), format!("`{name}`"));
         let refuse = |problem: String| Err(self.error(cell, problem));
         let value = match parse(cell) {
@@ -215,9 +213,7 @@ fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
     let (mut rows, mut at) = (Vec::new(), 8);
     while at < body.len() {
         let label = numbers(&body[at]);
-        let [label] = label[..] else {
-            return Err((at, "the number of a node is expected"));
-        };
+        let [label] = label[..] else { return Err((at, "the number of a node is expected")) };
         at += 1;
         let mut own = Vec::new();
         while own.len() < count {

@@ -180,9 +180,7 @@ fn post26_listing(
         numeric == all && all > 1
     };
     let data: Vec<Line> = content.iter().filter(|line| is_data(line)).copied().collect();
-    let Some(first) = data.first() else {
-        return Err(ReadError::no_numbers(source));
-    };
+    let Some(first) = data.first() else { return Err(ReadError::no_numbers(source)) };
     let count = first.1.split_whitespace().count();
     let head = content.iter().take_while(|line| line.0 < first.0);
     let words: Vec<String> =
@@ -267,9 +265,7 @@ fn numbers(
                 let found = fields(text, separator).count();
                 return fail(field, field_count(found, expected));
             };
-            let Some(value) = parse(field) else {
-                return fail(field, unreadable(field, &name(k)));
-            };
+            let Some(value) = parse(field) else { return fail(field, unreadable(field, &name(k))) };
             if !column.push(value, &mut first_day) {
                 return fail(field, not_finite(&shortened(field), &name(k)));
             }

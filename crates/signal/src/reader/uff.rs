@@ -221,9 +221,7 @@ fn binary_numbers(
     lines.at = end;
     let mut out = Vec::with_capacity(length / 4);
     for width in widths.iter().cycle() {
-        let Some((head, tail)) = rest.split_at_checked(*width) else {
-            break;
-        };
+        let Some((head, tail)) = rest.split_at_checked(*width) else { break };
         let bits = whole(head, is_big);
         out.push(match width {
             8 => f64::from_bits(bits),

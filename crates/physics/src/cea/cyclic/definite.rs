@@ -33,9 +33,7 @@ pub(super) fn is_empty(
     region: Region,
 ) -> bool {
     let center = 0.5 * region.real;
-    let Some(test) = TestSpace::new(tangent, tangential, center) else {
-        return false;
-    };
+    let Some(test) = TestSpace::new(tangent, tangential, center) else { return false };
     (0..=3).all(|corner| test.is_definite(&bernstein_weights(corner, friction), region))
 }
 
@@ -97,9 +95,7 @@ impl<'a> TestSpace<'a> {
         // Away from the tangential rows H is Hermitian as it stands and falls with Re(kappa): its inverse
         // at the largest one bounds all others.
         let interior = self.interior(weights, region.real);
-        let Some(factor) = interior.cholesky() else {
-            return false;
-        };
+        let Some(factor) = interior.cholesky() else { return false };
         [0.0, region.real].into_iter().all(|real| {
             [-region.imaginary, region.imaginary].into_iter().all(|imaginary| {
                 self.schur_is_definite(&factor, weights, c64::new(real, imaginary))

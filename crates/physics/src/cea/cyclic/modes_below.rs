@@ -59,9 +59,7 @@ pub(super) fn wanted(
     limit: ModeLimit,
     bound: f64,
 ) -> Result<f64, CeaError> {
-    let ModeLimit::Lowest(asked) = limit else {
-        return Ok(bound);
-    };
+    let ModeLimit::Lowest(asked) = limit else { return Ok(bound) };
     let all = found.iter().flat_map(|found| of_all_waves(tangent, found.harmonic, &found.modes));
     just_above(asked, all.collect())
 }

@@ -140,9 +140,7 @@ impl HarmonicProblem {
     pub fn rayleigh_quotient(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64]) -> (c64, c64) {
         let form = |values: &[c64]| dot(y, &at.now.combine([(c64::ONE, values)], x, false));
         let (m, k) = (form(&at.now.mass), form(&at.now.stiffness_at(theta)));
-        let Some(damping) = self.damping(at) else {
-            return (k / m, -m);
-        };
+        let Some(damping) = self.damping(at) else { return (k / m, -m) };
         let c = form(damping);
         let root = (c * c - m * k * 4.0).sqrt();
         let candidates = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];

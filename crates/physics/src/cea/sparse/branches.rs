@@ -313,9 +313,7 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
         let a = &from.1[i];
         let distance = |j: usize| (overlaps[(i, j)] - 1.0).abs();
         let best = (0..to.1.len()).min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
-        let Some(j) = best.filter(|&j| distance(j) < ALIKE && !taken[j]) else {
-            continue;
-        };
+        let Some(j) = best.filter(|&j| distance(j) < ALIKE && !taken[j]) else { continue };
         let b = &to.1[j];
         let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
         let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;

@@ -230,9 +230,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
             // Static instability has no modes.
             if interval.branch > 0 {
                 let rank = rank_of.get(&(part, interval.branch));
-                let Some(rank) = rank.filter(|rank| is_listed(**rank)) else {
-                    continue;
-                };
+                let Some(rank) = rank.filter(|rank| is_listed(**rank)) else { continue };
                 interval.branch = *rank;
             }
             found.push(interval);

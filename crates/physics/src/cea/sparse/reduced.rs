@@ -344,9 +344,7 @@ impl ReducedModel {
         count: usize,
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
-        let Some(columns) = space else {
-            return self.solve_projected(at, count, with_left);
-        };
+        let Some(columns) = space else { return self.solve_projected(at, count, with_left) };
         let mut modes = self.solve_projected(&at.within(&columns), count, with_left)?;
         for mode in &mut modes {
             mode.right = combined(&columns, &mode.right);

@@ -87,9 +87,7 @@ impl PeriodicBranch {
 
     /// Where cycles live beside stable sliding, SI: from the farthest cycle to the onset, lower value first.
     pub fn coexistence(&self) -> Vec<[f64; 2]> {
-        let Some([low, high]) = self.range() else {
-            return Vec::new();
-        };
+        let Some([low, high]) = self.range() else { return Vec::new() };
         let slightly = SAME * (high - low);
         // Sliding is unstable where the search has started.
         let pairs = self.onsets.iter().filter_map(|&onset| {

@@ -308,9 +308,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
 }
 
 fn accepted(best: Option<Point>, periods: usize) -> Result<Point, CycleError> {
-    let Some(mut point) = best else {
-        return Err(CycleError::unbounded(periods));
-    };
+    let Some(mut point) = best else { return Err(CycleError::unbounded(periods)) };
     let residual = point.found.residual;
     point.found.residual = point.found.image.relative_residual();
     point.found.periods = periods;

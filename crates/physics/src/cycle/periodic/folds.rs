@@ -36,9 +36,7 @@ impl Follower<'_, '_, '_> {
                 let guess = self.corrector.scaled(&here, factor, value)?;
                 let goal = Goal::Length { from: place, tangent: [0.0, -sense], length };
                 self.corrector.forget();
-                let Ok(next) = self.corrector.correct(&here, guess, &goal) else {
-                    continue;
-                };
+                let Ok(next) = self.corrector.correct(&here, guess, &goal) else { continue };
                 let to = next.place(scales);
                 let (direction, distance) = way(place, to);
                 let is_other = self.off_branch(to) > 0.2 * length;
@@ -93,12 +91,8 @@ impl Follower<'_, '_, '_> {
         }
         for turn in 0..REFINED {
             let places: Vec<Place> = three.iter().map(place).collect();
-            let Some(amplitude) = extreme(&places, turn) else {
-                break;
-            };
-            let Some(next) = self.at_amplitude(&three, amplitude) else {
-                break;
-            };
+            let Some(amplitude) = extreme(&places, turn) else { break };
+            let Some(next) = self.at_amplitude(&three, amplitude) else { break };
             let gain = (place(&next)[0] - places[1][0]) * sense;
             let is_above = amplitude > places[1][1];
             if gain > 0.0 {

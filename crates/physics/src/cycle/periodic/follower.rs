@@ -73,9 +73,7 @@ impl Way for Follower<'_, '_, '_> {
         if self.points.len() >= POINTS[0] * self.values.count() + POINTS[1] {
             return Ok(Some(BranchEnd::Steps));
         }
-        let Some((goal, reach)) = self.goal() else {
-            return Ok(Some(BranchEnd::Range));
-        };
+        let Some((goal, reach)) = self.goal() else { return Ok(Some(BranchEnd::Range)) };
         let guess = self.guess(&goal, reach);
         let here = self.here().clone();
         match self.corrector.correct(&here, guess, &goal) {

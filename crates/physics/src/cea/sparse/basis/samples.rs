@@ -221,9 +221,7 @@ impl BasisBuilder<'_> {
         let none = || Mat::zeros(unknowns, 0);
         let solved: Vec<Mat<f64>> = crate::parallel::map(open.chunks(share), |own| {
             let beside = own[own.len() / 2].eigenvalue * (1.0 + BESIDE);
-            let Ok(factors) = problem.factors(beside) else {
-                return none();
-            };
+            let Ok(factors) = problem.factors(beside) else { return none() };
             let of_side = |is_left: bool| {
                 let residual = |mode: &&ReducedMode| self.residual(&problem, mode, is_left);
                 let residuals: Vec<Vec<c64>> = own.iter().map(residual).collect();

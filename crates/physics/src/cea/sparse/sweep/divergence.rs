@@ -51,9 +51,7 @@ impl SparseSweep<'_> {
         let places = [beyond, reach.clamp(beyond, next)].into_iter();
         let mut places = places.chain(end.is_damped.then_some(next));
         let (mut high, mut after) = loop {
-            let Some(high) = places.next() else {
-                return Ok(None);
-            };
+            let Some(high) = places.next() else { return Ok(None) };
             let after = self.static_determinant(high, size)?;
             if before * after < 0.0 {
                 break (high, after);

@@ -103,9 +103,7 @@ fn sheet_advance_body<const FUSED: bool>(
             move_places::<FUSED>(layout.lines(step), masses, fields, coefficients, &mut sums);
             layout.close_seams(step, &mut fields.velocity);
         }
-        let Some(node) = step.checked_sub(reach) else {
-            continue;
-        };
+        let Some(node) = step.checked_sub(reach) else { continue };
         let (velocity, rate) = (&fields.velocity, &mut fields.elastic_rate);
         apply_node::<FUSED>(layout, &rows[node], node, velocity, rate);
         let rates = fields.elastic_rate[layout.lines(node)].iter();
