@@ -40,8 +40,7 @@ fn help_has_exit_codes_and_default_folders_and_no_arguments_show_it_as_bad_usage
 #[test]
 fn check_reports_the_cost_as_numbers() {
     let cost = |name: &str| {
-        let answer = run(&folder(), &["check", "--json", &shipped(name)]).done();
-        answer.value()["cases"][0].clone()
+        run(&folder(), &["check", "--json", &shipped(name)]).done().value()["cases"][0].clone()
     };
     let case = cost("polycarbonate-610rpm.toml");
     assert_eq!(case["dofs"], 12960);
@@ -288,8 +287,7 @@ fn completions_and_manual_name_every_subcommand_with_files_and_exit_status() {
         assert!(page.exists(), "{}", page.display());
         assert_eq!(help.matches(&format!("\n  {name} ")).count(), 1, "{name}\n{help}");
         // Every command takes the options of all.
-        let own = run(&folder, &[name, "--help"]).done();
-        own.says(&["--threads ; --simd ; --quiet ; --verbose"]);
+        run(&folder, &[name, "--help"]).done().says(&["--threads ; --simd ; --quiet ; --verbose"]);
         run(&folder, &[name, "--force", "--nonesuch"]).refused(&["argument '--nonesuch'"]);
     }
 }
@@ -328,8 +326,7 @@ fn a_case_from_standard_input_has_a_folder_of_its_own() {
 fn a_dry_run_checks_everything_and_touches_nothing() {
     let folder = folder();
     let dry = |more: &[&str]| on_disc(&folder, "cea", &[&["--dry-run"], more].concat());
-    let answer = dry(&[]).done().says(&["valid", "results/polycarbonate-disc/cea"]);
-    assert_eq!(answer.stderr, "");
+    assert_eq!(dry(&[]).done().says(&["valid", "results/polycarbonate-disc/cea"]).stderr, "");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     fs::create_dir(folder.path().join("here")).unwrap();
     fs::write(folder.path().join("here/thesis.tex"), "x").unwrap();

@@ -74,8 +74,7 @@ fn plot(folder: &Path) -> bool {
 }
 
 fn hold_figures(command: &str) {
-    let scratch = folder();
-    let folder = finished(scratch.path(), command);
+    let folder = finished(folder().path(), command);
     let original = fs::read(folder.join("figures.bin")).unwrap();
     assert!(plot(&folder), "{command}: the folder as it was written");
     let make = |random: &mut Random| match random.below(4) {
@@ -156,8 +155,7 @@ fn a_damaged_manifest_or_summary_is_never_used() {
 
 #[test]
 fn a_damaged_point_counts_as_missing() {
-    let scratch = folder();
-    let path = finished(scratch.path(), "sweep");
+    let path = finished(folder().path(), "sweep");
     let folder = SweepFolder::find(&path, "sweep").unwrap();
     let file = folder.point_path(1);
     let original = fs::read(&file).unwrap();

@@ -60,8 +60,7 @@ fn every_common_dialect_gives_the_same_response() {
     ];
     for text in &dialects {
         let got = read_response(text.as_bytes(), "b", None);
-        let got = got.unwrap_or_else(|e| panic!("{e}\n{text}"));
-        assert_eq!(got.response, want, "{text}");
+        assert_eq!(got.unwrap_or_else(|e| panic!("{e}\n{text}")).response, want, "{text}");
     }
     let wide: Vec<u8> =
         [0xff, 0xfe].into_iter().chain(plain.encode_utf16().flat_map(u16::to_le_bytes)).collect();
