@@ -116,15 +116,10 @@ impl SparseSweep<'_> {
 
     /// Residual force, relative to the inertia force, above which a point is improved.
     ///
-    /// The real problem's bases aim lower anyway. Of the quadratic one an eigenvalue is wrong by the product of the errors of its right
-    /// and left vectors: this keeps it below 1e-9. With other than viscous damping the basis, made of right vectors alone, is too poor in
-    /// left ones for errors of eigenvalues to be of second order.
+    /// An eigenvalue is wrong by the product of the errors of its right and left vectors: this keeps it below 1e-9. With other than viscous
+    /// damping the basis, made of right vectors alone, is too poor in left ones for errors of eigenvalues to be of second order.
     pub(super) fn goal(&self) -> f64 {
-        match self.linearization {
-            _ if self.tangent.is_lossy() => RESIDUAL_BOUND,
-            Linearization::Reduced(..) => 1e-10,
-            Linearization::Companion { .. } => 1e-7,
-        }
+        if self.tangent.is_lossy() { RESIDUAL_BOUND } else { 1e-7 }
     }
 
     /// Points whose modes could still be improved.
