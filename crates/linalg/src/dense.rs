@@ -3,6 +3,7 @@
 use super::gaussian_noise::splitmix64;
 use faer::linalg::matmul::matmul;
 use faer::prelude::{IntoConst, ReborrowMut};
+use faer::traits::ComplexField;
 use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par, concat};
 
 /// `a b`.
@@ -159,18 +160,25 @@ pub fn column_blocks<T>(
     })
 }
 
-/// `a^T b`, summed in eight fixed lanes so that it vectorizes.
+/// The sum of the products of entries, in eight fixed lanes so that it vectorizes.
 #[inline]
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; 8];
+pub fn product_sum<T: ComplexField + Copy>(a: &[T], b: &[T], product: impl Fn(T, T) -> T) -> T {
+    let mut lanes = [T::zero_impl(); 8];
     let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
-    let tail: f64 = a_chunks.remainder().iter().zip(b_chunks.remainder()).map(|(x, y)| x * y).sum();
+    let rest = a_chunks.remainder().iter().zip(b_chunks.remainder());
+    let tail = rest.fold(T::zero_impl(), |sum, (x, y)| sum + product(*x, *y));
     for (x, y) in a_chunks.zip(b_chunks) {
         for lane in 0..8 {
-            lanes[lane] += x[lane] * y[lane];
+            lanes[lane] += product(x[lane], y[lane]);
         }
     }
-    lanes.iter().sum::<f64>() + tail
+    lanes.into_iter().fold(T::zero_impl(), |sum, lane| sum + lane) + tail
+}
+
+/// `a^H b`.
+#[inline]
+pub fn dot<T: ComplexField<Real = f64> + Copy>(a: &[T], b: &[T]) -> T {
+    product_sum(a, b, |x, y| T::conj_impl(&x) * y)
 }
 
 /// `a - b`.
@@ -180,13 +188,16 @@ pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
 
 /// `a += factor b`.
 #[inline]
-pub fn add(a: &mut [f64], factor: f64, b: &[f64]) {
-    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
+pub fn add<T: ComplexField + Copy>(a: &mut [T], factor: T, b: &[T]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * *b);
 }
 
 /// Takes the shares of the orthonormal `basis` out of `vector`, twice, and gives them.
-pub fn orthogonalize(vector: &mut [f64], basis: &[Vec<f64>]) -> Vec<f64> {
-    let mut shares = vec![0.0; basis.len()];
+pub fn orthogonalize<T: ComplexField<Real = f64> + Copy>(
+    vector: &mut [T],
+    basis: &[Vec<T>],
+) -> Vec<T> {
+    let mut shares = vec![T::zero_impl(); basis.len()];
     for _ in 0..2 {
         for (unit, share) in basis.iter().zip(&mut shares) {
             let part = dot(unit, vector);

@@ -25,6 +25,7 @@ mod sparse_lu;
 mod sparse_product;
 pub mod vectors;
 
+pub use faer::traits::ComplexField;
 pub use faer::{Mat, MatMut, MatRef, Scale, c64};
 
 pub use contour::{Uncounted, ZeroCount, count_zeros};

@@ -36,4 +36,11 @@ impl SparseCholesky {
     pub fn solve_in_place(&self, right_sides: MatMut<'_, f64>) {
         self.factor.solve_in_place(right_sides);
     }
+
+    /// Solves `A x = b`.
+    pub fn solve(&self, mut right_side: Vec<f64>) -> Vec<f64> {
+        let count = right_side.len();
+        self.solve_in_place(MatMut::from_column_major_slice_mut(&mut right_side, count, 1));
+        right_side
+    }
 }

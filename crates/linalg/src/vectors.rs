@@ -1,27 +1,17 @@
 //! Sums over short complex vectors.
 
+pub use crate::dense::dot;
+
 use crate::c64;
+use crate::dense::product_sum;
 
 /// Zero.
 pub const ZERO: c64 = c64::new(0.0, 0.0);
 
-/// `y^H x`.
-pub fn dot(y: &[c64], x: &[c64]) -> c64 {
-    y.iter().zip(x).map(|(y, x)| y.conj() * x).sum()
-}
-
-/// `a^T x` in four fixed sums, which do not wait for one another.
+/// `a^T x`.
+#[inline]
 pub fn product(a: &[c64], x: &[c64]) -> c64 {
-    let mut sums = [ZERO; 4];
-    let (a_chunks, x_chunks) = (a.chunks_exact(4), x.chunks_exact(4));
-    let rest = a_chunks.remainder().iter().zip(x_chunks.remainder());
-    let tail: c64 = rest.map(|(a, x)| a * x).sum();
-    for (a, x) in a_chunks.zip(x_chunks) {
-        for lane in 0..4 {
-            sums[lane] += a[lane] * x[lane];
-        }
-    }
-    sums.iter().sum::<c64>() + tail
+    product_sum(a, x, |a, x| a * x)
 }
 
 /// Adds a vector to another.

@@ -1,17 +1,15 @@
-//! Banded matrices: storage, inertia by `L D L^T`, Cholesky, complex LU with partial pivoting,
+//! Banded matrices: storage, inertia by `L D L^H`, complex LU with partial pivoting,
 //! several complex systems at a time.
 
 mod batch;
 mod compact;
 mod definite;
 mod lu;
-mod symmetric;
 
 pub use batch::{BandedBatch, LANES, Lanes, Quality};
 pub use compact::CompactRows;
 pub use definite::BandedFactor;
 pub use lu::BandedLu;
-pub use symmetric::BandedHermitian;
 
 use faer::c64;
 

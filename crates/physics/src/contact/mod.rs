@@ -17,7 +17,6 @@
 
 mod counterpart;
 mod dual;
-mod grid;
 mod interface;
 mod law;
 mod linearized;

@@ -1,9 +1,8 @@
 //! Faces of two surfaces that face each other, cut into the segments that both have.
 
-use super::grid::Grid;
 use super::polygon::{clipped, signed_area, without_straight_corners};
 use super::{PairError, RigidCounterface, Row, row_along};
-use crate::mesh::{Boundary, BoundaryFace, Mesh};
+use crate::mesh::{Boundary, BoundaryFace, Grid, Mesh};
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 /// A point at which one surface faces another: of a segment, or a node with the mean of what lies around it.

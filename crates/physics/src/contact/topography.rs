@@ -1,8 +1,8 @@
 //! A measured surface: gaps at scattered points, between which they are interpolated.
 
 use super::PairError;
-use super::grid::Grid;
 use super::surface::SurfacePair;
+use crate::mesh::Grid;
 use nalgebra::{Matrix3, Vector3};
 
 /// Share of a surface's size within which a contact point needs a measured one.

@@ -1,8 +1,7 @@
 //! Krylov spaces in which many lines are solved at once.
 
-use crate::linalg::dense::dot;
-use crate::linalg::{ComplexDenseLu, Mat, c64};
-use std::ops::{Mul, SubAssign};
+use crate::linalg::dense::{dot, orthogonalize};
+use crate::linalg::{ComplexDenseLu, ComplexField, Mat, c64};
 
 /// Relative residual of the projected systems at which the space is large enough.
 const RESIDUAL: f64 = 1e-15;
@@ -10,40 +9,17 @@ const RESIDUAL: f64 = 1e-15;
 const STRIDE: usize = 6;
 
 /// Real or complex entries of vectors.
-pub(super) trait Entry:
-    Copy + Into<c64> + Mul<f64, Output = Self> + Mul<Output = Self> + SubAssign
-{
+pub(super) trait Entry: ComplexField<Real = f64> + Copy + Into<c64> {
     /// Most vectors of a space: about what complex factorizations of all its lines cost.
     const MOST_VECTORS: usize;
-    /// `a^H b`.
-    fn dot(a: &[Self], b: &[Self]) -> Self;
 }
 
 impl Entry for f64 {
     const MOST_VECTORS: usize = 72;
-
-    fn dot(a: &[f64], b: &[f64]) -> f64 {
-        dot(a, b)
-    }
 }
 
 impl Entry for c64 {
     const MOST_VECTORS: usize = 42;
-
-    fn dot(a: &[c64], b: &[c64]) -> c64 {
-        // Real and imaginary parts of four products each, summed apart: additions need not wait for each other.
-        let (mut re, mut im) = ([0.0; 4], [0.0; 4]);
-        let (a_blocks, b_blocks) = (a.chunks_exact(4), b.chunks_exact(4));
-        let tail = a_blocks.remainder().iter().zip(b_blocks.remainder());
-        let rest: c64 = tail.map(|(x, y)| x.conj() * y).sum();
-        for (x, y) in a_blocks.zip(b_blocks) {
-            for lane in 0..4 {
-                re[lane] += x[lane].re * y[lane].re + x[lane].im * y[lane].im;
-                im[lane] += x[lane].re * y[lane].im - x[lane].im * y[lane].re;
-            }
-        }
-        c64::new(re.iter().sum(), im.iter().sum()) + rest
-    }
 }
 
 /// The space `g, B g, B^2 g, ...` for systems `(1 - d B) x = g` with many `d`.
@@ -94,15 +70,8 @@ impl<T: Entry> KrylovSpace<T> {
     /// One more vector, from the image of the last; `false` if the space is complete.
     fn extend(&mut self, mut image: Vec<T>) -> bool {
         let before = norm(&image);
-        let mut coefficients = vec![c64::new(0.0, 0.0); self.vectors.len()];
-        // Twice is enough for orthogonality to round-off.
-        for _ in 0..2 {
-            for (coefficient, vector) in coefficients.iter_mut().zip(&self.vectors) {
-                let product = T::dot(vector, &image);
-                *coefficient += product.into();
-                image.iter_mut().zip(vector).for_each(|(a, b)| *a -= product * *b);
-            }
-        }
+        let shares = orthogonalize(&mut image, &self.vectors);
+        let mut coefficients: Vec<c64> = shares.into_iter().map(Into::into).collect();
         let left = norm(&image);
         let is_new = left > f64::EPSILON * before;
         coefficients.push(c64::new(if is_new { left } else { 0.0 }, 0.0));
@@ -134,11 +103,10 @@ impl<T: Entry> KrylovSpace<T> {
 }
 
 fn norm<T: Entry>(a: &[T]) -> f64 {
-    let square: c64 = T::dot(a, a).into();
-    square.re.sqrt()
+    T::real_part_impl(&dot(a, a)).sqrt()
 }
 
 fn scaled<T: Entry>(mut a: Vec<T>, factor: f64) -> Vec<T> {
-    a.iter_mut().for_each(|value| *value = *value * factor);
+    a.iter_mut().for_each(|value| *value = T::mul_real_impl(value, &factor));
     a
 }

@@ -170,17 +170,11 @@ pub(super) fn known_instead<'a>(
     name: &str,
     [part, in_gmsh]: [&str; 2],
 ) -> String {
-    let nearest = known
-        .clone()
-        .filter(|known| known.len().abs_diff(name.len()) <= 1 + name.len() / 3)
-        .map(|known| (strsim::damerau_levenshtein(known, name), known))
-        .min();
-    let hint = match nearest {
-        Some((distance, known)) if distance <= 1 + name.len() / 3 => {
-            format!("; did you mean \"{known}\"?")
-        }
-        _ => String::new(),
-    };
+    let is_near = |known: &&String| known.len().abs_diff(name.len()) <= 1 + name.len() / 3;
+    let distances = known.clone().filter(is_near);
+    let distances = distances.map(|known| (strsim::damerau_levenshtein(known, name), known));
+    let nearest = distances.min().filter(|(distance, _)| *distance <= 1 + name.len() / 3);
+    let hint = nearest.map_or_else(String::new, |own| format!("; did you mean \"{}\"?", own.1));
     let more = known.len().saturating_sub(NAMED);
     let names = known.take(NAMED).map(|name| format!("\"{name}\""));
     let names: Vec<String> = names.chain((more > 0).then(|| format!("{more} more"))).collect();

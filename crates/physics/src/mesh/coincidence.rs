@@ -2,7 +2,9 @@
 
 use super::Mesh;
 use super::error::BodyError;
+use super::grid::Grid;
 use frictionsim_formats::FileMesh;
+use nalgebra::Vector3;
 use std::collections::HashMap;
 
 /// Distance up to which nodes coincide, over the shortest edge of the mesh.
@@ -12,37 +14,20 @@ const NAMED: usize = 3;
 
 /// Pairs `(lower, higher)` of nodes that lie within `distance` of each other, in rising order: the nearest lower node of
 /// each that has one. Linear in the number of nodes where few lie in one place.
-pub fn coincident_nodes<const D: usize>(points: &[[f64; D]], distance: f64) -> Vec<(u32, u32)> {
-    let cell = |value: f64| (value / (4.0 * distance)).floor() as i64;
-    let mut nodes_of: HashMap<[i64; D], Vec<u32>> = HashMap::new();
+pub fn coincident_nodes(points: &[[f64; 3]], distance: f64) -> Vec<(u32, u32)> {
+    let places = || points.iter().map(|&point| Vector3::from(point));
+    let grid = Grid::of(4.0 * distance, places().map(|place| (place, 0.0)));
+    let mut is_paired = vec![false; points.len()];
     let mut pairs = Vec::new();
-    for (node, point) in points.iter().enumerate() {
-        // The cells that a ball about the point reaches into: one in almost every case.
-        let low = point.map(|value| cell(value - distance));
-        let high = point.map(|value| cell(value + distance));
-        let mut nearest: Option<(f64, u32)> = None;
-        for corner in 0..1usize << D {
-            let axis = |i: usize| {
-                if corner >> i & 1 == 0 { low[i] } else { high[i] }
-            };
-            let is_repeated = (0..D).any(|i| corner >> i & 1 == 1 && low[i] == high[i]);
-            if is_repeated {
-                continue;
-            }
-            let key: [i64; D] = std::array::from_fn(axis);
-            for &other in nodes_of.get(&key).into_iter().flatten() {
-                let squares = (0..D).map(|i| (points[other as usize][i] - point[i]).powi(2));
-                let apart = squares.sum::<f64>().sqrt();
-                let is_nearer = nearest.is_none_or(|(least, _)| apart < least);
-                if apart <= distance && is_nearer {
-                    nearest = Some((apart, other));
-                }
-            }
-        }
+    for (node, place) in places().enumerate() {
         // A place is known by its first node: later ones are paired with that.
-        match nearest {
-            Some((_, first)) => pairs.push((first, node as u32)),
-            None => nodes_of.entry(point.map(cell)).or_default().push(node as u32),
+        let others = grid.near(&place, distance).into_iter();
+        let others = others.filter(|&other| other < node && !is_paired[other]);
+        let apart = others.map(|other| ((Vector3::from(points[other]) - place).norm(), other));
+        let nearest = apart.filter(|own| own.0 <= distance).min_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, first)) = nearest {
+            is_paired[node] = true;
+            pairs.push((first as u32, node as u32));
         }
     }
     pairs.sort_unstable();
@@ -56,12 +41,8 @@ pub(super) fn refuse_doubled_elements(file: &FileMesh) -> Result<(), BodyError> 
     for (e, element) in file.elements.iter().enumerate() {
         let mut corners = element.nodes[..element.kind.corner_count()].to_vec();
         corners.sort_unstable();
-        match first_of.get(&corners) {
-            Some(&first) => doubled.push((first, e)),
-            None => {
-                first_of.insert(corners, e);
-            }
-        }
+        let first = *first_of.entry(corners).or_insert(e);
+        doubled.extend((first != e).then_some((first, e)));
     }
     if doubled.is_empty() {
         return Ok(());

@@ -33,33 +33,23 @@ impl Mesh {
         }
     }
 
-    /// Key, element and number within it of every face of every element, sorted.
-    fn sorted_faces(&self) -> Vec<(FaceKey, u32, u32)> {
-        let mut faces: Vec<(FaceKey, u32, u32)> = (0..self.element_count())
-            .flat_map(|element| {
-                let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
-                kind.faces().iter().enumerate().map(move |(face, (kind, locals))| {
-                    let corners = locals[..kind.corner_count()].iter().map(|&local| nodes[local]);
-                    (face_key(corners), element as u32, face as u32)
-                })
-            })
-            .collect();
-        faces.sort_unstable();
-        faces
-    }
-
     /// Faces that belong to one element only, in the order of their elements: the surface of the body.
     pub fn outer_faces(&self) -> Vec<BoundaryFace> {
-        let faces = self.sorted_faces();
-        let is_alone = |i: usize| {
-            let is_same = |j: usize| faces.get(j).is_some_and(|other| other.0 == faces[i].0);
-            !(is_same(i + 1) || i > 0 && is_same(i - 1))
+        // Key, element and number within it of every face of every element.
+        let of_element = |element: usize| {
+            let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
+            kind.faces().iter().enumerate().map(move |(face, (kind, locals))| {
+                let corners = locals[..kind.corner_count()].iter().map(|&local| nodes[local]);
+                (face_key(corners), element, face)
+            })
         };
-        let mut alone: Vec<(u32, u32)> =
-            (0..faces.len()).filter(|&i| is_alone(i)).map(|i| (faces[i].1, faces[i].2)).collect();
+        let mut faces: Vec<(FaceKey, usize, usize)> =
+            (0..self.element_count()).flat_map(of_element).collect();
+        faces.sort_unstable();
+        let alone = faces.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() == 1);
+        let mut alone: Vec<(usize, usize)> = alone.map(|own| (own[0].1, own[0].2)).collect();
         alone.sort_unstable();
-        let alone = alone.into_iter();
-        alone.map(|(element, face)| self.element_face(element as usize, face as usize)).collect()
+        alone.into_iter().map(|(element, face)| self.element_face(element, face)).collect()
     }
 
     /// The same by what names them.

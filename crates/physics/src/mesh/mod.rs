@@ -11,6 +11,7 @@ mod cyclic_symmetry;
 mod error;
 mod faces;
 mod frames;
+mod grid;
 mod modification;
 mod plane_body;
 mod quality;
@@ -39,6 +40,7 @@ pub use frictionsim_formats::{
     MaterialAxes, MeshFileError, MeshFormat, ModelData, QuadraturePoint, Shape, SurfaceFace,
     included_text,
 };
+pub(crate) use grid::Grid;
 pub use modification::{Attachment, DampedPatch};
 pub use quality::MeshQuality;
 pub use refinement::refined_file;

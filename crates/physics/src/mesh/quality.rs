@@ -2,6 +2,7 @@
 
 use super::error::BodyError;
 use super::{BoundaryCondition, Mesh};
+use crate::order::range;
 use crate::output::Described;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use serde::Serialize;
@@ -37,12 +38,9 @@ impl Mesh {
         let kind = self.element_kind(element);
         let quadrature = kind.quadrature().into_iter().map(|(place, _)| place);
         let places = kind.node_places().into_iter().chain(quadrature);
-        let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
-        for value in places.map(|place| self.jacobian(element, place)) {
-            low = low.min(value);
-            high = high.max(value.abs());
-        }
-        if high > 0.0 { low / high } else { 0.0 }
+        let [low, high] = range(places.map(|place| self.jacobian(element, place)));
+        let largest = high.max(-low);
+        if largest > 0.0 { low / largest } else { 0.0 }
     }
 
     /// Volume of an element of a solid body, m3; area of a plane element, m2, whose quadratic edges are parabolas.
@@ -54,9 +52,8 @@ impl Mesh {
     /// Half the largest extent, m.
     pub fn size(&self) -> f64 {
         let extent = |axis: usize| {
-            let coordinates = || self.nodes.iter().map(|point| point[axis]);
-            coordinates().fold(f64::NEG_INFINITY, f64::max)
-                - coordinates().fold(f64::INFINITY, f64::min)
+            let [low, high] = range(self.nodes.iter().map(|point| point[axis]));
+            high - low
         };
         0.5 * (0..3).map(extent).fold(0.0, f64::max)
     }
@@ -92,14 +89,9 @@ impl Mesh {
             let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
             let lengths = kind.edges().iter().map(|ends| {
                 let [p, q] = ends.map(|local| self.nodes[nodes[local] as usize]);
-                match self.dimension {
-                    2 => (p[0] - q[0]).hypot(p[1] - q[1]),
-                    _ => (p[0] - q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2]),
-                }
+                (p[0] - q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2])
             });
-            let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), length| {
-                (low.min(length), high.max(length))
-            });
+            let [low, high] = range(lengths);
             quality.smallest_edge_m = quality.smallest_edge_m.min(low);
             quality.largest_edge_m = quality.largest_edge_m.max(high);
             quality.largest_aspect_ratio = quality.largest_aspect_ratio.max(high / low);

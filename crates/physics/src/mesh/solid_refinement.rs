@@ -1,7 +1,7 @@
 //! Uniform refinement of solid bodies: every element into eight alike, pyramids into six of them and four tetrahedra.
 
 use super::error::BodyError;
-use super::faces::{FaceKey, face_key};
+use super::faces::FaceKey;
 use super::splitting::{Part, Splitting};
 use super::{Boundary, BoundaryFace, Mesh, NodalFrames};
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,9 +32,7 @@ impl Mesh {
         };
         for element in 0..self.element_count() {
             let (kind, own) = (self.element_kind(element), self.element_nodes(element));
-            let named = kind.faces().iter().map(|(face, locals)| {
-                face_key(locals[..face.corner_count()].iter().map(|&k| own[k]))
-            });
+            let named = (0..kind.faces().len()).map(|face| self.element_face(element, face).key());
             let named: Vec<FaceKey> = named.filter(|key| children.contains_key(key)).collect();
             for part in splitting.split(kind, own, |_, _| None) {
                 let number = fine.element_kinds.len() as u32;

@@ -1,6 +1,6 @@
 //! Bodies of one mesh that slide: on each other or on a counterface, solid ones tied together.
 
-use super::cholesky::CholeskySolver;
+use super::cholesky::factorized;
 use super::elimination::Elimination;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_range::PressedRange;
@@ -254,12 +254,12 @@ impl<'a> Assembly<'a> {
             let basis = &self.joined.basis;
             let unknowns = basis.unknowns();
             let held = basis.congruent(stiffness);
-            let solver = CholeskySolver::new(&held, &unknowns).or_else(|error| {
+            let solver = factorized(&held, &unknowns).or_else(|error| {
                 // A centrifugal load alone is in balance by itself.
                 match &self.joined.rotation {
                     Some(own) if own.centrifugal == load => {
                         let body = (self.mesh, self.materials);
-                        CholeskySolver::new(&grounded(held, body, basis), &unknowns)
+                        factorized(&grounded(held, body, basis), &unknowns)
                     }
                     _ => Err(error),
                 }

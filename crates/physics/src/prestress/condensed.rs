@@ -1,12 +1,11 @@
 //! Bodies condensed onto their contact points: a dense system, as rigid contact needs it.
 
 use super::PrestressError;
-use super::cholesky::CholeskySolver;
 use super::joined_points::JoinedPoints;
 use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, Pressing};
 use crate::contact::{Point, Row};
 use crate::fem::Triplets;
-use crate::linalg::{DenseLu, Mat};
+use crate::linalg::{DenseLu, Mat, SparseCholesky};
 
 /// Contact points whose responses are computed together.
 const BLOCK: usize = 32;
@@ -33,7 +32,7 @@ const NODES: usize = 7;
 /// One solution for each point serves both: `B` has the rows of `t` and the columns of `K*^-1 n`, since `K*` is symmetric.
 pub(super) struct CondensedContact<'a> {
     points: JoinedPoints<'a>,
-    solver: CholeskySolver,
+    solver: SparseCholesky,
     /// `A` and `B`.
     normal_response: Mat<f64>,
     drag_response: Mat<f64>,
@@ -76,7 +75,7 @@ impl<'a> CondensedContact<'a> {
                     block[(dof, j)] += along;
                 }
             }
-            self.solver.solve_block(block.as_mut());
+            self.solver.solve_in_place(block.as_mut());
             let response = |row: &Row, j: usize| -> f64 {
                 row.iter().map(|&(dof, a)| a * block[(dof, j)]).sum()
             };

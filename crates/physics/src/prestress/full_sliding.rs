@@ -1,12 +1,13 @@
 //! Steady sliding of a body whose contact is pressed all around: its normal forces do not depend on friction.
 
 use super::PrestressError;
-use super::cholesky::CholeskySolver;
+use super::cholesky::factorized;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
 use super::pressed_state::{PressedBodies, Pressing};
 use crate::contact::{ContactInterface, Point, PressedState};
 use crate::fem::{DofMap, Triplets};
+use crate::linalg::SparseCholesky;
 
 /// A body with the separations of its contact points prescribed.
 pub(super) struct FullSliding<'a> {
@@ -17,7 +18,7 @@ pub(super) struct FullSliding<'a> {
     /// Stiffness over separations and the other dofs.
     stiffness: Triplets,
     unknowns: DofMap,
-    solver: CholeskySolver,
+    solver: SparseCholesky,
 }
 
 impl<'a> FullSliding<'a> {
@@ -35,7 +36,7 @@ impl<'a> FullSliding<'a> {
         let stiffness = basis.congruent(stiffness);
         separations.iter().for_each(|&dof| basis.drop_unknown(dof));
         let unknowns = basis.unknowns();
-        let solver = CholeskySolver::new(&stiffness, &unknowns)?;
+        let solver = factorized(&stiffness, &unknowns)?;
         Ok(Self { points, basis, separations, stiffness, unknowns, solver })
     }
 

@@ -1,10 +1,11 @@
 //! Bodies over their unknowns, with springs at their contact points.
 
 use super::PrestressError;
-use super::cholesky::CholeskySolver;
+use super::cholesky::factorized;
 use super::pressed_state::{ContactState, Pressing};
 use crate::contact::{Row, scaled};
 use crate::fem::{DofMap, Triplets};
+use crate::linalg::SparseCholesky;
 
 /// Bodies and the rows of their contact points over the unknowns. Bodies may be held by contact alone: what is factorized has
 /// springs at the points,
@@ -43,14 +44,14 @@ impl<'a> JoinedPoints<'a> {
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn factorize(&self, springs: &[f64]) -> Result<CholeskySolver, PrestressError> {
+    pub fn factorize(&self, springs: &[f64]) -> Result<SparseCholesky, PrestressError> {
         let mut held = self.stiffness.clone();
         for (row, spring) in self.normals.iter().zip(springs) {
             let row = row.iter().map(|&(unknown, along)| (self.unknowns.dofs[unknown], along));
             let row: Row = row.collect();
             held.push_product(*spring, &row, &row);
         }
-        CholeskySolver::new(&held, &self.unknowns)
+        factorized(&held, &self.unknowns)
     }
 
     /// The load over the unknowns.
@@ -62,7 +63,7 @@ impl<'a> JoinedPoints<'a> {
     /// `P^-1` times `right_side` and forces along the normals and drags of the points.
     pub fn respond(
         &self,
-        solver: &CholeskySolver,
+        solver: &SparseCholesky,
         mut right_side: Vec<f64>,
         along: impl Iterator<Item = [f64; 2]>,
     ) -> Vec<f64> {
@@ -85,7 +86,7 @@ impl<'a> JoinedPoints<'a> {
     /// Displacement of every dof from the state of the points, with `P` of these springs.
     pub fn displacement(
         &self,
-        (solver, springs): (&CholeskySolver, &[f64]),
+        (solver, springs): (&SparseCholesky, &[f64]),
         friction_coefficient: f64,
         state: &ContactState,
     ) -> Vec<f64> {

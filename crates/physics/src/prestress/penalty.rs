@@ -1,10 +1,9 @@
 //! Bodies on the springs of their contact points: sparse, for many thousands of points.
 
 use super::PrestressError;
-use super::cholesky::CholeskySolver;
 use super::joined_points::JoinedPoints;
 use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, widened};
-use crate::linalg::gmres;
+use crate::linalg::{SparseCholesky, gmres};
 
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
 const OPEN_SHARE: f64 = 1e-6;
@@ -51,7 +50,7 @@ pub(super) struct PenaltyContact<'a> {
     springs: Vec<f64>,
     pushed: Vec<f64>,
     /// `P`, the points pressed in it, and `r_i k_i` in it, N/m.
-    solver: CholeskySolver,
+    solver: SparseCholesky,
     factorized: Vec<bool>,
     held: Vec<f64>,
     /// Whether the last solution took too long.

@@ -1,7 +1,7 @@
 //! Rotation of regions of an assembly.
 
 use super::PrestressError;
-use super::cholesky::CholeskySolver;
+use super::cholesky::factorized;
 use super::elimination::Elimination;
 use crate::contact::Motion;
 use crate::fem::{
@@ -60,7 +60,7 @@ impl Rotation {
 
         // The stress of the centrifugal load alone.
         let unknowns = basis.unknowns();
-        let solver = CholeskySolver::new(&grounded(held(), (mesh, materials), basis), &unknowns)?;
+        let solver = factorized(&grounded(held(), (mesh, materials), basis), &unknowns)?;
         let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
         let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
         let stressed = assemble_geometric_stiffness(mesh, materials, &displacement, None);

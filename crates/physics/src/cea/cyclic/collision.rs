@@ -9,6 +9,7 @@ use super::path::{Eigenpair, GUESSED, Path};
 use super::problem::Matrices;
 use crate::cea::accuracy::SAME_EIGENVALUE;
 use crate::linalg::c64;
+use crate::linalg::dense::add;
 use crate::linalg::vectors::{dot, normalize};
 
 /// Carries path `index`, which cannot be followed any further towards `target`, and the path that it meets
@@ -109,9 +110,7 @@ fn orthonormalize(pair: &mut [Vec<c64>; 2]) {
     // Twice is enough for vectors that are nearly parallel.
     for _ in 0..2 {
         let part = dot(first, second);
-        for (value, other) in second.iter_mut().zip(first.iter()) {
-            *value -= part * other;
-        }
+        add(second, -part, first);
         normalize(second);
     }
 }

@@ -1,6 +1,6 @@
 //! Proof that a harmonic holds no eigenvalue in a region, for a whole range of friction at once.
 
-use crate::linalg::banded::{BandedFactor, BandedHermitian, BandedMatrix};
+use crate::linalg::banded::{BandedFactor, BandedMatrix};
 use crate::linalg::c64;
 use crate::linalg::vectors::{ZERO, dot};
 use crate::prestress::HarmonicTangent;
@@ -33,7 +33,9 @@ pub(super) fn is_empty(
     region: Region,
 ) -> bool {
     let center = 0.5 * region.real;
-    let Some(test) = TestSpace::new(tangent, tangential, center) else { return false };
+    let Some(test) = TestSpace::new(tangent, tangential, center) else {
+        return false;
+    };
     (0..=3).all(|corner| test.is_definite(&bernstein_weights(corner, friction), region))
 }
 
@@ -95,51 +97,57 @@ impl<'a> TestSpace<'a> {
         // Away from the tangential rows H is Hermitian as it stands and falls with Re(kappa): its inverse
         // at the largest one bounds all others.
         let interior = self.interior(weights, region.real);
-        let Some(factor) = interior.cholesky() else { return false };
-        [0.0, region.real].into_iter().all(|real| {
-            [-region.imaginary, region.imaginary].into_iter().all(|imaginary| {
-                self.schur_is_definite(&factor, weights, c64::new(real, imaginary))
+        interior.is_definite()
+            && [0.0, region.real].into_iter().all(|real| {
+                [-region.imaginary, region.imaginary].into_iter().all(|imaginary| {
+                    self.schur_is_definite(&interior, weights, c64::new(real, imaginary))
+                })
             })
-        })
     }
 
-    fn interior(&self, weights: &[f64; 4], shift: f64) -> BandedHermitian {
+    fn interior(&self, weights: &[f64; 4], shift: f64) -> BandedFactor<c64> {
         let half_bandwidth = self.tangent.mass[0].half_bandwidth();
-        let mut matrix = BandedHermitian::zeros(self.others.len(), half_bandwidth);
         let unit = units();
+        let entry = |row: usize, column: usize| {
+            let inertia = c64::new(-shift * self.tangent.mass[0].get(row, column), 0.0);
+            let powers = self.tangent.stiffness.iter().enumerate();
+            powers
+                .fold(inertia, |sum, (k, own)| sum + unit[k] * (weights[k] * own.get(row, column)))
+        };
+        let mut upper = Vec::with_capacity(self.others.len() * (half_bandwidth + 1));
         for (place, &row) in self.others.iter().enumerate() {
-            for other in place.saturating_sub(half_bandwidth)..=place {
-                let column = self.others[other];
-                let mut value = c64::new(-shift * self.tangent.mass[0].get(row, column), 0.0);
-                for (k, stiffness) in self.tangent.stiffness.iter().enumerate() {
-                    value += unit[k] * (weights[k] * stiffness.get(row, column));
-                }
-                matrix.add(place, other, value);
-            }
+            let columns = (place..=place + half_bandwidth).map(|other| self.others.get(other));
+            upper.extend(columns.map(|column| column.map_or(ZERO, |&column| entry(row, column))));
         }
-        matrix
+        BandedFactor::of(half_bandwidth, upper)
     }
 
     /// Whether the Schur complement on the tangential rows is positive definite.
-    fn schur_is_definite(&self, factor: &BandedHermitian, weights: &[f64; 4], kappa: c64) -> bool {
-        let lines = (0..self.tangential.len())
-            .map(|index| self.tested_row_and_column(index, weights, kappa))
-            .collect::<Vec<_>>();
-        let solved = lines.iter().map(|[row, column]| {
+    fn schur_is_definite(
+        &self,
+        interior: &BandedFactor<c64>,
+        weights: &[f64; 4],
+        kappa: c64,
+    ) -> bool {
+        let count = self.tangential.len();
+        let lines: Vec<[Vec<c64>; 2]> =
+            (0..count).map(|index| self.tested_row_and_column(index, weights, kappa)).collect();
+        let borders = lines.iter().map(|[row, column]| {
             let border = |&dof: &usize| 0.5 * (column[dof] + row[dof].conj());
-            factor.half_solve(&self.others.iter().map(border).collect::<Vec<c64>>())
+            self.others.iter().map(border).collect()
         });
-        let solved: Vec<Vec<c64>> = solved.collect();
-        let count = lines.len();
-        let mut complement = BandedHermitian::zeros(count, count.saturating_sub(1));
-        for i in 0..count {
-            for j in 0..=i {
+        let borders: Vec<Vec<c64>> = borders.collect();
+        let mut upper = vec![ZERO; count * count];
+        for (j, border) in borders.iter().enumerate() {
+            let mut solved = border.clone();
+            interior.solve(&mut solved);
+            for i in 0..=j {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
                 let own = 0.5 * (lines[i][0][tj] + lines[j][0][ti].conj());
-                complement.add(i, j, own - dot(&solved[i], &solved[j]));
+                upper[i * count + j - i] = own - dot(&borders[i], &solved);
             }
         }
-        complement.cholesky().is_some()
+        count == 0 || BandedFactor::of(count - 1, upper).is_definite()
     }
 
     /// Row `t` of `T (K - kappa M)`, and column `t` of `K - kappa M`.

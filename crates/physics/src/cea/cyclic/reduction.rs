@@ -5,7 +5,7 @@ use super::path::Eigenpair;
 use super::pencil::{Modes, Pencil};
 use crate::cea::accuracy::{CONVERGED, HALF_THE_DIGITS};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
-use crate::linalg::dense::{dot, product, transpose_product};
+use crate::linalg::dense::{add, dot, product, transpose_product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::vectors;
 use crate::linalg::{Mat, c64};
@@ -72,7 +72,7 @@ impl Reduction {
             for _ in 0..2 {
                 for (q, p) in columns.iter().zip(&momenta) {
                     let part = dot(p, &x);
-                    x.iter_mut().zip(q).for_each(|(v, q)| *v -= part * q);
+                    add(&mut x, -part, q);
                 }
             }
             let momentum = pencil.mass.multiply(&x);
@@ -82,10 +82,7 @@ impl Reduction {
                 momenta.push(momentum.iter().map(|v| v / left).collect());
             }
         }
-        let mut basis = Mat::zeros(count, columns.len());
-        for (j, x) in columns.iter().enumerate() {
-            x.iter().enumerate().for_each(|(row, value)| basis[(row, j)] = *value);
-        }
+        let basis = Mat::from_fn(count, columns.len(), |row, j| columns[j][row]);
         Self { basis, kappas, turned: None }
     }
 
@@ -263,8 +260,7 @@ fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     kept.map(|k| {
         let mut x = vec![0.0; responses[0].len()];
         for (i, response) in responses.iter().enumerate() {
-            let share = vectors[(i, k)] * scale[i];
-            x.iter_mut().zip(response).for_each(|(v, r)| *v += share * r);
+            add(&mut x, vectors[(i, k)] * scale[i], response);
         }
         x
     })

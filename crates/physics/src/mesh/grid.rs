@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Spheres, or points, by number.
-pub(super) struct Grid {
+pub(crate) struct Grid {
     /// Edge of a cell, m.
     pub size: f64,
     /// Those that touch each cell, of cells that any touches.
@@ -26,13 +26,8 @@ impl Grid {
     fn cells(&self, center: &Vector3<f64>, radius: f64) -> Vec<[i64; 3]> {
         let bound = |axis: usize, sign: f64| ((center[axis] + sign * radius) / self.size).floor();
         let range = |axis: usize| bound(axis, -1.0) as i64..=bound(axis, 1.0) as i64;
-        let mut cells = Vec::new();
-        for i in range(0) {
-            for j in range(1) {
-                cells.extend(range(2).map(|k| [i, j, k]));
-            }
-        }
-        cells
+        let pairs = range(0).flat_map(|i| range(1).map(move |j| [i, j]));
+        pairs.flat_map(|[i, j]| range(2).map(move |k| [i, j, k])).collect()
     }
 
     /// Those that share a cell with a sphere, ascending.
