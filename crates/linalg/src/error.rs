@@ -6,6 +6,9 @@ use thiserror::Error;
 /// Backward error of a trial solve, or growth of the entries times the rounding error, above which factors are not trusted.
 pub(super) const BACKWARD_ERROR_BOUND: f64 = 1e-9;
 
+/// Condition number from which on a matrix has no inverse in double precision.
+pub(super) const CONDITION_BOUND: f64 = 1e15;
+
 /// Failure of a factorization or of an eigenvalue iteration.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinalgError {
@@ -19,15 +22,17 @@ pub enum LinalgError {
     },
     /// The factors do not solve with the matrix they came from.
     #[error(
-        "a sparse matrix of {dimension} unknowns is singular to working precision: its factors leave \
-         a backward error of {backward_error:.1e}, the bound is {bound:.0e}"
+        "a sparse matrix of {dimension} unknowns is singular to working precision: {measure} {value:.1e}, \
+         the bound is {bound:.0e}"
     )]
     Singular {
         /// Number of unknowns.
         dimension: usize,
-        /// Backward error of a trial solve (NaN where the factors are not finite).
-        backward_error: f64,
-        /// Largest backward error accepted.
+        /// What exceeds its bound, with its verb.
+        measure: &'static str,
+        /// Its value (NaN where the factors are not finite).
+        value: f64,
+        /// Largest value accepted.
         bound: f64,
     },
     /// A dense eigenvalue decomposition did not converge.
@@ -61,8 +66,15 @@ impl LinalgError {
         Self::Factorization { dimension, reason: format!("{error:?}") }
     }
 
-    /// Factors that are not to be trusted.
-    pub(super) fn singular(dimension: usize, backward_error: f64) -> Self {
-        Self::Singular { dimension, backward_error, bound: BACKWARD_ERROR_BOUND }
+    /// Factors that fail a trial solve.
+    pub(super) fn inaccurate(dimension: usize, value: f64) -> Self {
+        let measure = "the backward error of its factors is";
+        Self::Singular { dimension, measure, value, bound: BACKWARD_ERROR_BOUND }
+    }
+
+    /// A matrix without an inverse in double precision.
+    pub(super) fn ill_conditioned(dimension: usize, value: f64) -> Self {
+        let measure = "its condition number is at least";
+        Self::Singular { dimension, measure, value, bound: CONDITION_BOUND }
     }
 }

@@ -138,9 +138,10 @@ impl SparseLdl {
         let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
         let backward_error = largest(&residual) / (largest(&row_sums) * x.norm_max());
         let is_finite = residual.iter().all(|r| r.is_finite());
-        match n == 0 || (is_finite && backward_error <= BACKWARD_ERROR_BOUND) {
+        let backward_error = if is_finite { backward_error } else { f64::NAN };
+        match n == 0 || backward_error <= BACKWARD_ERROR_BOUND {
             true => Ok(()),
-            false => Err(LinalgError::singular(n, backward_error)),
+            false => Err(LinalgError::inaccurate(n, backward_error)),
         }
     }
 }

@@ -11,7 +11,7 @@
 //! of unsymmetric sets of linear equations, SIAM J. Sci. Stat. Comput. 5 (1984).
 
 use super::dense::{column_blocks, trial_right_side};
-use super::error::BACKWARD_ERROR_BOUND;
+use super::error::{BACKWARD_ERROR_BOUND, CONDITION_BOUND};
 use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor;
@@ -160,12 +160,12 @@ impl LuAnalysis {
             let diagonal = pivots.map(|pivot| c64::new(real(pivot), imag(pivot)).ln());
             sum = diagonal.fold(sum, |sum, ln| sum + ln) + c64::new(0.0, PI * own.parity);
         });
-        let backward_error = f64::EPSILON * growth;
-        let is_sound = sum.re.is_finite() && sum.im.is_finite();
-        match is_sound && backward_error <= BACKWARD_ERROR_BOUND {
-            true => Ok(sum),
-            false => Err(LinalgError::singular(self.pattern.dimension(), backward_error)),
+        let (n, backward_error) = (self.pattern.dimension(), f64::EPSILON * growth);
+        if !(backward_error <= BACKWARD_ERROR_BOUND) {
+            return Err(LinalgError::inaccurate(n, backward_error));
         }
+        let is_sound = sum.re.is_finite() && sum.im.is_finite();
+        is_sound.then_some(sum).ok_or_else(|| LinalgError::ill_conditioned(n, f64::INFINITY))
     }
 
     /// Eliminates front by front and hands each one on; how much the entries grow.
@@ -402,10 +402,12 @@ macro_rules! sparse_lu {
                 let backward_error = self.residual(&x, &right_side).norm_max() / scale;
                 // A solution this large says that the matrix has no inverse in double precision.
                 let condition = scale / 2.0;
-                let is_sound = backward_error <= BACKWARD_ERROR_BOUND && condition < 1e15;
-                match n == 0 || is_sound {
+                if n > 0 && !(backward_error <= BACKWARD_ERROR_BOUND) {
+                    return Err(LinalgError::inaccurate(n, backward_error));
+                }
+                match n == 0 || condition < CONDITION_BOUND {
                     true => Ok(()),
-                    false => Err(LinalgError::singular(n, backward_error)),
+                    false => Err(LinalgError::ill_conditioned(n, condition)),
                 }
             }
 
@@ -474,6 +476,10 @@ mod tests {
         let pattern = SparsityPattern::from_positions(2, [(0, 0), (0, 1), (1, 0), (1, 1)]);
         let analysis = LuAnalysis::new(&Arc::new(pattern)).unwrap();
         let one = c64::new(1.0, 0.0);
-        assert!(analysis.ln_determinant(&[one; 4]).is_err());
+        let refused = analysis.ln_determinant(&[one; 4]).unwrap_err().to_string();
+        assert!(
+            refused.ends_with("its condition number is at least inf, the bound is 1e15"),
+            "{refused}"
+        );
     }
 }

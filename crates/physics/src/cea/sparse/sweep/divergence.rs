@@ -7,11 +7,15 @@ use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::{CeaError, UnstableInterval};
 use crate::linalg::c64;
 
+/// Exponent within which products of two determinants are neither zero nor infinite.
+const LARGEST_EXPONENT: f64 = 300.0;
+
 impl SparseSweep<'_> {
     /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
     ///
     /// `det K(mu)` has the sign of `(-1)^n` with `n` positive real eigenvalues: it changes where one passes zero. A mode that friction
-    /// takes to frequency zero becomes two of them, so the ends of branches are where to look; a sweep may begin so.
+    /// takes to frequency zero becomes two of them, so the ends of branches are where to look; a sweep may begin so. What is
+    /// damped beyond the critical at rest has no branch: the sign at the last friction tells of it.
     ///
     /// # Errors
     /// If the analysis of the pattern fails.
@@ -29,34 +33,67 @@ impl SparseSweep<'_> {
                 || self.builder.model.static_growth(first)? > 1);
         let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
         let places = ends.chain(is_unstable.then_some(first)).map(|mu| mu.max(first));
-        Ok(places.min_by(f64::total_cmp).map(|critical_friction| UnstableInterval {
+        let place = match places.min_by(f64::total_cmp) {
+            None => self.overdamped_diverges_at()?,
+            place => place,
+        };
+        Ok(place.map(|critical_friction| UnstableInterval {
             critical_friction,
             unstable_from_start: critical_friction == first,
             ..UnstableInterval::default()
         }))
     }
 
-    /// Where, as a branch ends, `det K` changes its sign: by false position with the Illinois rule.
+    /// Where `det K` changes its sign although no branch ends there: what does not oscillate at rest has none. If its sign at the last
+    /// friction is not that at the first, the first two values of the grid between which it changes are searched.
+    fn overdamped_diverges_at(&self) -> Result<Option<f64>, CeaError> {
+        let [first, last] = [self.grid[0], self.grid[self.grid.len() - 1]];
+        let size = self.ln_static(first)?.re;
+        let (mut low, mut before) = (first, self.static_determinant(first, size)?);
+        if self.static_determinant(last, size)? * before >= 0.0 {
+            return Ok(None);
+        }
+        for &high in &self.grid[1..] {
+            let after = self.static_determinant(high, size)?;
+            if before * after < 0.0 {
+                let place = self.sign_change([low, high], [before, after], size)?;
+                return Ok(Some(place.max(self.grid[self.first_asked()])));
+            }
+            (low, before) = (high, after);
+        }
+        Ok(None)
+    }
+
+    /// Where, as a branch ends, `det K` changes its sign.
     pub(super) fn diverges_at(&self, end: &BranchEnd) -> Result<Option<f64>, CeaError> {
         if self.tangent.is_tabled() {
             return Ok(None);
         }
-        let (mut low, beyond) = (end.seen.mu, end.lost_at);
+        let (low, beyond) = (end.seen.mu, end.lost_at);
         let size = self.ln_static(low)?.re;
-        let mut before = self.static_determinant(low, size)?;
+        let before = self.static_determinant(low, size)?;
         // Near zero the square of an eigenvalue moves evenly: as far again. What is damped beyond the critical may come there later.
         let ReducedMode { eigenvalue, derivative, .. } = end.seen.mode;
         let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
         let reach = low - (eigenvalue / derivative).re;
         let places = [beyond, reach.clamp(beyond, next)].into_iter();
         let mut places = places.chain(end.is_damped.then_some(next));
-        let (mut high, mut after) = loop {
+        loop {
             let Some(high) = places.next() else { return Ok(None) };
             let after = self.static_determinant(high, size)?;
             if before * after < 0.0 {
-                break (high, after);
+                return self.sign_change([low, high], [before, after], size).map(Some);
             }
-        };
+        }
+    }
+
+    /// Where `det K / exp size` passes zero between two friction coefficients: by false position with the Illinois rule.
+    fn sign_change(
+        &self,
+        [mut low, mut high]: [f64; 2],
+        [mut before, mut after]: [f64; 2],
+        size: f64,
+    ) -> Result<f64, CeaError> {
         while high - low > SETTLED * (1.0 + high) {
             // Values far apart in size would keep the secant at one end.
             let t = (before / (before - after)).clamp(0.05, 0.95);
@@ -68,7 +105,7 @@ impl SparseSweep<'_> {
                 (high, after, before) = (middle, value, 0.5 * before);
             }
         }
-        Ok(Some(0.5 * (low + high)))
+        Ok(0.5 * (low + high))
     }
 
     /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
@@ -82,10 +119,10 @@ impl SparseSweep<'_> {
         Ok(analysis.ln_determinant(&values).unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }
 
-    /// `det K(mu) / exp size`.
+    /// `det K(mu) / exp size`, with its sign even beyond the range of numbers.
     fn static_determinant(&self, mu: f64, size: f64) -> Result<f64, CeaError> {
         let ln = self.ln_static(mu)?;
-        Ok(ln.im.cos() * (ln.re - size).exp())
+        Ok(ln.im.cos() * (ln.re - size).clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT).exp())
     }
 }
 
@@ -157,6 +194,26 @@ mod tests {
         };
         tangent.unknowns = DofMap::excluding(count, []);
         tangent
+    }
+
+    /// Independent check: dashpots on the springs that friction takes away leave `det K`, hence the friction at which it passes zero,
+    /// but what grows beyond does not oscillate at rest either.
+    #[test]
+    fn static_stability_is_lost_at_the_same_friction_by_an_overdamped_motion() {
+        let critical = |tangent: &SlidingTangent| {
+            let frictions = [0.0, 0.02, 0.05, 0.1, 0.15];
+            let request = SweepRequest::new(&frictions, ModeLimit::Lowest(8));
+            let found = sweep(tangent, &request, &|_| {}).unwrap();
+            let mut modes = found.points.iter().flat_map(|point| &point.modes);
+            assert!(modes.all(|mode| mode.eigenvalue.re < 0.0));
+            found.intervals.iter().find(|own| own.branch == 0).map(|own| own.critical_friction)
+        };
+        let mut tangent = softened_string(0, false);
+        let undamped = critical(&tangent).expect("a branch ends there");
+        let dashpots = (15..45).map(|i| (i, i, 10.0)).collect();
+        tangent.damping = MatrixPolynomial::on_pattern(tangent.stiffness.pattern(), &[dashpots]);
+        let overdamped = critical(&tangent).expect("it diverges");
+        assert!((overdamped - undamped).abs() < 1e-9, "{overdamped} {undamped}");
     }
 
     #[test]
