@@ -52,7 +52,8 @@ impl Bench {
     /// Runs `command` under `overrides`, once for all checks.
     pub fn run(&self, command: &str, overrides: &[&str]) -> Answer {
         let request = format!("{command} {overrides:?}");
-        self.answers.borrow().get(&request).cloned().unwrap_or_else(|| {
+        let known = self.answers.borrow().get(&request).cloned();
+        known.unwrap_or_else(|| {
             let answer = self.run_with(command, overrides, &[]);
             self.answers.borrow_mut().insert(request, answer.clone());
             answer
@@ -104,7 +105,8 @@ fn stored_table() -> (Vec<String>, Vec<(String, Vec<Cell>)>) {
     let (rows, reasons) = table.split_once("\n\n").unwrap();
     let reasons: Vec<&str> = reasons.lines().map(|line| line.split_once(". ").unwrap().1).collect();
     let words = |row: &str| -> Vec<String> {
-        row.trim_matches('|').split('|').map(|word| word.trim().to_owned()).collect()
+        let words = row.trim_matches('|').split('|');
+        words.map(|word| word.trim().to_owned()).collect()
     };
     let cell = |word: &String| match word.as_str() {
         "right" => Cell::Right,

@@ -40,7 +40,8 @@ fn help_has_exit_codes_and_default_folders_and_no_arguments_show_it_as_bad_usage
 #[test]
 fn check_reports_the_cost_as_numbers() {
     let cost = |name: &str| {
-        run(&folder(), &["check", "--json", &shipped(name)]).done().value()["cases"][0].clone()
+        let answer = run(&folder(), &["check", "--json", &shipped(name)]).done();
+        answer.value()["cases"][0].clone()
     };
     let case = cost("polycarbonate-610rpm.toml");
     assert_eq!(case["dofs"], 12960);
@@ -287,7 +288,8 @@ fn completions_and_manual_name_every_subcommand_with_files_and_exit_status() {
         assert!(page.exists(), "{}", page.display());
         assert_eq!(help.matches(&format!("\n  {name} ")).count(), 1, "{name}\n{help}");
         // Every command takes the options of all.
-        run(&folder, &[name, "--help"]).done().says(&["--threads ; --simd ; --quiet ; --verbose"]);
+        let own = run(&folder, &[name, "--help"]).done();
+        own.says(&["--threads ; --simd ; --quiet ; --verbose"]);
         run(&folder, &[name, "--force", "--nonesuch"]).refused(&["argument '--nonesuch'"]);
     }
 }
@@ -326,7 +328,8 @@ fn a_case_from_standard_input_has_a_folder_of_its_own() {
 fn a_dry_run_checks_everything_and_touches_nothing() {
     let folder = folder();
     let dry = |more: &[&str]| on_disc(&folder, "cea", &[&["--dry-run"], more].concat());
-    assert_eq!(dry(&[]).done().says(&["valid", "results/polycarbonate-disc/cea"]).stderr, "");
+    let answer = dry(&[]).done().says(&["valid", "results/polycarbonate-disc/cea"]);
+    assert_eq!(answer.stderr, "");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     fs::create_dir(folder.path().join("here")).unwrap();
     fs::write(folder.path().join("here/thesis.tex"), "x").unwrap();

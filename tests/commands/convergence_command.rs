@@ -41,7 +41,8 @@ fn eigenvalues_converge_with_twice_the_degree_of_the_elements() {
         // n = 0 once and n = 1 in both directions.
         assert_eq!(orders.len(), 3);
         assert!(orders.iter().all(|order| (order - wanted).abs() < bound), "{orders:?}");
-        assert_eq!(all.iter().find(|q| is_of(q, "critical")).unwrap()["verdict"], "converging");
+        let onset = all.iter().find(|q| is_of(q, "critical"));
+        assert_eq!(onset.unwrap()["verdict"], "converging");
     }
 }
 

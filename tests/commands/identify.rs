@@ -153,7 +153,8 @@ fn identification_does_not_depend_on_the_quantity_measured() {
     let want = poles(&response).unwrap();
     for quantity in [ResponseQuantity::Mobility, ResponseQuantity::Receptance] {
         let converted = response.converted(quantity).unwrap();
-        for (a, b) in poles(&converted).unwrap().fit.modes.iter().zip(&want.fit.modes) {
+        let got = poles(&converted).unwrap();
+        for (a, b) in got.fit.modes.iter().zip(&want.fit.modes) {
             let miss = a.damping_factor.value - b.damping_factor.value;
             // Same data, same relative noise; the additive part of the noise model may differ.
             assert!(miss.abs() < b.standard_error, "{a:?} {b:?}");

@@ -132,7 +132,8 @@ fn an_input_in_the_output_folder_is_not_replaced() {
     fs::create_dir(&inside).unwrap();
     fs::write(inside.join("peaks.csv"), tone("a")).unwrap();
     let signal = Run::of("signal", "in/peaks.csv").within(&folder).out("in").args(&["--force"]);
-    assert_eq!(signal.refused(&["which is the input"]).text("peaks.csv"), tone("a"));
+    let answer = signal.refused(&["which is the input"]);
+    assert_eq!(answer.text("peaks.csv"), tone("a"));
     assert_eq!(names_in(&inside), ["peaks.csv"], "no lock is left");
 }
 

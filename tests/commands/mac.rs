@@ -17,7 +17,8 @@ static MEASURED: LazyLock<Vec<(f64, Motion)>> = LazyLock::new(|| {
     let solution = solve(&case, cea, &model, None).unwrap();
     let mut draw = crate::draws::draws(12345);
     let mut noise = || 2.0 * draw() - 1.0;
-    let shapes = solution.sweep.points[0].modes.iter().rev().enumerate().map(|(k, mode)| {
+    let modes = solution.sweep.points[0].modes.iter().rev();
+    let shapes = modes.enumerate().map(|(k, mode)| {
         let turn = c64::new(0.0, 1.1 + k as f64).exp() * 1e-3;
         let shape = mode.shape.as_ref().unwrap();
         let nodes = (0..model.mesh.node_count()).step_by(5);
@@ -75,7 +76,8 @@ fn universal(shapes: &[Motion]) -> String {
 fn run(folder: &Path, shapes: &str, further: &[&str]) -> Run {
     fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
     fs::write(folder.join("shapes"), shapes).unwrap();
-    Run::new(&["mac", "case.toml", "shapes", "--force"]).within(folder).out("out").args(further)
+    let run = Run::new(&["mac", "case.toml", "shapes", "--force"]).within(folder).out("out");
+    run.args(further)
 }
 
 /// Noise of relative size 0.03 on each part of unit shapes leaves a criterion above 0.97 of the own mode.
@@ -163,7 +165,8 @@ fn a_table_has_shapes_by_their_names_in_any_columns() {
 
 #[test]
 fn a_universal_file_has_nodes_and_complex_shapes() {
-    let shapes = read_shapes(include_str!("../cases/shape.unv").as_bytes(), "s.unv").unwrap();
+    let text = include_str!("../cases/shape.unv");
+    let shapes = read_shapes(text.as_bytes(), "s.unv").unwrap();
     assert_eq!(shapes[0].name, "4");
     assert!((shapes[0].frequency_hz.unwrap() - 1000.0).abs() < 1e-9);
     assert_eq!(shapes[0].points, [[1.0, 2.0, 3.0]]);

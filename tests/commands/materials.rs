@@ -34,7 +34,8 @@ fn the_pressure_of_a_cylindrically_orthotropic_disc_is_lekhnitskiis() {
 fn one_number_of_a_list_is_set_by_its_place_counted_from_one() {
     for key in ["material.young_moduli[2]", "material.young_moduli.2"] {
         let case = read(&[&format!("{key}=4e9")]).unwrap();
-        assert_eq!(case.material.orthotropy.unwrap().young_moduli, [2e9, 4e9, 1.5e9]);
+        let orthotropy = case.material.orthotropy.unwrap();
+        assert_eq!(orthotropy.young_moduli, [2e9, 4e9, 1.5e9]);
         assert_eq!(case.number(key), Some(4e9));
     }
     let study = "fit.parameters={\"material.shear_moduli[1]\"=[1e9, 2e9]}";

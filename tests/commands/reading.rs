@@ -322,7 +322,8 @@ fn gyroscopic_forces_have_their_own_row_in_the_budget() {
     let mut largest = 0.0_f64;
     for (has_friction, growth, omega, own) in budget(&answer, 1e-9) {
         let of_kind = |kind: &'static str| own.iter().filter(move |row| row["kind"] == kind);
-        largest = largest.max(of_kind("rotation").map(rate).next().unwrap().abs() / growth.abs());
+        let turned = of_kind("rotation").map(rate).next().unwrap();
+        largest = largest.max(turned.abs() / growth.abs());
         let mut fed = of_kind("contact").map(rate);
         assert!(has_friction || fed.all(|rate| rate.abs() < 1e-8 * omega), "{own:?}");
     }

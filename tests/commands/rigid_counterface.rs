@@ -69,7 +69,8 @@ fn probes_of_a_whole_mesh_move_along_x_y_and_z() {
         "transient={duration=1e-6,initial=\"steady-sliding\",operator=\"sparse\"}",
         "output={sample_interval=1e-6,probes=[6,38]}",
     ];
-    let answer = run(folder().path(), "transient", DISC, "probes", &sets).code(0);
+    let folder = folder();
+    let answer = run(folder.path(), "transient", DISC, "probes", &sets).code(0);
     let [[x, y, z], [ahead_x, ahead_y, ahead_z]] = ["probe-6.csv", "probe-38.csv"]
         .map(|name| answer.rows(name)[0].numbers(["u_x_m", "u_y_m", "u_z_m"]));
     assert!(x > 1e-6 && y > 1e-8, "{x:e} {y:e}");

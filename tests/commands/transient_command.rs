@@ -175,7 +175,8 @@ fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
-    let out = folder().path().join("out");
+    let folder = folder();
+    let out = folder.path().join("out");
     let answer = stopped(&out, Some("INT"));
     if answer.code == Some(0) {
         // The run ended before the signal came.
@@ -257,7 +258,8 @@ fn no_number_that_is_none_is_printed_or_written() {
 
 #[test]
 fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
-    let out = folder().path().join("out");
+    let folder = folder();
+    let out = folder.path().join("out");
     stopped(&out, None);
     let path = out.join("checkpoint.bin");
     let mut bytes = fs::read(&path).unwrap();

@@ -75,7 +75,8 @@ pub fn rows_of<const N: usize>(text: &str) -> Vec<[f64; N]> {
 /// Largest relative distance of numbers from as many others, one by one.
 pub fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
     assert_eq!(a.len(), b.len());
-    a.iter().zip(b).map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
+    let pairs = a.iter().zip(b);
+    pairs.map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
 }
 
 /// A matrix of a file as a dense one.

@@ -22,7 +22,8 @@ const LARGE: [f64; 4] = [4e-5, 4e-5, 0.0, 0.0];
 
 fn searched(case: &Case, watch: &dyn SweepWatch) -> FoundCycle {
     let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
-    study.run(0, watch, &|_| {}).unwrap().remove(0).outcome.unwrap()
+    let result = study.run(0, watch, &|_| {}).unwrap().remove(0);
+    result.outcome.unwrap()
 }
 
 fn branch(case: &Case) -> PeriodicBranch {
@@ -64,7 +65,8 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
 #[test]
 fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     let folder = folder();
-    let [onset, fold] = branch(&over_speed(folder.path(), "none", 3.0, &[])).coexistence()[0];
+    let whole = branch(&over_speed(folder.path(), "none", 3.0, &[]));
+    let [onset, fold] = whole.coexistence()[0];
     // Between both the case's own sliding is stable: the cycle comes from the end of the range at which it is not.
     let speed = 0.5 * (onset + fold);
     let own = format!("contact.speed={speed}");
@@ -81,7 +83,8 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     assert_eq!(critical.key, Parameter::Speed.key());
     assert!((critical.value / onset - 1.0).abs() < 1e-3, "{critical}");
     // The large one of both cycles, as integration has it.
-    let (frequency, stick) = EventDriven::new(&case).run(LARGE, 1.2e-8, 200, 20).unwrap();
+    let reference = EventDriven::new(&case);
+    let (frequency, stick) = reference.run(LARGE, 1.2e-8, 200, 20).unwrap();
     assert!((motion.frequency_hz / frequency - 1.0).abs() < 1e-4);
     assert!((motion.fractions[0] - stick).abs() < 2e-3);
     // Beyond the fold there is none, which the reason says.

@@ -12,7 +12,8 @@ use crate::oscillator::{EventDriven, oscillator};
 
 /// The block at a friction coefficient at which one mode grows.
 fn block(overrides: &[&str]) -> Case {
-    let mesh = coarse_block(folder().path());
+    let folder = folder();
+    let mesh = coarse_block(folder.path());
     let own = [&mesh, "contact.friction_coefficient=0.7 ; cycle={ confirmation_periods = 20 }"];
     shipped_case("sliding-block.toml", &[&own, overrides].concat())
 }

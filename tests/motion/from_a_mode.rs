@@ -19,7 +19,8 @@ const AS_STEPPED: &str = "cea.mass=\"lumped\" ; cea.geometric_stiffness=false";
 fn grows_from_its_mode(case: &Case, limit_hz: f64) {
     let own = [case.contact.sliding.friction_coefficient];
     let (modes, _) = modes_with_waves_below(case, limit_hz, &own).unwrap();
-    grows_from(TransientStudy::new(case, SimdLevel::detect()).unwrap().body(), fastest(&modes));
+    let study = TransientStudy::new(case, SimdLevel::detect()).unwrap();
+    grows_from(study.body(), fastest(&modes));
 }
 
 /// A pad of six bricks on a disc that turns, half of its nodes open.

@@ -49,7 +49,8 @@ fn annulus_speed(n: usize) -> c64 {
         let size = terms[0].dimension();
         Mat::from_fn(size, size, |i, j| {
             let factors = (0..).map(|power| c64::new(0.0, FRICTION).powi(power));
-            terms.iter().zip(factors).map(|(term, factor)| factor * term.get(i, j)).sum::<c64>()
+            let values = terms.iter().zip(factors);
+            values.map(|(term, factor)| factor * term.get(i, j)).sum::<c64>()
         })
     };
     let (mass, stiffness) = (dense(&harmonic.mass), dense(&harmonic.stiffness));

@@ -69,7 +69,8 @@ fn sliders() -> impl Strategy<Value = Slider> {
 
 /// A case of the mesh `part.msh`; tests run side by side, so each has a folder of its own.
 fn of_file(mesh: &[u8], text: &str) -> Case {
-    case_of(folder_with(&[("part.msh", mesh)]).path().join("part.toml"), text, AS_IT_IS)
+    let folder = folder_with(&[("part.msh", mesh)]);
+    case_of(folder.path().join("part.toml"), text, AS_IT_IS)
 }
 
 fn part(slider: &Slider) -> Case {
@@ -307,7 +308,8 @@ fn growth_vanishes_at_the_critical_friction_of_damped_bodies() {
     {
         let case = part(&slider);
         let found = modes_and_onsets(&case).unwrap();
-        let onsets = found.intervals.iter().filter(|own| own.is_located()).flat_map(|own| {
+        let located = found.intervals.iter().filter(|own| own.is_located());
+        let onsets = located.flat_map(|own| {
             [(own.critical_friction, own.frequency_hz)].into_iter().chain(own.restabilized)
         });
         for (friction, frequency_hz) in onsets {
@@ -328,7 +330,8 @@ fn of_two_modes_that_meet_one_has_an_onset() {
     let block = brick("part", [-0.02, -0.02, 0.0], [0.04004, 0.04, 0.05], [3; 3]);
     let text = include_str!("../cases/nearly-square-block.toml");
     let found = modes_and_onsets(&of_file(&file_of(&[block], |point| point), text)).unwrap();
-    let growing = found.points.last().unwrap().modes.iter().filter(|mode| mode.is_unstable());
+    let last = found.points.last().unwrap();
+    let growing = last.modes.iter().filter(|mode| mode.is_unstable());
     assert_eq!(growing.count(), found.intervals.len(), "{:?}", found.intervals);
 }
 
@@ -338,7 +341,8 @@ fn overdamped_motions_of_soft_springs_take_no_places_of_modes() {
     let part = |name, z| brick(name, [0.0, 0.0, z], [0.03, 0.02, 0.02], [2, 2, 1]);
     let mesh = welded_file_of(&[part("low", 0.0), part("high", 0.02)], 1, |point| point);
     let case = of_file(&mesh, include_str!("../cases/damped-part-on-soft-springs.toml"));
-    let mut exact = lossy_eigenvalues(sums(&matrices(&case, Some(0.0)).unwrap()).each_ref());
+    let problem = sums(&matrices(&case, Some(0.0)).unwrap());
+    let mut exact = lossy_eigenvalues(problem.each_ref());
     exact.retain(|own| own.im > 1e-3 * own.norm());
     exact.sort_by(|a, b| a.im.total_cmp(&b.im));
     let found = modes_and_onsets(&case).unwrap();

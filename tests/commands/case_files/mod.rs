@@ -64,7 +64,8 @@ fn the_swept_points_are_the_grid_in_order_with_the_last_key_fastest() {
     let speeds = range_values(10.0, 6000.0, 24, Spacing::Logarithmic);
     for index in [0, 25, 71] {
         let raw = case.raw.sweep_point(&sweep.overrides(index)).unwrap();
-        let speed = Case::from_raw(raw).unwrap().contact.sliding.rotation_speed / TAU * 60.0;
+        let point = Case::from_raw(raw).unwrap();
+        let speed = point.contact.sliding.rotation_speed / TAU * 60.0;
         // Two roundings of a product by 2 pi / 60.
         assert!((speed / speeds[index % 24] - 1.0).abs() < 1e-15);
     }
@@ -102,7 +103,8 @@ fn overrides_change_exactly_their_key() {
     // A part of a range, one way to select modes in place of the other, and a word in place of a number.
     let case = valid(DISC, &["cea.friction_coefficients.count=101"]);
     assert_eq!(case.cea.unwrap().friction_coefficients.len(), 101);
-    assert_eq!(valid(DISC, &["cea.modes=28"]).cea.unwrap().modes, Lowest(28));
+    let case = valid(DISC, &["cea.modes=28"]);
+    assert_eq!(case.cea.unwrap().modes, Lowest(28));
     let case = valid(DISC, &["contact.normal_stiffness=rigid"]);
     assert_eq!(case.contact.stiffness.normal_stiffness, None);
 }

@@ -43,7 +43,8 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     for width in [85.0, 178.0] {
         let (width_mm, formats) = (Some(width), vec![Format::Svg]);
         let options = DrawingOptions { width_mm, formats, ..DrawingOptions::default() };
-        let out = TempDir::new().unwrap().path().join("out");
+        let folder = TempDir::new().unwrap();
+        let out = folder.path().join("out");
         let folder = OutputFolder::open(&out, &manifest, Replace::Anything).unwrap();
         // How long the run took is no matter of its report: the same bytes another day.
         let slower = CeaReport { wall_s: 77.7, ..report.clone() };

@@ -10,7 +10,8 @@ fn least_stable(contact: &SlidingContact, stiffness: ContactStiffness, harmonic:
     let request = sweep_request(&at, Lowest(40));
     let specification = disc(60, 12).specification;
     let found = sweep(&specification, &POLYCARBONATE, &options, contact, &request).unwrap();
-    fastest(found.sweep.points[0].modes.iter().filter(|mode| mode.harmonic == harmonic)).eigenvalue
+    let modes = found.sweep.points[0].modes.iter();
+    fastest(modes.filter(|mode| mode.harmonic == harmonic)).eigenvalue
 }
 
 /// Cross-method: the strongest check that the two halves of the program agree, on rigid contact, springs with dashpots, and

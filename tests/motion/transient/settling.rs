@@ -93,7 +93,8 @@ fn a_run_from_noise_goes_on_until_what_grows_in_it_is_seen() {
         let settings = transient_settings([0.012, 4e-6, 0.0], InitialState::SteadySliding, noise);
         let (record, end) = run(610.0, &settings, &wanted);
         assert_eq!(end, RunEnd::Finished, "{} samples", record.rows.len());
-        assert_eq!(TransientAnalysis::of(&record, &[]).settling.state, EndState::Unsettled);
+        let analysis = TransientAnalysis::of(&record, &[]);
+        assert_eq!(analysis.settling.state, EndState::Unsettled);
     }
 }
 

@@ -41,7 +41,8 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
         };
         let b = fine.iter().find(is_same).unwrap();
         assert_eq!(a.restabilized.is_some(), b.restabilized.is_some());
-        for end in [Some(a.critical_friction), a.restabilized.map(|r| r.0)].into_iter().flatten() {
+        let ends = [Some(a.critical_friction), a.restabilized.map(|r| r.0)];
+        for end in ends.into_iter().flatten() {
             let branches = solve(&[end]).branches;
             let mut own = branches.iter().filter(|b| (b.harmonic, b.branch, b.direction) == name);
             let lambda = own.next().unwrap().interpolate(end).unwrap();

@@ -16,7 +16,8 @@ fn glue(mesh: &Mesh) -> Glue {
         (own, masters.map(|(dof, part)| (dof, -part)).collect())
     };
     let points = interface.points(&contact(610.0)).into_iter();
-    points.flat_map(|point| [point.normal, point.slip]).map(|row| others(row[0].0, row)).collect()
+    let rows = points.flat_map(|point| [point.normal, point.slip]);
+    rows.map(|row| others(row[0].0, row)).collect()
 }
 
 /// `T^T A T` over all dofs.
@@ -25,7 +26,8 @@ fn glued(matrix: &Triplets, glue: &Glue) -> Vec<(usize, usize, f64)> {
     let entries = matrix.entries.iter().flat_map(|&(row, column, value)| {
         let columns = of(column);
         of(row).into_iter().flat_map(move |(row, a)| {
-            columns.clone().into_iter().map(move |(column, b)| (row, column, a * value * b))
+            let columns = columns.clone().into_iter();
+            columns.map(move |(column, b)| (row, column, a * value * b))
         })
     });
     entries.collect()
@@ -48,7 +50,8 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
     let (stiffness, mass) = (on_pattern(stiffness), on_pattern(mass));
     let damping = MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness);
     let structure = bare([mass, damping, stiffness], None, unknowns);
-    FrictionlessModes::compute(&structure, Lowest(count)).unwrap().frequencies[..count].to_vec()
+    let modes = FrictionlessModes::compute(&structure, Lowest(count)).unwrap();
+    modes.frequencies[..count].to_vec()
 }
 
 /// Disc and shaft held at rim and bore, glued between them.

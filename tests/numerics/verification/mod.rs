@@ -25,7 +25,8 @@ fn folder(name: &str, mesh: &[u8]) -> PathBuf {
 /// Runs a command of the program on a case under changes in a folder, and reads one table of its results.
 fn table(folder: &Path, command: &str, case: &str, changes: &str, file: &str) -> Vec<Row> {
     let run = Run::of_text(command, folder, case).args(&["-qq", "--force"]).out(command);
-    run.set((!changes.is_empty()).then_some(changes).as_slice()).done().rows(file)
+    let changes = (!changes.is_empty()).then_some(changes);
+    run.set(changes.as_slice()).done().rows(file)
 }
 
 /// Young's modulus, Poisson's ratio and density of steel.

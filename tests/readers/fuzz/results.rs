@@ -74,7 +74,8 @@ fn plot(folder: &Path) -> bool {
 }
 
 fn hold_figures(command: &str) {
-    let folder = finished(folder().path(), command);
+    let scratch = folder();
+    let folder = finished(scratch.path(), command);
     let original = fs::read(folder.join("figures.bin")).unwrap();
     assert!(plot(&folder), "{command}: the folder as it was written");
     let make = |random: &mut Random| match random.below(4) {
@@ -155,7 +156,8 @@ fn a_damaged_manifest_or_summary_is_never_used() {
 
 #[test]
 fn a_damaged_point_counts_as_missing() {
-    let path = finished(folder().path(), "sweep");
+    let scratch = folder();
+    let path = finished(scratch.path(), "sweep");
     let folder = SweepFolder::find(&path, "sweep").unwrap();
     let file = folder.point_path(1);
     let original = fs::read(&file).unwrap();

@@ -106,5 +106,6 @@ fn the_stiffness_of_an_orthotropic_material_gives_its_engineering_constants() {
     let begin = ASSEMBLY.find("*ELASTIC").unwrap();
     let end = ASSEMBLY.find("*DENSITY").unwrap();
     let text = [&ASSEMBLY[..begin], &constants, &ASSEMBLY[end..]].concat();
-    is_that_material(read("bricks.inp", &text).unwrap().model.materials[0].elasticity.as_ref());
+    let model = read("bricks.inp", &text).unwrap().model;
+    is_that_material(model.materials[0].elasticity.as_ref());
 }

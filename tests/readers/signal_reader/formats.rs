@@ -212,7 +212,8 @@ fn matlab_responses_are_complex_columns_beside_a_frequency() {
         columns: ["f", "re", "im"].map(String::from).to_vec(),
         ..Default::default()
     };
-    assert_eq!(reader::read_response(&matrix, "x", &options).unwrap().responses[0].response, want);
+    let read = reader::read_response(&matrix, "x", &options).unwrap();
+    assert_eq!(read.responses[0].response, want);
 }
 
 #[test]

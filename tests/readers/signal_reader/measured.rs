@@ -67,7 +67,8 @@ fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
     ];
     let headerless = table("", parts);
     let named = read(&headerless, &["f", "re", "im"], &[]);
-    for file in tables.iter().map(|text| read(text, &[], &[])).chain([named]) {
+    let all = tables.iter().map(|text| read(text, &[], &[]));
+    for file in all.chain([named]) {
         let got = &file.responses[0].response;
         assert_eq!(got.frequencies_hz(), want.frequencies_hz());
         // Fifteen digits, and the logarithm of a level.
@@ -133,7 +134,8 @@ fn columns_without_names_ask_for_them_and_a_wrong_number_of_names_is_refused() {
     let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
     has(&message(&doubtful), &["--columns f,re,im"]);
     let options = ResponseOptions { columns: vec!["f".into(), "re".into()], ..Default::default() };
-    let error = reader::read_response(rows(",", ".", "\n").as_bytes(), "x", &options);
+    let complex = rows(",", ".", "\n");
+    let error = reader::read_response(complex.as_bytes(), "x", &options);
     has(&error.unwrap_err().to_string(), &["names 2 columns, the table has 3"]);
     let no_unit = read_response(b"10,0.1+0.2j,x\n20,0.1+0.2j,y\n", "x", None).err().unwrap();
     assert!(no_unit.to_string().starts_with("x:1:13: `x` in column 3"), "{no_unit}");

@@ -60,7 +60,8 @@ fn every_common_dialect_gives_the_same_response() {
     ];
     for text in &dialects {
         let got = read_response(text.as_bytes(), "b", None);
-        assert_eq!(got.unwrap_or_else(|e| panic!("{e}\n{text}")).response, want, "{text}");
+        let got = got.unwrap_or_else(|e| panic!("{e}\n{text}"));
+        assert_eq!(got.response, want, "{text}");
     }
     let wide: Vec<u8> =
         [0xff, 0xfe].into_iter().chain(plain.encode_utf16().flat_map(u16::to_le_bytes)).collect();
