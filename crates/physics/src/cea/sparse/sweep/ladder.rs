@@ -119,7 +119,12 @@ impl SparseSweep<'_> {
     /// An eigenvalue is wrong by the product of the errors of its right and left vectors: this keeps it below 1e-9. With other than viscous
     /// damping the basis, made of right vectors alone, is too poor in left ones for errors of eigenvalues to be of second order.
     pub(super) fn goal(&self) -> f64 {
-        if self.tangent.is_lossy() { RESIDUAL_BOUND } else { 1e-7 }
+        match self.linearization {
+            _ if self.tangent.is_lossy() => RESIDUAL_BOUND,
+            // Without damping of its own each mode is nearer to others.
+            Linearization::Reduced(..) => 1e-8,
+            Linearization::Companion { .. } => 1e-7,
+        }
     }
 
     /// Points whose modes could still be improved.
