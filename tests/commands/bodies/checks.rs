@@ -75,8 +75,7 @@ const FEW: [&str; 2] = [ALONE, "cea.modes=2"];
 
 fn lowest_onset(summary: &Value) -> Option<f64> {
     let onsets = summary["critical_frictions"].as_array()?.iter();
-    let onsets = onsets.filter_map(|onset| onset["critical_friction"].as_f64());
-    onsets.min_by(f64::total_cmp)
+    onsets.filter_map(|onset| onset["critical_friction"].as_f64()).min_by(f64::total_cmp)
 }
 
 fn mesh(bench: &Bench, twin: Option<&Bench>) -> Verdict {
@@ -95,9 +94,7 @@ fn cea(bench: &Bench, twin: Option<&Bench>) -> Verdict {
     let (summary, own) = done(bench.run("cea", &[]))?;
     let residual = summary["largest_residual"].as_f64().unwrap();
     verdict(residual <= 1e-8, || format!("residual {residual:e}"))?;
-    let Some(twin) = twin else {
-        return Ok(());
-    };
+    let Some(twin) = twin else { return Ok(()) };
     let (_, other) = needed(twin.run("cea", &[]))?;
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
@@ -271,9 +268,7 @@ fn basin(bench: &Bench, _: Option<&Bench>) -> Verdict {
 fn is_boundary(summary: &Value) -> bool {
     let runs = summary["runs"].as_array().cloned().unwrap_or_default();
     let rivals = &summary["harmonics"];
-    let [Some(first), Some(last)] = [runs.first(), runs.get(1)] else {
-        return false;
-    };
+    let [Some(first), Some(last)] = [runs.first(), runs.get(1)] else { return false };
     let is_whole = [first, last].map(|run| &run["seed_ratio"]) == [&json!(0.5), &json!(2.0)];
     let is_known = |run: &Value| [&rivals[0], &rivals[1]].contains(&&run["winner"]);
     let ratios = [first, last].map(|run| run["saturation_ratio"].as_f64());

@@ -40,9 +40,7 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
     let few = [&overrides(1)[..1], &["mesh.radial_elements=1 ; cea.modes=40".to_owned()]].concat();
     for overrides in (1..=160).map(overrides).chain([few]) {
         // A case that cannot be read is refused by every command alike.
-        let Ok(case) = read_case("case.toml", RUN, &overrides) else {
-            continue;
-        };
+        let Ok(case) = read_case("case.toml", RUN, &overrides) else { continue };
         let checked = is_refused(preflight(&case, f64::INFINITY));
         // Elements that the transient cannot run are a warning of the case.
         let runs = case.require_transient().is_ok();

@@ -28,9 +28,7 @@ fn the_guide_documents_every_key_as_it_is_declared() {
 fn a_default_written_out_changes_nothing() {
     let plain = valid(&whole(), &[]);
     for key in KEYS.iter() {
-        let Default::Value(value) = key.default else {
-            continue;
-        };
+        let Default::Value(value) = key.default else { continue };
         // What the case gives itself is no default, and a section that it lacks has none.
         let lacks_section = plain.raw.find(key.section()).is_none();
         if plain.raw.find(key.name).is_some() || lacks_section {

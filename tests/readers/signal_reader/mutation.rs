@@ -19,9 +19,7 @@ fn analyse(bytes: &[u8]) {
     }
     for rate in [None, Some(5e4)] {
         let options = SignalOptions { rate, ..SignalOptions::default() };
-        let Ok(file) = reader::read_signal(bytes, "x", &options) else {
-            continue;
-        };
+        let Ok(file) = reader::read_signal(bytes, "x", &options) else { continue };
         for channel in file.channels.iter().take(3) {
             let (x, rate) = (&channel.samples, file.sampling_rate);
             let _ = exponential_stage(x, rate);
