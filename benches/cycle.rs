@@ -30,8 +30,7 @@ pub fn run() {
         let neighbour = |factor: f64| {
             let speed = factor * point.contact.rotation_speed;
             fastest(|| {
-                let found = solver.continue_to(&cycle, Parameter::RotationSpeed, speed);
-                found.expect("a neighbour");
+                solver.continue_to(&cycle, Parameter::RotationSpeed, speed).expect("a neighbour");
             })
         };
         let (near, far) = (neighbour(1.02), neighbour(0.8));
@@ -73,8 +72,7 @@ fn whole_mesh(key: &str, range: [f64; 2]) {
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).expect("a body");
     let results = study.run(0, &Unwatched, &|_| {}).expect("a search");
     for result in &results {
-        let found = result.outcome.as_ref().expect("a cycle");
-        let branch = found.branch.as_ref().expect("a branch");
+        let branch = result.outcome.as_ref().expect("a cycle").branch.as_ref().expect("a branch");
         let periods = branch.motions.iter().map(|own| own.motion.periods);
         println!(
             "{key}: {} cycles in {:.1?}, {} periods along the branch",

@@ -59,8 +59,7 @@ fn assembled(divisions: usize, threads: usize) {
     let cube = brick("cube", [0.0; 3], [0.1; 3], [divisions; 3]);
     let mesh = mesh_of(&file_of(&[cube], |point| point), &[]);
     let stiffness = assemble_stiffness(&mesh, &STEEL);
-    let masses = lumped_masses(&mesh, &STEEL);
-    let masses = masses.iter().flat_map(|&mass| [mass; 3]).collect();
+    let masses = lumped_masses(&mesh, &STEEL).iter().flat_map(|&mass| [mass; 3]).collect();
     let operator = SparseOperator::<3>::new(&stiffness, masses, Vec::new(), SimdLevel::detect());
     let operator = operator.expect("an operator");
     let mut fields = MotionFields::zeros(operator.field_length());

@@ -88,8 +88,7 @@ pub fn described_system(case: &Path, overrides: &[String]) -> Result<Option<Free
     if case == Path::new(STANDARD_INPUT) {
         return Ok(None);
     }
-    let bytes = read_input(case, CASE)?;
-    let raw = RawCase::parse(&input_name(case), &bytes, overrides)?;
+    let raw = RawCase::parse(&input_name(case), &read_input(case, CASE)?, overrides)?;
     if FreeSystem::is_described_by(&raw) { Ok(Some(FreeSystem::read(raw)?)) } else { Ok(None) }
 }
 

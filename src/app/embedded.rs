@@ -118,8 +118,7 @@ impl EmbeddedRun {
 
     /// Takes the lines of the log that have been written since the last call: warnings, each behind `WARN`.
     pub fn take_log(&self) -> String {
-        let bytes = std::mem::take(&mut self.state().log);
-        String::from_utf8_lossy(&bytes).into_owned()
+        String::from_utf8_lossy(&std::mem::take(&mut self.state().log)).into_owned()
     }
 
     /// A progress bar that is read by [`Self::progress`] instead of shown.

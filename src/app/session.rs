@@ -135,8 +135,7 @@ impl Session {
 /// # Errors
 /// [`Failure::Usage`] if it cannot be read, [`Failure::Case`] if it is not valid.
 pub fn read_case(path: &Path, overrides: &[String]) -> Result<Case, Failure> {
-    let bytes = read_input(path, CASE)?;
-    let raw = RawCase::parse(&input_name(path), &bytes, overrides)?;
+    let raw = RawCase::parse(&input_name(path), &read_input(path, CASE)?, overrides)?;
     Ok(Case::from_raw(raw)?)
 }
 

@@ -187,8 +187,7 @@ fn write_copies(
     let mut text = String::new();
     if let (Some(path), Some(copy)) = (&arguments.wav, wav) {
         let slower = arguments.slower.unwrap_or(slowdown(file.sampling_rate));
-        let bytes = write_wav(file, slower).map_err(Failure::usage)?;
-        copy.write(&bytes)?;
+        copy.write(&write_wav(file, slower).map_err(Failure::usage)?)?;
         let factor = f64::from(slower);
         text = format!(
             "sound in {}: played {slower} times slower, 10 kHz is heard as {} kHz; {:.2} s\n",

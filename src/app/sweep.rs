@@ -151,8 +151,7 @@ fn run_point(
         if analysis == Analysis::Cycle {
             refuse_memory(case, "cycle", case.memory("cycle").0, machine_memory())?;
         }
-        let summary = summarize(case, analysis, manifest)?;
-        summaries.insert(analysis.word().to_owned(), summary);
+        summaries.insert(analysis.word().to_owned(), summarize(case, analysis, manifest)?);
     }
     Ok(summaries)
 }

@@ -85,8 +85,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let text = document.to_text();
     if missing == 0 {
         let largest = summary.largest_friction;
-        let table = samples_table(&uncertainty.keys(), &samples, largest);
-        write_table(folder.output(), &table)?;
+        write_table(folder.output(), &samples_table(&uncertainty.keys(), &samples, largest))?;
         let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
         if failed.clone().count() == samples.len() {
             let first = failed.next().unwrap_or_default();

@@ -137,8 +137,7 @@ impl Browser {
     /// What the console has been told.
     pub fn messages(&self) -> Vec<String> {
         let log = self.post("/se/log", json!({ "type": "browser" }));
-        let entries = log.as_array().into_iter().flatten();
-        entries.map(|entry| entry["message"].to_string()).collect()
+        log.as_array().into_iter().flatten().map(|entry| entry["message"].to_string()).collect()
     }
 
     /// The visible part of the page as PNG.

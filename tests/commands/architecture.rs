@@ -48,13 +48,13 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_846),
+    ("crates/case", 10_842),
     ("crates/chart", 4_836),
     ("crates/described", 107),
     ("crates/formats", 6_156),
     ("crates/linalg", 4_097),
     ("crates/output", 794),
-    ("crates/physics/src/cea", 10_309),
+    ("crates/physics/src/cea", 10_314),
     ("crates/physics/src/contact", 2_680),
     ("crates/physics/src/cycle", 7_707),
     ("crates/physics/src/fem", 4_406),
@@ -65,10 +65,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 4_515),
     ("crates/physics/src/transient", 4_632),
-    ("crates/results", 17_549),
+    ("crates/results", 17_540),
     ("crates/signal", 5_998),
-    ("crates/study", 10_491),
-    ("src/app", 4_508),
+    ("crates/study", 10_486),
+    ("src/app", 4_502),
     ("src/guide", 70),
     ("src/lib.rs", 100),
     ("src/main.rs", 5),
@@ -142,8 +142,7 @@ fn lines_of_the_upper_rooms_have_120_columns_at_most() {
 
 /// Code without its line comments.
 fn without_comments(code: &str) -> String {
-    let lines = code.lines();
-    let stripped = lines.map(|line| line.split("//").next().unwrap_or(""));
+    let stripped = code.lines().map(|line| line.split("//").next().unwrap_or(""));
     stripped.collect::<Vec<_>>().join("\n")
 }
 

@@ -52,8 +52,7 @@ impl Bench {
     /// Runs `command` under `overrides`, once for all checks.
     pub fn run(&self, command: &str, overrides: &[&str]) -> Answer {
         let request = format!("{command} {overrides:?}");
-        let known = self.answers.borrow().get(&request).cloned();
-        known.unwrap_or_else(|| {
+        self.answers.borrow().get(&request).cloned().unwrap_or_else(|| {
             let answer = self.run_with(command, overrides, &[]);
             self.answers.borrow_mut().insert(request, answer.clone());
             answer
@@ -105,8 +104,7 @@ fn stored_table() -> (Vec<String>, Vec<(String, Vec<Cell>)>) {
     let (rows, reasons) = table.split_once("\n\n").unwrap();
     let reasons: Vec<&str> = reasons.lines().map(|line| line.split_once(". ").unwrap().1).collect();
     let words = |row: &str| -> Vec<String> {
-        let words = row.trim_matches('|').split('|');
-        words.map(|word| word.trim().to_owned()).collect()
+        row.trim_matches('|').split('|').map(|word| word.trim().to_owned()).collect()
     };
     let cell = |word: &String| match word.as_str() {
         "right" => Cell::Right,

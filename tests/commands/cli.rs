@@ -19,8 +19,7 @@ fn on_disc(folder: &TempDir, command: &str, more: &[&str]) -> Run {
 
 /// Writes the disc case with a negative density.
 fn damaged(folder: &TempDir) -> &'static str {
-    let text = fs::read_to_string(disc()).unwrap();
-    let text = text.replace("density = 1228.0", "density = -1");
+    let text = fs::read_to_string(disc()).unwrap().replace("density = 1228.0", "density = -1");
     fs::write(folder.path().join("bad.toml"), text).unwrap();
     "bad.toml"
 }
@@ -40,8 +39,7 @@ fn help_has_exit_codes_and_default_folders_and_no_arguments_show_it_as_bad_usage
 #[test]
 fn check_reports_the_cost_as_numbers() {
     let cost = |name: &str| {
-        let answer = run(&folder(), &["check", "--json", &shipped(name)]).done();
-        answer.value()["cases"][0].clone()
+        run(&folder(), &["check", "--json", &shipped(name)]).done().value()["cases"][0].clone()
     };
     let case = cost("polycarbonate-610rpm.toml");
     assert_eq!(case["dofs"], 12960);
@@ -161,8 +159,7 @@ fn no_run_replaces_the_results_of_another_one_in_silence() {
     let plain = || Run::of("mesh", disc()).within(&folder);
     plain().refused(&["--set mesh.radial_elements=3", "--force"]);
     plain().args(&["--force"]).done();
-    let text = fs::read_to_string(disc()).unwrap();
-    let text = text.replace("density = 1228.0", "density = 1200.0");
+    let text = fs::read_to_string(disc()).unwrap().replace("density = 1228.0", "density = 1200.0");
     fs::write(folder.path().join("polycarbonate-disc.toml"), text).unwrap();
     // Another case of the same name, and then that case edited.
     run(&folder, &["mesh", "polycarbonate-disc.toml"]).refused(&["another case"]);
@@ -288,8 +285,7 @@ fn completions_and_manual_name_every_subcommand_with_files_and_exit_status() {
         assert!(page.exists(), "{}", page.display());
         assert_eq!(help.matches(&format!("\n  {name} ")).count(), 1, "{name}\n{help}");
         // Every command takes the options of all.
-        let own = run(&folder, &[name, "--help"]).done();
-        own.says(&["--threads ; --simd ; --quiet ; --verbose"]);
+        run(&folder, &[name, "--help"]).done().says(&["--threads ; --simd ; --quiet ; --verbose"]);
         run(&folder, &[name, "--force", "--nonesuch"]).refused(&["argument '--nonesuch'"]);
     }
 }

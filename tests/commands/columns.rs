@@ -50,8 +50,7 @@ const FLAGS: [&str; 4] = ["fold", "stable", "unstable", "unstable_from_start"];
 
 /// Whether a text has a number of more than nine digits.
 fn has_long_number(text: &str) -> bool {
-    let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
-    numbers.into_iter().any(|number| {
+    text.split(|c: char| !(c.is_ascii_digit() || c == '.')).into_iter().any(|number| {
         let digits: String = number.chars().filter(char::is_ascii_digit).collect();
         digits.trim_matches('0').len() > 9
     })

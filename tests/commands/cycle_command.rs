@@ -181,8 +181,7 @@ fn the_cycle_of_a_whole_mesh_has_the_same_bytes_for_any_threads() {
 fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
     let folder = folder();
     let set = ["cycle.harmonics=[1]", "contact.friction_coefficient=0.5"];
-    let answer = block(folder.path(), &set).done();
-    let summary = answer.warns(&["cycle.harmonics is not used"]).value();
+    let summary = block(folder.path(), &set).done().warns(&["cycle.harmonics is not used"]).value();
     assert_eq!(summary["steady_sliding_stable"], true);
     assert!(summary["least_stable"]["growth_rate_per_s"].as_f64().unwrap() < 0.0);
     block(folder.path(), &["contact.speed=0"]).refused(&["contact.speed", "sticks at rest"]);

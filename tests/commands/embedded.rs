@@ -67,8 +67,7 @@ fn a_transient_that_is_stopped_keeps_what_it_has_and_resumes_to_the_same_bytes()
     assert!(interruption(&failure).contains("--resume"), "{failure:?}");
     assert!(time < Duration::from_secs(15), "{time:?}");
     let table = fs::read_to_string(folder.path().join("run/energy.csv")).unwrap();
-    let last = table.lines().last().unwrap().split(',').next().unwrap();
-    let reached: f64 = last.parse().unwrap();
+    let reached: f64 = table.lines().last().unwrap().split(',').next().unwrap().parse().unwrap();
     // A little further than it came, in one run and in two.
     let duration = format!("transient.duration={:.3}", reached + 0.002);
     let mut again = transient(&folder, "run", &duration);

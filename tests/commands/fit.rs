@@ -99,8 +99,7 @@ fn a_line_that_no_mode_can_be_is_named() {
     let table = "frequency_hz,harmonic,unstable\n7660,1,1\n9900,2,1\n10500,1,1\n9000,0,1\n";
     let one = ["fit={ starts = 1, parameters = { \"material.young_modulus\" = [1.5e9, 3e9] } }"];
     let set = [COARSE_DISC.as_slice(), &one].concat();
-    let answer = fitted("fit-table-1.toml", table, &set).code(1);
-    answer.warns(&["line 5", "n = 0, unstable"]);
+    fitted("fit-table-1.toml", table, &set).code(1).warns(&["line 5", "n = 0, unstable"]);
 }
 
 #[test]

@@ -17,8 +17,7 @@ static MEASURED: LazyLock<Vec<(f64, Motion)>> = LazyLock::new(|| {
     let solution = solve(&case, cea, &model, None).unwrap();
     let mut draw = crate::draws::draws(12345);
     let mut noise = || 2.0 * draw() - 1.0;
-    let modes = solution.sweep.points[0].modes.iter().rev();
-    let shapes = modes.enumerate().map(|(k, mode)| {
+    let shapes = solution.sweep.points[0].modes.iter().rev().enumerate().map(|(k, mode)| {
         let turn = c64::new(0.0, 1.1 + k as f64).exp() * 1e-3;
         let shape = mode.shape.as_ref().unwrap();
         let nodes = (0..model.mesh.node_count()).step_by(5);
@@ -76,8 +75,7 @@ fn universal(shapes: &[Motion]) -> String {
 fn run(folder: &Path, shapes: &str, further: &[&str]) -> Run {
     fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
     fs::write(folder.join("shapes"), shapes).unwrap();
-    let run = Run::new(&["mac", "case.toml", "shapes", "--force"]).within(folder).out("out");
-    run.args(further)
+    Run::new(&["mac", "case.toml", "shapes", "--force"]).within(folder).out("out").args(further)
 }
 
 /// Noise of relative size 0.03 on each part of unit shapes leaves a criterion above 0.97 of the own mode.

@@ -38,8 +38,7 @@ fn the_force_of_an_interference_gives_that_interference_back() {
     for (text, own) in cases {
         let path = folder.path().join("case.toml");
         let with = |change: &str| case_of(&path, text, &[own, &[change]].concat());
-        let pushed = with("contact.interference=2e-5");
-        let force = pushed.normal_forces().unwrap()[0];
+        let force = with("contact.interference=2e-5").normal_forces().unwrap()[0];
         assert!(force > 0.0, "{own:?}");
         let pressed = with(&format!("contact.normal_force={force:?}"));
         let found = pressed.contact.sliding.interference;
@@ -60,8 +59,7 @@ fn every_contact_gets_its_own_force() {
         )
     };
     let set = [SEAM.to_owned(), contact("left", 200.0), contact("right", 300.0)];
-    let case = case_of(folder.path().join("case.toml"), PADS, &set);
-    let forces = case.normal_forces().unwrap();
+    let forces = case_of(folder.path().join("case.toml"), PADS, &set).normal_forces().unwrap();
     near_each(&forces, &[200.0, 300.0], 1e-9);
 }
 

@@ -75,8 +75,7 @@ fn critical_friction_of_the_shipped_case_depends_on_the_brake_pressure() {
         let rows = rows(&out.join("stability.csv"));
         pressures.map(|pressure| {
             let own = rows.iter().filter(|row| row.number("boundaries.back.pressure") == pressure);
-            let critical = own.map(|row| row.number("critical_friction"));
-            critical.fold(f64::INFINITY, f64::min)
+            own.map(|row| row.number("critical_friction")).fold(f64::INFINITY, f64::min)
         })
     };
     // From 0.387 to 0.249: the pair's other mode is on the springs of the lining.

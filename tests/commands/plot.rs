@@ -38,8 +38,7 @@ fn check_redrawn(folder: &TempDir, expected: &str) {
     assert_eq!(report.matches("<figcaption>").count(), drawings);
     // Every row of a table has a cell for each of its columns.
     for table in report.split("<table>").skip(1) {
-        let columns = table.split("</thead>").next().unwrap();
-        let columns = columns.matches("<th scope=\"col\"").count();
+        let columns = table.split("</thead>").next().unwrap().matches("<th scope=\"col\"").count();
         let rows = table.split("<tr>").filter(|row| row.contains("<td"));
         assert!(rows.into_iter().all(|row| columns == 0 || row.matches("<td").count() == columns));
     }

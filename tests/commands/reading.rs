@@ -55,8 +55,7 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
             let shares = own.iter().map(|row| row.number(share)).filter(|share| share.is_finite());
             assert!((shares.sum::<f64>() - 1.0).abs() < 1e-12);
         }
-        let fed = own.iter().filter(|row| row["kind"] == "contact");
-        let fed: Vec<f64> = fed.map(rate).collect();
+        let fed: Vec<f64> = own.iter().filter(|row| row["kind"] == "contact").map(rate).collect();
         if !has_friction {
             assert!(fed.iter().all(|fed| fed.abs() < 1e-8 * omega), "{fed:?} without friction");
             // `-2 g_r = alpha_r T_r + beta_r U_r`: every region tells the same strain energy of the whole.

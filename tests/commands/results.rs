@@ -22,8 +22,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
 fn solution(mesh: &AnnulusMesh) -> Solution {
     let mut shaped = mode(12.5, 9900.0, 2, -1);
     // One travelling wave: cos and sin parts a quarter period apart.
-    let angles = mesh.mesh.frame_angles();
-    let wave = angles.iter().flat_map(|angle| {
+    let wave = mesh.mesh.frame_angles().iter().flat_map(|angle| {
         let (sine, cosine) = (2.0 * angle).sin_cos();
         [c64::new(cosine, sine), c64::new(-sine, cosine)]
     });
@@ -218,8 +217,7 @@ fn a_field_of_the_wrong_length_is_not_written() {
 #[test]
 fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
     let mesh = annulus(Quad8).mesh;
-    let angles = mesh.frame_angles();
-    let polar = angles.iter().map(|angle| angle.sin_cos());
+    let polar = mesh.frame_angles().iter().map(|angle| angle.sin_cos());
     let polar: Vec<f64> = polar.flat_map(|(s, c)| [c + 2.0 * s, 2.0 * c - s]).collect();
     for vector in cartesian_vectors(&mesh, &polar).chunks_exact(3) {
         assert!((vector[0] - 1.0).abs() < 1e-15 && (vector[1] - 2.0).abs() < 1e-15);
@@ -256,8 +254,7 @@ fn the_area_of_a_quadratic_mesh_converges_with_the_fourth_power() {
         let mut spec = annulus(element).specification;
         spec.circumferential_elements = count;
         let annulus = AnnulusMesh::generate(&spec).unwrap();
-        let statistics = MeshStatistics::new(&annulus.mesh, Some(&annulus), None);
-        statistics.area_error.unwrap()
+        MeshStatistics::new(&annulus.mesh, Some(&annulus), None).area_error.unwrap()
     };
     // A parabola through three points of a circle is off by the fourth power of the angle.
     for (element, order) in [(Quad4, 2.0), (Quad8, 4.0)] {

@@ -34,8 +34,7 @@ const CEA: [&str; 2] = ["cea", "cea.method"];
 fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     let to = |p: &[f64; 3], q: &[f64; 3]| ((p[1] - q[1]).hypot((p[2] - q[2]) / TAU)) / p[1];
     let nearest = |p: &[f64; 3]| {
-        let others = b.iter().filter(|q| q[0] == p[0]).map(|q| to(p, q));
-        others.fold(f64::INFINITY, f64::min)
+        b.iter().filter(|q| q[0] == p[0]).map(|q| to(p, q)).fold(f64::INFINITY, f64::min)
     };
     a.iter().map(nearest).fold(0.0, f64::max)
 }

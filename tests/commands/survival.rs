@@ -46,8 +46,7 @@ fn points(folder: &Path) -> BTreeMap<String, String> {
     let folder = folder.join("points");
     let names = if folder.exists() { names_in(&folder) } else { Vec::new() };
     let names = names.into_iter().filter(|name| name.starts_with("point-"));
-    let points = names.map(|name| (name.clone(), fs::read_to_string(folder.join(name)).unwrap()));
-    points.collect()
+    names.map(|name| (name.clone(), fs::read_to_string(folder.join(name)).unwrap())).collect()
 }
 
 /// Time, table and points of a sweep that nothing happens to, run once.
@@ -96,8 +95,7 @@ fn processes_side_by_side_share_the_points_of_one_folder() {
         summary["ran"].as_u64().unwrap()
     };
     let all: u64 = std::thread::scope(|scope| {
-        let processes = [(); 3].map(|()| scope.spawn(ran));
-        processes.map(|process| process.join().unwrap()).iter().sum()
+        [(); 3].map(|()| scope.spawn(ran)).map(|process| process.join().unwrap()).iter().sum()
     });
     assert_eq!((all, ran()), (30, 0), "each point once");
     study.is_whole("shared");

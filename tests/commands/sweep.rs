@@ -257,8 +257,7 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
             |row: &Row| row.numbers(["frequency_hz", "growth_rate_per_s", "critical_friction"]);
         own.map(numbers).collect()
     };
-    let own = answer.rows("modes.csv");
-    let grows = own.iter().filter(|row| row["unstable"] == "true").count();
+    let grows = answer.rows("modes.csv").iter().filter(|row| row["unstable"] == "true").count();
     let of_own = unstable.iter().filter(|row| row["friction_coefficient"] == "0.3");
     assert_eq!(of_own.count(), grows);
     assert!(grows > 4, "{grows}");
@@ -302,8 +301,7 @@ fn keys_of_one_short_name_have_heads_of_their_own() {
     let folder = folder_with(&[("case.toml", coarse_disc(sections).as_bytes())]);
     let run = Run::new(&["sweep", "case.toml", "--format", "svg"]).within(&folder).out("out");
     let keys = ["contact.normal_stiffness", "boundaries.outer.normal_stiffness"];
-    let answer = run.done().says(&keys);
-    let html = answer.text("report.html");
+    let html = run.done().says(&keys).text("report.html");
     let tables: Vec<&str> = html.split("<thead>").skip(1).collect();
     let heads = |table: &&str| -> Vec<String> {
         let row = table.split("</tr>").next().unwrap().split("</th>");

@@ -171,8 +171,7 @@ pub fn swept(tangent: &SlidingTangent, frictions: &[f64], limit: ModeLimit) -> F
 
 /// Modes at one friction coefficient.
 pub fn modes_at(tangent: &SlidingTangent, friction: f64, limit: ModeLimit) -> Vec<ComplexMode> {
-    let found = swept(tangent, &[friction], limit);
-    found.points.into_iter().next().unwrap().modes
+    swept(tangent, &[friction], limit).points.into_iter().next().unwrap().modes
 }
 
 /// A run at its start; its operator lives as long as the tests.

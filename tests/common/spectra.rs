@@ -24,10 +24,8 @@ pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
 
 /// Largest relative distance of an expected eigenvalue from the nearest one found.
 pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
-    let error = |a: &c64| {
-        let distances = found.iter().map(|b| (a - b).norm() / a.norm());
-        distances.fold(f64::INFINITY, f64::min)
-    };
+    let error =
+        |a: &c64| found.iter().map(|b| (a - b).norm() / a.norm()).fold(f64::INFINITY, f64::min);
     expected.iter().map(error).fold(0.0, f64::max)
 }
 
@@ -75,8 +73,7 @@ pub fn rows_of<const N: usize>(text: &str) -> Vec<[f64; N]> {
 /// Largest relative distance of numbers from as many others, one by one.
 pub fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
     assert_eq!(a.len(), b.len());
-    let pairs = a.iter().zip(b);
-    pairs.map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
 }
 
 /// A matrix of a file as a dense one.

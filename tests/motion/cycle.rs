@@ -43,8 +43,7 @@ pub fn solver_of(disc: &AnnulusSpecification, harmonic: usize) -> CycleSolver {
 
 /// What small perturbations of a cycle do.
 pub fn stability_of(solver: &CycleSolver, cycle: &LimitCycle) -> FloquetMultipliers {
-    let stepping = solver.stepping(SimdLevel::detect()).unwrap();
-    stepping.settle(cycle, None).unwrap().stability
+    solver.stepping(SimdLevel::detect()).unwrap().settle(cycle, None).unwrap().stability
 }
 
 fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
@@ -58,8 +57,7 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
          cycle.continuation.from=70.0 ; cycle.continuation.to=250.0 ; \
          cycle.continuation.count=3 ; cycle.confirmation_periods=0"];
     let case = shipped_case("limit-cycle.toml", &overrides);
-    let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
-    let results = study.run(0, &|| {});
+    let results = CycleStudy::new(&case, SimdLevel::detect()).unwrap().run(0, &|| {});
     let branch = results[0].outcome.as_ref().unwrap().branch.as_ref().unwrap();
     let solver = solver(1);
     assert!(branch.cycles.len() >= 3);
@@ -198,8 +196,7 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
     for &(harmonic, rpm, frequency, stick, open, external, share) in
         sized(&transients[..2], &transients)
     {
-        let solver = solver_of(&specification, harmonic);
-        let cycle = solver.find(&operating(rpm)).unwrap();
+        let cycle = solver_of(&specification, harmonic).find(&operating(rpm)).unwrap();
         let label = format!("n = {harmonic} at {rpm} rpm");
         assert!(cycle.powers.balance_residual() < 1e-8, "{label}");
         assert!((cycle.frequency_hz() / frequency - 1.0).abs() < 5e-4, "{label}");

@@ -22,8 +22,7 @@ const LARGE: [f64; 4] = [4e-5, 4e-5, 0.0, 0.0];
 
 fn searched(case: &Case, watch: &dyn SweepWatch) -> FoundCycle {
     let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
-    let result = study.run(0, watch, &|_| {}).unwrap().remove(0);
-    result.outcome.unwrap()
+    study.run(0, watch, &|_| {}).unwrap().remove(0).outcome.unwrap()
 }
 
 fn branch(case: &Case) -> PeriodicBranch {

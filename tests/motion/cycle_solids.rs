@@ -59,8 +59,7 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
     );
     let case = pad(folder().path(), sized(12, 16), &[&range]);
     let run = |kept: &Kept| -> Vec<PeriodicResult> {
-        let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
-        study.run(1, kept, &|_| {}).unwrap()
+        PeriodicStudy::new(&case, SimdLevel::detect()).unwrap().run(1, kept, &|_| {}).unwrap()
     };
     let first = Kept::default();
     let whole = run(&first);

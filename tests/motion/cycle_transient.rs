@@ -67,8 +67,7 @@ fn transient_started_on_a_stable_cycle_stays_and_forgets_other_harmonics_at_the_
     let own = amplitudes(&record, 2, 0.0, 1.0);
     let (first, last) = (own[0].1, own[own.len() - 1].1);
     assert!((first / last - 1.0).abs() < 5e-3, "{first} {last}");
-    let analysis = TransientAnalysis::of(&record, &[2]);
-    let frequency = analysis.last_fifth.main_frequency_hz.unwrap();
+    let frequency = TransientAnalysis::of(&record, &[2]).last_fifth.main_frequency_hz.unwrap();
     assert!((frequency / cycle.frequency_hz() - 1.0).abs() < 5e-4, "{frequency}");
     // Perturbed in harmonic 1, it decays as the leading exponent of the odd class says.
     let measured = rate(&amplitudes(&record, 1, 2e-3, 8e-3));

@@ -14,8 +14,7 @@ pub fn oscillator(folder: &Path, overrides: &[&str]) -> Case {
 
 /// The periodic motions that a case's study finds.
 pub fn cycles(case: &Case) -> Vec<PeriodicResult> {
-    let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
-    study.run(0, &Unwatched, &|_| {}).unwrap()
+    PeriodicStudy::new(case, SimdLevel::detect()).unwrap().run(0, &Unwatched, &|_| {}).unwrap()
 }
 
 /// Holds a number to another, to a share of it.

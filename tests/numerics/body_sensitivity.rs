@@ -68,8 +68,7 @@ impl Body {
 
 /// The eigenvalue of a spectrum at a friction coefficient that is nearest to one.
 pub fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64 {
-    let points = sweep.points.iter();
-    let point = points.filter(|point| point.friction_coefficient == *friction);
+    let point = sweep.points.iter().filter(|point| point.friction_coefficient == *friction);
     let all = point.flat_map(|point| &point.modes).map(|mode| mode.eigenvalue);
     nearest_by(all, |other| (other - eigenvalue).norm())
 }
@@ -108,8 +107,7 @@ fn sensitivities_of_an_oval_on_supports_are_differences_of_its_spectra() {
 /// Springs and dashpots in the contact and on the support.
 #[test]
 fn sensitivities_of_an_oval_on_springs_are_differences_of_its_spectra() {
-    let springs = supported_oval("normal_stiffness = 5e12\nnormal_damping = 1e3\n");
-    springs.check(&[
+    supported_oval("normal_stiffness = 5e12\nnormal_damping = 1e3\n").check(&[
         ("contact.normal_stiffness", "normal_stiffness"),
         ("damping.stiffness_coefficient", "stiffness_coefficient"),
         ("boundaries.outer.normal_stiffness", "boundaries.outer.normal_stiffness"),
@@ -131,8 +129,7 @@ fn sensitivities_of_a_block_whose_corner_lifts_are_differences_of_its_spectra() 
         .replace("meshes/block.msh", &shipped("meshes/block.msh"))
         .replace("[0.1, 0.3, 0.5]", "[0.5]")
         .replace("modes = 10", "modes = 3");
-    let block = Body { folder, text };
-    block.check(&[("material.poisson_ratio", "poisson_ratio")]);
+    Body { folder, text }.check(&[("material.poisson_ratio", "poisson_ratio")]);
 }
 
 /// Two blocks of bricks whose meshes do not match; the dashpot of friction across the sliding follows the pressure.

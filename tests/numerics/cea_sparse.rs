@@ -121,8 +121,7 @@ fn modes_that_grow_only_as_they_meet_between_two_values_are_found() {
         let damping = RayleighDamping { mass_coefficient: alpha, stiffness_coefficient: 0.0 };
         let parts = [mass.clone(), Vec::new(), stiffness.clone()];
         let tangent = problem(size, parts, Some(damping));
-        let result = swept(&tangent, &[0.0, 0.3], ModeLimit::Lowest(3));
-        let mut found = result.intervals.clone();
+        let mut found = swept(&tangent, &[0.0, 0.3], ModeLimit::Lowest(3)).intervals.clone();
         found.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
         assert_eq!(found.len(), 2, "{found:?}");
         for (own, meeting) in found.iter().zip([0.1, 0.2]) {
@@ -179,8 +178,7 @@ fn exact_modes(tangent: &SlidingTangent, of: Linearization, mu: f64, wanted: usi
     let start = random_columns(operator.dimension(), 3, 0x5eed);
     let pairs = krylov_schur(&operator, start, &|_| true, &settings).unwrap();
     assert!(pairs.residuals.iter().all(|residual| *residual <= 1e-11));
-    let found = pairs.values.iter();
-    let mut exact: Vec<c64> = found.filter_map(|&s| of.eigenvalue(s)).collect();
+    let mut exact: Vec<c64> = pairs.values.iter().filter_map(|&s| of.eigenvalue(s)).collect();
     exact.sort_by(|a, b| a.im.total_cmp(&b.im));
     exact
 }

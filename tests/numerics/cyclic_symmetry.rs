@@ -136,8 +136,7 @@ fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
     for frame in ["rest", "turning"] {
         let [waves, whole] = ["cyclic", "sparse"].map(|method| {
             let text = text.replace("\"rest\"", &format!("{frame:?}"));
-            let found = solved(&format!("turning-{frame}"), &mesh, &text, method);
-            found.sweep.points[0].modes.clone()
+            solved(&format!("turning-{frame}"), &mesh, &text, method).sweep.points[0].modes.clone()
         });
         assert!(distance(&waves, &whole) < 1e-9, "{waves:?} {whole:?}");
     }
@@ -167,8 +166,7 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     let manifest = Manifest::new("cea");
     let told = cea::summary(&report);
     let own = |modes: &[ComplexMode]| modes.iter().map(|m| m.nodal_diameters).collect::<Vec<_>>();
-    let listed = told.modes_at_friction.unwrap();
-    let listed: Vec<_> = listed.iter().map(|mode| mode.harmonic).collect();
+    let listed: Vec<_> = told.modes_at_friction.unwrap().iter().map(|mode| mode.harmonic).collect();
     assert_eq!(listed, own(&solution.sweep.points[2].modes));
     assert!(listed.iter().all(Option::is_some));
     let onsets: Vec<_> = told.critical_frictions.iter().map(|onset| onset.harmonic).collect();

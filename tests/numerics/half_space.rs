@@ -49,8 +49,7 @@ fn annulus_speed(n: usize) -> c64 {
         let size = terms[0].dimension();
         Mat::from_fn(size, size, |i, j| {
             let factors = (0..).map(|power| c64::new(0.0, FRICTION).powi(power));
-            let values = terms.iter().zip(factors);
-            values.map(|(term, factor)| factor * term.get(i, j)).sum::<c64>()
+            terms.iter().zip(factors).map(|(term, factor)| factor * term.get(i, j)).sum::<c64>()
         })
     };
     let (mass, stiffness) = (dense(&harmonic.mass), dense(&harmonic.stiffness));
@@ -60,8 +59,7 @@ fn annulus_speed(n: usize) -> c64 {
         let lambda = (-kappa).sqrt();
         [lambda, -lambda].map(|lambda| c64::new(0.0, 1.0) * lambda / n as f64)
     });
-    let slow = speeds.filter(|speed| speed.re.abs() < 2.0);
-    slow.max_by(|a, b| a.im.total_cmp(&b.im)).unwrap()
+    speeds.filter(|speed| speed.re.abs() < 2.0).max_by(|a, b| a.im.total_cmp(&b.im)).unwrap()
 }
 
 #[test]

@@ -208,8 +208,7 @@ fn exported_matrices_have_the_eigenvalues_of_the_analysis_where_contact_opens_or
 /// What `frictionsim matrices --friction` writes, without losses.
 fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
     let run = Run::new(&["matrices", "block.toml", "--quiet", "--force"]).within(folder);
-    let run = run.out("alone").args(&["--friction", &friction.to_string()]).set(set);
-    let out = run.done().out;
+    let out = run.out("alone").args(&["--friction", &friction.to_string()]).set(set).done().out;
     let mut files = names_in(&out);
     files.retain(|name| !name.starts_with('.'));
     let beside = ["manifest.json", "mesh.msh", "summary.json"];

@@ -21,8 +21,7 @@ fn estimates(solution: &Solution) -> Vec<[f64; 2]> {
 
 /// What the estimates say of the difference of two meshes, over that difference, by mode.
 fn effectivities(coarse: &[[f64; 2]], fine: &[[f64; 2]]) -> Vec<f64> {
-    let pairs = coarse.iter().zip(fine);
-    pairs.map(|([a, of_a], [b, of_b])| (of_a - of_b) / (a - b)).collect()
+    coarse.iter().zip(fine).map(|([a, of_a], [b, of_b])| (of_a - of_b) / (a - b)).collect()
 }
 
 /// Independent check: the same body on elements of half the size. Linear bricks in space, quadratic triangles in the plane, with contact,

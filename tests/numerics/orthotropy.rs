@@ -89,8 +89,7 @@ fn ritz(orthotropy: &Orthotropy, density: f64, size: [f64; 3], degree: usize) ->
         let entry = |at: usize, beside: usize| {
             let ((i, a), (j, b)) = (own[at], own[beside]);
             // c_iijj, and c_ijij = c_ijji = G_ij.
-            let others = (0..3).filter(|&k| k != i && (i == j || k == j));
-            let sheared = others.map(|k| {
+            let sheared = (0..3).filter(|&k| k != i && (i == j || k == j)).map(|k| {
                 let (p, q) = if i == j { (k, k) } else { (j, i) };
                 shear(i, k) * integral(&a, &b, p, q)
             });
@@ -239,8 +238,7 @@ fn plane_formulations_reduce_the_compliance_of_the_solid() {
         let material = ElasticMaterial { formulation, ..solid(constants) };
         let law = material.elasticity_at([0.1, 0.2, 0.0]);
         let at = [0, 1, 3];
-        let law = Matrix3::from_fn(|i, j| law[at[i]][at[j]]);
-        law.try_inverse().unwrap()
+        Matrix3::from_fn(|i, j| law[at[i]][at[j]]).try_inverse().unwrap()
     };
     // Compliances over the material's axes, turned by the fourth-order tensor's rule.
     let along_x = |s11: f64, s22: f64, s12: f64, s66: f64| {

@@ -308,8 +308,7 @@ fn growth_vanishes_at_the_critical_friction_of_damped_bodies() {
     {
         let case = part(&slider);
         let found = modes_and_onsets(&case).unwrap();
-        let located = found.intervals.iter().filter(|own| own.is_located());
-        let onsets = located.flat_map(|own| {
+        let onsets = found.intervals.iter().filter(|own| own.is_located()).flat_map(|own| {
             [(own.critical_friction, own.frequency_hz)].into_iter().chain(own.restabilized)
         });
         for (friction, frequency_hz) in onsets {
@@ -330,8 +329,7 @@ fn of_two_modes_that_meet_one_has_an_onset() {
     let block = brick("part", [-0.02, -0.02, 0.0], [0.04004, 0.04, 0.05], [3; 3]);
     let text = include_str!("../cases/nearly-square-block.toml");
     let found = modes_and_onsets(&of_file(&file_of(&[block], |point| point), text)).unwrap();
-    let last = found.points.last().unwrap();
-    let growing = last.modes.iter().filter(|mode| mode.is_unstable());
+    let growing = found.points.last().unwrap().modes.iter().filter(|mode| mode.is_unstable());
     assert_eq!(growing.count(), found.intervals.len(), "{:?}", found.intervals);
 }
 

@@ -132,8 +132,7 @@ impl Pencil {
             vectors = images * turned;
             squares = sorted(found.as_slice().to_vec());
         }
-        let squares = squares[..count].iter();
-        squares.map(|square| square.max(0.0).sqrt() / (2.0 * PI)).collect()
+        squares[..count].iter().map(|square| square.max(0.0).sqrt() / (2.0 * PI)).collect()
     }
 
     /// Rayleigh's quotient of a column.
@@ -373,8 +372,7 @@ fn a_turned_block_has_the_same_frequencies() {
 fn measures(bytes: &[u8], exact: &[(&str, f64)], tolerance: impl Fn(&str) -> f64) {
     let mesh = mesh_of(bytes, &[]);
     let regions = mesh.regions.iter().cloned().zip(mesh.region_measures());
-    let surfaces = mesh.boundaries.iter();
-    let surfaces = surfaces.map(|b| (b.name.clone(), mesh.face_area(&b.faces)));
+    let surfaces = mesh.boundaries.iter().map(|b| (b.name.clone(), mesh.face_area(&b.faces)));
     let found: Vec<(String, f64)> = regions.chain(surfaces).collect();
     assert_eq!(found.len(), exact.len());
     for ((name, found), (expected, exact)) in found.iter().zip(exact) {

@@ -90,8 +90,7 @@ fn a_graded_body_is_refined_alike_on_its_whole_mesh() {
     ];
     let case = shipped_case("disc-three-dimensions.toml", &sets);
     let radii = |case: &Case| -> Vec<f64> {
-        let body = case.body.assembly().unwrap();
-        body.mesh.nodes.iter().map(|[x, y, _]| x.hypot(*y)).collect()
+        case.body.assembly().unwrap().mesh.nodes.iter().map(|[x, y, _]| x.hypot(*y)).collect()
     };
     let finer = radii(&case.refined(2.0).unwrap());
     let is_kept = |own: f64| finer.iter().any(|other| (other - own).abs() < 1e-12);

@@ -159,8 +159,7 @@ pub fn follow_differences(
             [&there.stiffness, &there.damping, &there.mass, lost].map(|matrix| matrix.evaluate(mu))
         });
         let [dk, dc, dm, dh] = [0, 1, 2, 3].map(|k| -> Vec<f64> {
-            let sides = frozen[0][k].iter().zip(&frozen[1][k]);
-            sides.map(|(a, b)| (a - b) / (2.0 * step)).collect()
+            frozen[0][k].iter().zip(&frozen[1][k]).map(|(a, b)| (a - b) / (2.0 * step)).collect()
         });
         let response = pair.response(own.stiffness.pattern(), [&dk, &dc, &dm], &dh);
         let derivatives = [(response, &by_parameter), (pair.derivative, &by_friction)];

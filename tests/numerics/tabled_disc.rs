@@ -28,8 +28,7 @@ fn an_onset_has_the_modulus_of_its_own_frequency() {
     // The table lies beside the results, which are drawn again without it in its place.
     assert_eq!(case.raw.kept_tables()[0].1.bytes[..], *LINING);
     let found = modes_and_onsets(&case).unwrap().intervals;
-    let crossed = found.iter().filter(|own| !own.unstable_from_start);
-    let crossed: Vec<_> = crossed.collect();
+    let crossed: Vec<_> = found.iter().filter(|own| !own.unstable_from_start).collect();
     assert!(!crossed.is_empty(), "{found:?}");
     for onset in crossed.iter().take(2) {
         let nearest = |[modulus, loss_factor]: [f64; 2]| {

@@ -16,11 +16,8 @@ pub fn pairs(tangent: &WaveTangent, branches: &[ModeBranch], friction: f64) -> V
 
 /// Their derivatives by a parameter, of which `at` has the model where it is so much more.
 pub fn rates(pairs: &[WavePair], step: f64, at: &dyn Fn(f64) -> WaveTangent) -> Vec<c64> {
-    let weights = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
-    let sides = weights.map(|(steps, weight)| Beside {
-        weight: weight / (12.0 * step),
-        tangent: at(steps * step),
-        friction_shift: 0.0,
+    let sides = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)].map(|(steps, weight)| {
+        Beside { weight: weight / (12.0 * step), tangent: at(steps * step), friction_shift: 0.0 }
     });
     wave_responses(&pairs.iter().collect::<Vec<_>>(), &sides).unwrap()
 }

@@ -203,8 +203,7 @@ impl Description<'_> {
         let message = format!("{}: {error}", self.file.as_deref().unwrap_or_default());
         let BodyError::Request { part, .. } = error else {
             // What the key means is no remedy for what the file holds.
-            let at = self.raw.place("mesh.file");
-            return Diagnostic::error(message, "cannot be used", at, None);
+            return Diagnostic::error(message, "cannot be used", self.raw.place("mesh.file"), None);
         };
         let (key, label) = match part {
             BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),

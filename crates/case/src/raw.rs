@@ -160,8 +160,7 @@ impl RawCase {
     /// The tables that were read, each with the name under which it lies beside the results.
     pub fn kept_tables(&self) -> Vec<(String, &TableBytes)> {
         let kept = self.table_files().into_iter().filter_map(|(name, file)| {
-            let table = self.tables.iter().find(|table| table.file == file)?;
-            Some((name, table))
+            Some((name, self.tables.iter().find(|table| table.file == file)?))
         });
         kept.collect()
     }
@@ -277,8 +276,7 @@ fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) 
     for error in &errors {
         let span = error.span().unwrap_or(0..0);
         let help = decimal_comma(text, span.start);
-        let at = Location::new(source, span);
-        diagnostics.push(Diagnostic::error(error.message(), "", at, help));
+        diagnostics.push(Diagnostic::error(error.message(), "", Location::new(source, span), help));
     }
     convert_table(table.get_ref(), source, diagnostics)
 }

@@ -259,8 +259,7 @@ impl<'a> Section<'a> {
                 self.findings.take_back(&self.name(meant));
             }
             let message = format!("unknown key `{}`", cut(self.name(key)));
-            let at = entry.key_at.clone();
-            self.findings.push(Diagnostic::error(message, place, at, Some(help)));
+            self.findings.push(Diagnostic::error(message, place, entry.key_at.clone(), Some(help)));
         }
         if let Some((_, first)) = unknown.next() {
             let count = 1 + unknown.count();

@@ -34,8 +34,7 @@ pub fn write_page(
     figures: Vec<Figure>,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let page = Page::new(document, figures, folder.manifest());
-    write_record(folder, &page)?;
+    write_record(folder, &Page::new(document, figures, folder.manifest()))?;
     // What is drawn is what was kept: drawn again, it is the same.
     read_record::<Page>(folder.path())?.draw(folder, options)
 }

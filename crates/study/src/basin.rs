@@ -34,8 +34,7 @@ fn contest(case: &Case, simd: SimdLevel) -> Result<([usize; 2], BasinBoundary), 
     if !case.has_rotating_waves() {
         return boundary_of_modes(case, request, simd);
     }
-    let found = disc_model(case)?.basin(&operating_point(case), request, simd)?;
-    Ok((request.harmonics, found))
+    Ok((request.harmonics, disc_model(case)?.basin(&operating_point(case), request, simd)?))
 }
 
 /// As [`boundary`], in the words of its results.

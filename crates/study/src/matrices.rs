@@ -1,8 +1,7 @@
 //! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
-use super::StudyError;
 use super::eigenvalues::{BasePoint, Solver, WholeMesh};
-use super::tangent_options;
+use super::{StudyError, tangent_options};
 use frictionsim_case::{Case, CeaMethod};
 use frictionsim_physics::contact::Row;
 use frictionsim_physics::linalg::{MarketMatrix, MatrixPolynomial};

@@ -75,8 +75,7 @@ const FEW: [&str; 2] = [ALONE, "cea.modes=2"];
 
 fn lowest_onset(summary: &Value) -> Option<f64> {
     let onsets = summary["critical_frictions"].as_array()?.iter();
-    let onsets = onsets.filter_map(|onset| onset["critical_friction"].as_f64());
-    onsets.min_by(f64::total_cmp)
+    onsets.filter_map(|onset| onset["critical_friction"].as_f64()).min_by(f64::total_cmp)
 }
 
 fn mesh(bench: &Bench, twin: Option<&Bench>) -> Verdict {

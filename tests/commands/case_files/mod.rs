@@ -64,8 +64,7 @@ fn the_swept_points_are_the_grid_in_order_with_the_last_key_fastest() {
     let speeds = range_values(10.0, 6000.0, 24, Spacing::Logarithmic);
     for index in [0, 25, 71] {
         let raw = case.raw.sweep_point(&sweep.overrides(index)).unwrap();
-        let point = Case::from_raw(raw).unwrap();
-        let speed = point.contact.sliding.rotation_speed / TAU * 60.0;
+        let speed = Case::from_raw(raw).unwrap().contact.sliding.rotation_speed / TAU * 60.0;
         // Two roundings of a product by 2 pi / 60.
         assert!((speed / speeds[index % 24] - 1.0).abs() < 1e-15);
     }

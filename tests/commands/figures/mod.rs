@@ -81,8 +81,7 @@ fn check_texts(name: &str, svg: &str) {
 
 /// Whether no attribute or text of a drawing holds what is no number; encoded images may spell anything.
 fn is_finite(svg: &str) -> bool {
-    let parts = svg.split("base64,").enumerate();
-    let mut outside = parts.map(|(index, part)| match index {
+    let mut outside = svg.split("base64,").enumerate().map(|(index, part)| match index {
         0 => part,
         _ => part.split_once('"').map_or("", |(_, rest)| rest),
     });

@@ -51,8 +51,7 @@ type Result = BTreeMap<String, BTreeMap<String, Numbers>>;
 
 /// Rows of a table, up to four fields each; headings stand in brackets.
 fn rows(table: &str) -> impl Iterator<Item = [&str; 4]> {
-    let lines = table.lines().filter(|line| !line.is_empty() && !line.starts_with(['#', '[']));
-    lines.map(|line| {
+    table.lines().filter(|line| !line.is_empty() && !line.starts_with(['#', '['])).map(|line| {
         let mut fields = line.split(" | ");
         [(); 4].map(|()| fields.next().unwrap_or_default())
     })

@@ -36,8 +36,7 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
     let outer: BTreeSet<usize> = moving.chain(loaded.iter().copied()).collect();
     let is_inner = |dof: &usize| !outer.contains(&(dof / 3));
     let largest = |forces: &dyn Fn(usize) -> f64| {
-        let unknowns = tangent.unknowns.dofs.iter().enumerate();
-        let inner = unknowns.filter(|(_, dof)| is_inner(dof));
+        let inner = tangent.unknowns.dofs.iter().enumerate().filter(|(_, dof)| is_inner(dof));
         inner.map(|(unknown, _)| forces(unknown).abs()).fold(0.0, f64::max)
     };
     // The unknown of an open point of rigid contact is its separation, which rows of others may hold.

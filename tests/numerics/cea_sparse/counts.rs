@@ -26,8 +26,7 @@ fn twice(count: usize) -> [Vec<Entries>; 3] {
 /// Middle of the widest gap of the spectrum between two places.
 fn gap(spectrum: &[c64], places: std::ops::Range<usize>) -> f64 {
     let pairs = spectrum[places].windows(2);
-    let widest = pairs.max_by(|a, b| (a[1].im - a[0].im).total_cmp(&(b[1].im - b[0].im)));
-    let pair = widest.unwrap();
+    let pair = pairs.max_by(|a, b| (a[1].im - a[0].im).total_cmp(&(b[1].im - b[0].im))).unwrap();
     0.5 * (pair[0].im + pair[1].im)
 }
 
@@ -35,8 +34,7 @@ fn gap(spectrum: &[c64], places: std::ops::Range<usize>) -> f64 {
 fn missing(of: &SlidingTangent, mu: f64, known: &[c64], top: f64) -> (i64, Option<c64>, usize) {
     let inside: Vec<c64> = known.iter().copied().filter(|own| own.im < top).collect();
     let region = CountedRegion::about(&inside, top, 1.0);
-    let counter = ModeCounter::new(of).unwrap();
-    let found = counter.count(mu, known, &region);
+    let found = ModeCounter::new(of).unwrap().count(mu, known, &region);
     (found.missing.unwrap(), found.near, found.determinants)
 }
 
@@ -59,8 +57,7 @@ fn counts_are_those_of_a_dense_spectrum() {
             let growing = |&k: &usize| below[k].re > 1e-3;
             let first_growing = (0..below.len()).find(growing).unwrap_or(7);
             for dropped in [vec![0], vec![first_growing], vec![2, 5, below.len() - 1]] {
-                let kept = spectrum.iter().enumerate();
-                let kept = kept.filter(|(k, _)| !dropped.contains(k));
+                let kept = spectrum.iter().enumerate().filter(|(k, _)| !dropped.contains(k));
                 let known: Vec<c64> = kept.map(|(_, own)| *own).collect();
                 let (found, near, _) = missing(&tangent, mu, &known, top);
                 assert_eq!(found, dropped.len() as i64, "{size} {mu} {dropped:?}");
@@ -91,8 +88,7 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
             lambda * (lambda * mass[(i, j)] + damping[(i, j)]) + stiffness[(i, j)]
         });
         let lu = matrix.partial_piv_lu();
-        let pivots = (0..size).map(|i| lu.U()[(i, i)]);
-        let exact: c64 = pivots.map(|pivot| pivot.ln()).sum();
+        let exact: c64 = (0..size).map(|i| lu.U()[(i, i)]).map(|pivot| pivot.ln()).sum();
         let rows = lu.P().arrays().0.to_vec();
         let mut cycles = 0;
         let mut is_seen = vec![false; size];

@@ -37,8 +37,7 @@ pub fn rate(errors: [f64; 3]) -> f64 {
     let mean = |values: [f64; 3]| values.iter().sum::<f64>() / 3.0;
     let (x_mean, y_mean) = (mean(x), mean(y));
     let product = |u: [f64; 3], u_mean: f64| -> f64 {
-        let pairs = x.iter().zip(u);
-        pairs.map(|(x, u)| (x - x_mean) * (u - u_mean)).sum()
+        x.iter().zip(u).map(|(x, u)| (x - x_mean) * (u - u_mean)).sum()
     };
     product(y, y_mean) / product(x, x_mean)
 }

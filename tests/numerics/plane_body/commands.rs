@@ -80,8 +80,7 @@ fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
 #[test]
 fn a_signal_is_named_by_the_modes_of_an_imported_body() {
     let folder = folder();
-    let answer = run(&folder, "cea", "body.toml", &[]).out("cea").done();
-    let rows = answer.rows("eigenvalues.csv");
+    let rows = run(&folder, "cea", "body.toml", &[]).out("cea").done().rows("eigenvalues.csv");
     let unstable = rows.iter().find(|row| row["unstable"] == "true").unwrap();
     let [mode, frequency] = unstable.numbers(["mode", "frequency_hz"]);
     let tone = tones(2e5, 20_000, &[("a", frequency)]);

@@ -51,8 +51,7 @@ fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
         let sides = [1.0 + h, 1.0 - h].map(|factor| solve(&moved(factor)));
         for like in [1, 4] {
             let [above, below] = sides.each_ref().map(|branches| {
-                let branch = branches.iter().find(is_of(&found[like])).unwrap();
-                branch.interpolate(0.3).unwrap()
+                branches.iter().find(is_of(&found[like])).unwrap().interpolate(0.3).unwrap()
             });
             let difference = (above - below) / (2.0 * h);
             let error = (difference - rates[like]).norm() / rates[like].norm().max(1e-12);

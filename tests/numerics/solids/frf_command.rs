@@ -23,8 +23,7 @@ fn damping_is_identified_from_the_response_of_a_disc_with_thickness() {
     assert_eq!(summary["dofs"], 24 * 7 * 3 * 3);
     // The nodes of 7 x 3 of each sector; that of the rim is the last of the top.
     has(summary["description"].as_str().unwrap(), &["node 63 axial"]);
-    let identify = Run::of("identify", "frf/frf.csv").within(&folder).args(&["--json"]);
-    let found = identify.done().value();
+    let found = Run::of("identify", "frf/frf.csv").within(&folder).args(&["--json"]).done().value();
     let coefficients = [("mass_coefficient", 40.0, 0.1), ("stiffness_coefficient", 4.5e-7, 0.05)];
     for (key, exact, bound) in coefficients {
         // Noise of 1 %: a few standard errors of the estimates of a dozen modes.

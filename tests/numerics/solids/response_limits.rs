@@ -59,8 +59,7 @@ fn guided_faces_respond_as_plane_strain_does() {
     let apart = [16, 32].map(|around| {
         let pairs = plane_and_guided(around, true);
         let top = pairs.iter().fold(0.0_f64, |m, (known, _)| m.max(known.norm()));
-        let apart = pairs.iter().map(|(known, h)| (h - known).norm() / top);
-        apart.fold(0.0, f64::max)
+        pairs.iter().map(|(known, h)| (h - known).norm() / top).fold(0.0, f64::max)
     });
     assert!(apart[1] < 5e-3 && apart[1] < apart[0] / 3.0, "{apart:?}");
 }

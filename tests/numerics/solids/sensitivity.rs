@@ -88,8 +88,7 @@ const SOFT: NormalLaw = cubic(2e9, 2e18);
 /// A plate bends away under the ring that presses it: the end of the pressed part moves with every parameter.
 #[test]
 fn sensitivities_follow_the_end_of_what_is_pressed() {
-    let all = [None, Some(SOFT)].map(|law| [Quad8, Quad4].map(|e| (e, law)));
-    let all = all.concat();
+    let all = [None, Some(SOFT)].map(|law| [Quad8, Quad4].map(|e| (e, law))).concat();
     for &(element, law) in sized(&all[1..3], &all) {
         let mut model = strained(element, COMPLIANT);
         model.options.contact.law = law;

@@ -85,8 +85,7 @@ fn inverse_spectrum([mass, damping, stiffness]: [Mat<c64>; 3], sigma: c64) -> Ve
         (false, true) => x[(i - size, j)] / sigma,
         (false, false) => -sigma * y[(i - size, j - size)],
     });
-    let values = inverse.eigenvalues().unwrap();
-    values.iter().map(|value| sigma + value.inv()).collect()
+    inverse.eigenvalues().unwrap().iter().map(|value| sigma + value.inv()).collect()
 }
 
 /// What the small space leaves out is all that may differ.

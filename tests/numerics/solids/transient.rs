@@ -112,8 +112,7 @@ fn energy_is_balanced_through_stick_slip_and_separation() {
         let (mut seen, mut residual, mut largest_across) = ([false; 3], 0.0_f64, 0.0_f64);
         watch(&mut run, |sample| {
             let law = sample.contact();
-            let forces = law.normal_force.iter().zip(&law.tangential_force);
-            let forces = forces.zip(&law.across_force);
+            let forces = law.normal_force.iter().zip(&law.tangential_force).zip(&law.across_force);
             for (((normal, tangential), across), status) in forces.zip(&law.status) {
                 let friction = tangential.hypot(*across);
                 assert!(*normal >= 0.0 && friction <= 0.3 * normal * (1.0 + 1e-12));

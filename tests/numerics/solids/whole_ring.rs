@@ -193,8 +193,7 @@ fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
             for (at, weight) in Hex20.quadrature() {
                 let shapes = Hex20.shape_functions(at);
                 let jacobian = nalgebra::Matrix3::from_fn(|i, j| {
-                    let pairs = places.iter().zip(&shapes);
-                    pairs.map(|(x, shape)| x[i] * shape.1[j]).sum::<f64>()
+                    places.iter().zip(&shapes).map(|(x, shape)| x[i] * shape.1[j]).sum::<f64>()
                 });
                 let volume = weight * jacobian.determinant();
                 let inverse = jacobian.try_inverse().unwrap();

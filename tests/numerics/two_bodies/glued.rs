@@ -16,8 +16,7 @@ fn glue(mesh: &Mesh) -> Glue {
         (own, masters.map(|(dof, part)| (dof, -part)).collect())
     };
     let points = interface.points(&contact(610.0)).into_iter();
-    let rows = points.flat_map(|point| [point.normal, point.slip]);
-    rows.map(|row| others(row[0].0, row)).collect()
+    points.flat_map(|point| [point.normal, point.slip]).map(|row| others(row[0].0, row)).collect()
 }
 
 /// `T^T A T` over all dofs.
@@ -26,8 +25,7 @@ fn glued(matrix: &Triplets, glue: &Glue) -> Vec<(usize, usize, f64)> {
     let entries = matrix.entries.iter().flat_map(|&(row, column, value)| {
         let columns = of(column);
         of(row).into_iter().flat_map(move |(row, a)| {
-            let columns = columns.clone().into_iter();
-            columns.map(move |(column, b)| (row, column, a * value * b))
+            columns.clone().into_iter().map(move |(column, b)| (row, column, a * value * b))
         })
     });
     entries.collect()
@@ -50,8 +48,7 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
     let (stiffness, mass) = (on_pattern(stiffness), on_pattern(mass));
     let damping = MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness);
     let structure = bare([mass, damping, stiffness], None, unknowns);
-    let modes = FrictionlessModes::compute(&structure, Lowest(count)).unwrap();
-    modes.frequencies[..count].to_vec()
+    FrictionlessModes::compute(&structure, Lowest(count)).unwrap().frequencies[..count].to_vec()
 }
 
 /// Disc and shaft held at rim and bore, glued between them.

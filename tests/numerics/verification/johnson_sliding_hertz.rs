@@ -33,8 +33,7 @@ fn graded(length: f64, step: f64, core: f64) -> Vec<f64> {
 /// Relative error of the pressures in the mean square and of the largest one, with steps of that size under the patch.
 fn errors(step: f64) -> [f64; 2] {
     let right = graded(HALF_WIDTH, step, 1.2e-3);
-    let left = right[1..].iter().rev().map(|x| -x);
-    let xs: Vec<f64> = left.chain(right.iter().copied()).collect();
+    let xs: Vec<f64> = right[1..].iter().rev().map(|x| -x).chain(right.iter().copied()).collect();
     let ys = graded(HEIGHT, step, 0.6e-3);
     let mesh = quadrilaterals(&xs, &ys, ["face", "top", "body"], |x, y| {
         // Round beside the patch, flat beyond.

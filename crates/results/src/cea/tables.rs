@@ -1,7 +1,6 @@
 //! Tables and sentences of an eigenvalue analysis.
 
-use super::branches::branch_of;
-use super::branches::sentences;
+use super::branches::{branch_of, sentences};
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
 use super::{BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution};
 use super::{direction_name, feed};

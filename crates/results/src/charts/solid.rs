@@ -159,8 +159,7 @@ pub fn contact_surfaces(
             .map(|ends| Line::through(ends.map(|end| view.at(end))).solid("black", 1.2).arrows(1));
         view.panel(values, axis(), ColourMap::Viridis, 0.05).caption(literal(name)).layers(arrows)
     });
-    let columns = surfaces.len().clamp(1, 3);
-    let figure = Figure::new(name, caption).columns(columns).panels(panels);
+    let figure = Figure::new(name, caption).columns(surfaces.len().clamp(1, 3)).panels(panels);
     figure.colour_foot(axis(), ColourMap::Viridis)
 }
 
@@ -179,8 +178,7 @@ pub fn speeds_of_bodies<'a>(
         view.panel(&speeds, axis, ColourMap::Viridis, 0.04).heading(heading).colour_bar(Side::Below)
     });
     let panels: Vec<Panel> = panels.collect();
-    let columns = panels.len().clamp(1, 3);
-    Figure::new("velocity", caption).columns(columns).panels(panels)
+    Figure::new("velocity", caption).columns(panels.len().clamp(1, 3)).panels(panels)
 }
 
 /// The triangles between the nodes of a face.

@@ -61,10 +61,7 @@ impl Contents {
 
     /// The files and their checksums where they are known.
     pub(crate) fn into_files(self) -> BTreeMap<String, Option<u32>> {
-        let checksum = |name: &String| {
-            let text = self.checksums.get(name)?;
-            u32::from_str_radix(text, 16).ok()
-        };
+        let checksum = |name: &String| u32::from_str_radix(self.checksums.get(name)?, 16).ok();
         self.files.iter().map(|name| (name.clone(), checksum(name))).collect()
     }
 }

@@ -1,7 +1,6 @@
 //! Figures of the probes' signals and of the harmonics of the contact edge.
 
-use super::run::RecordedRun;
-use super::run::stages;
+use super::run::{RecordedRun, stages};
 use crate::charts::{
     ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
     with_stages,

@@ -75,8 +75,7 @@ impl<'a> CycleStudy<'a> {
         let solvers = solvers(case, choices, &onsets)?;
         if onsets.is_empty() {
             critical = continuation.as_ref().and_then(|(parameter, values)| {
-                let value = critical_value(case, *parameter, values)?;
-                Some(CriticalValue::of(*parameter, value))
+                Some(CriticalValue::of(*parameter, critical_value(case, *parameter, values)?))
             });
             onsets = solvers.iter().flatten().map(|s| s.onset).collect();
             onsets.extend(next_onset(case, friction));

@@ -1,8 +1,7 @@
 //! What is said beside the results of an eigenvalue analysis.
 
 use super::SlidingModel;
-use super::contact::SteadyState;
-use super::contact::mean_friction;
+use super::contact::{SteadyState, mean_friction};
 use frictionsim_case::{BodyKind, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeCount, UnstableInterval};

@@ -31,8 +31,7 @@ pub fn boundary_of_modes(
     let map = PeriodMap::new(body, operator.as_ref(), fastest, longest_step(case))?;
     let mut contest = ModeContest::new(map, &modes, request);
     let rivals = contest.rivals();
-    let found = request.boundary(rivals, |ratio| Ok::<_, StudyError>(contest.run(ratio)))?;
-    Ok((rivals, found))
+    Ok((rivals, request.boundary(rivals, |ratio| Ok::<_, StudyError>(contest.run(ratio)))?))
 }
 
 /// Places of the modes that compete: those asked for, else the two that grow fastest, else the least stable one.
