@@ -183,16 +183,14 @@ impl Reader<'_> {
         Arc::clone(known)
     }
 
-    /// Takes one element in; `groups` are its physical tags.
+    /// Takes one element in, of a dimension and kind as [`Self::shape_of`] has them; `groups` are its physical tags.
     fn element(
         &mut self,
-        number: i64,
-        label: usize,
-        entity: i64,
+        (dimension, kind): (i64, Option<ElementKind>),
+        (label, entity): (usize, i64),
         groups: &[i64],
         labels: &[usize],
     ) -> Result<(), MeshFileError> {
-        let (dimension, _, kind) = self.shape_of(number, label)?;
         let mut nodes = Vec::with_capacity(labels.len());
         for node in labels {
             let Some(&index) = self.index_of.get(node) else {

@@ -74,10 +74,10 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
         self.pivots().filter(|d| *d < 0.0).count()
     }
 
-    /// Whether all eigenvalues are positive.
+    /// Whether all eigenvalues are positive; a pivot of zero, which stands as the least positive one, is none.
     #[inline]
     pub fn is_definite(&self) -> bool {
-        self.pivots().all(|d| d > 0.0)
+        self.pivots().all(|d| d > f64::MIN_POSITIVE)
     }
 
     /// Whether no pivot overflowed or vanished beside the largest, but for rounding.
@@ -160,6 +160,7 @@ mod tests {
         let factor = BandedFactor::of(h, upper(1.0));
         assert!(factor.is_definite() && factor.negative_count() == 0);
         assert_eq!(BandedFactor::of(h, upper(-1.0)).negative_count(), n);
+        assert!(!BandedFactor::of(0, vec![c64::ONE, c64::ZERO]).is_definite());
         let x: Vec<c64> = (0..n).map(|i| c64::cis(i as f64)).collect();
         let mut right: Vec<c64> =
             (0..n).map(|i| (0..n).map(|j| entry(i, j) * x[j]).sum()).collect();

@@ -83,16 +83,11 @@ impl SectorMatrix {
         })
     }
 
-    /// The sum with another matrix of the same sector.
-    pub fn plus(&self, other: &Self) -> Self {
+    /// The sum with a factor times another matrix of the same sector.
+    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+        let others = other.entries().map(|(i, j, at, value)| (i, j, at, factor * value));
         let components = self.components.max(other.components);
-        Self::of_entries(components, self.entries().chain(other.entries()))
-    }
-
-    /// It times a factor.
-    pub fn scaled(&self, factor: f64) -> Self {
-        let entries = self.entries().map(|(i, j, at, v)| (i, j, at, factor * v));
-        Self::of_entries(self.components, entries)
+        Self::of_entries(components, self.entries().chain(others))
     }
 
     /// Whether it has no entry.

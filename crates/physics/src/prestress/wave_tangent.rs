@@ -391,8 +391,8 @@ impl Terms<SectorMatrix> {
             let name = |own: &Term<_>| (own.part, own.kind, own.power);
             match own.all.iter_mut().find(|own| name(own) == name(term)) {
                 Some(own) if own.matrix == term.matrix => own.matrix = SectorMatrix::default(),
-                Some(own) => own.matrix = own.matrix.plus(&term.matrix.scaled(-1.0)),
-                None => own.all.push(term.with(term.matrix.scaled(-1.0))),
+                Some(own) => own.matrix = own.matrix.plus(-1.0, &term.matrix),
+                None => own.all.push(term.with(SectorMatrix::default().plus(-1.0, &term.matrix))),
             }
         }
         own.all.retain(|term| !term.matrix.is_empty());
