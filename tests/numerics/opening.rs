@@ -72,7 +72,8 @@ fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
 /// Between 0.1 and 0.8 states are found round after round; where each of them ends tells it from the others.
 #[test]
 fn a_contact_state_between_two_friction_values_is_swept_once() {
-    let name = block().path().join("case.toml").display().to_string();
+    let folder = block();
+    let name = folder.path().join("case.toml").display().to_string();
     let case = case_of(name, CASE, &["contact.friction_coefficient=0.8".to_owned()]);
     let cea = case.require_cea().unwrap();
     let model = SlidingModel::new(&case, cea).unwrap();
