@@ -4,8 +4,9 @@
 use crate::prelude::*;
 
 /// Modules by floor, lowest first.
-const FLOORS: [&[&str]; 10] = [
-    &["mesh", "order", "parallel"],
+const FLOORS: [&[&str]; 11] = [
+    &["order", "parallel"],
+    &["mesh"],
     &["fem"],
     &["contact"],
     &["prestress"],
