@@ -86,9 +86,7 @@ pub fn grown_between(
     for (k, first) in calm.iter().enumerate().filter(|(_, own)| own.0 < needed) {
         for second in &calm[k + 1..] {
             let pair = [*first, *second];
-            let Some((place, mean)) = meeting(&pair, mu, &rates) else {
-                continue;
-            };
+            let Some((place, mean)) = meeting(&pair, mu, &rates) else { continue };
             // Of the two modes that are combinations of both there, nearest to the mean, one may grow.
             let modes = model.solve_between(place, [from.1, to.1])?;
             let [overlaps, _] = model.overlaps_at(place, &pair.map(|own| own.1[0].clone()), &modes);
@@ -98,9 +96,7 @@ pub fn grown_between(
             crate::order::sort_by_number(&mut mixed, |&j| (modes[j].eigenvalue - mean).norm());
             mixed.truncate(2);
             crate::order::sort_by_number(&mut mixed, |&j| -modes[j].eigenvalue.re);
-            let [growing, decaying] = mixed[..] else {
-                continue;
-            };
+            let [growing, decaying] = mixed[..] else { continue };
             // It is said to the branch that grows at an end, or that it has more of.
             let parts = parts(growing);
             let is_held = |i: &usize| pair[*i].0 < needed && parts[*i] > 0.5 * ALIKE;
@@ -108,9 +104,7 @@ pub fn grown_between(
                 let grows = |i: usize| pair[i].1.iter().any(|mode| mode.is_growing());
                 grows(a).cmp(&grows(b)).then(parts[a].total_cmp(&parts[b]))
             });
-            let Some(i) = held.filter(|_| grows(modes[growing].eigenvalue)) else {
-                continue;
-            };
+            let Some(i) = held.filter(|_| grows(modes[growing].eigenvalue)) else { continue };
             // The two are apart where they are farther from one another than here.
             let rates = [0, 1].map(|end| pair.map(|own| own.1[end].derivative));
             let [a, b] = rates.map(|[a, b]| (a - b).norm());

@@ -40,9 +40,7 @@ impl SparseSweep<'_> {
     /// The count at a point, after a search for what was missing.
     fn completed_at(&mut self, counter: &ModeCounter<'_>, k: usize) -> Result<ModeCount, CeaError> {
         let before = self.count_at(counter, k);
-        let Ok(missing @ 1..) = before.missing else {
-            return Ok(before);
-        };
+        let Ok(missing @ 1..) = before.missing else { return Ok(before) };
         self.builder.search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
         self.solve()?;
         let after = self.count_at(counter, k);
@@ -83,9 +81,7 @@ impl SparseSweep<'_> {
         for _ in 0..MOST_ATTEMPTS {
             let above = count.near.filter(|near| near.im > highest);
             // Of the lowest modes one above all that are listed is none.
-            let (Some(above), ModeLimit::Lowest(_)) = (above, self.limit) else {
-                break;
-            };
+            let (Some(above), ModeLimit::Lowest(_)) = (above, self.limit) else { break };
             let determinants = count.determinants;
             top = 0.5 * (highest + above.im.min(top));
             count = count_below(counter, point, &known, top);
