@@ -3,12 +3,6 @@
 use std::fmt::Debug;
 use thiserror::Error;
 
-/// Backward error of a trial solve, or growth of the entries times the rounding error, above which factors are not trusted.
-pub(super) const BACKWARD_ERROR_BOUND: f64 = 1e-9;
-
-/// Condition number from which on a matrix has no inverse in double precision.
-pub(super) const CONDITION_BOUND: f64 = 1e15;
-
 /// Failure of a factorization or of an eigenvalue iteration.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinalgError {
@@ -66,15 +60,14 @@ impl LinalgError {
         Self::Factorization { dimension, reason: format!("{error:?}") }
     }
 
-    /// Factors that fail a trial solve.
-    pub(super) fn inaccurate(dimension: usize, value: f64) -> Self {
-        let measure = "the backward error of its factors is";
-        Self::Singular { dimension, measure, value, bound: BACKWARD_ERROR_BOUND }
-    }
-
-    /// A matrix without an inverse in double precision.
-    pub(super) fn ill_conditioned(dimension: usize, value: f64) -> Self {
-        let measure = "its condition number is at least";
-        Self::Singular { dimension, measure, value, bound: CONDITION_BOUND }
+    /// Refuses factors that are not to be trusted, by the backward error of a solution (or the growth of the entries times the rounding
+    /// error) and the condition number.
+    pub(super) fn check(dimension: usize, error: f64, condition: f64) -> Result<(), Self> {
+        let backward = ("the backward error of its factors is", error, 1e-9);
+        let known = [backward, ("its condition number is at least", condition, 1e15)];
+        let exceeded = known.into_iter().find(|(_, value, bound)| !(value <= bound));
+        exceeded.filter(|_| dimension > 0).map_or(Ok(()), |(measure, value, bound)| {
+            Err(Self::Singular { dimension, measure, value, bound })
+        })
     }
 }

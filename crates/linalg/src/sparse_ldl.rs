@@ -1,7 +1,6 @@
 //! Sparse symmetric factorization `A = P^T L D L^T P` and the inertia it shows.
 
 use super::dense::{column_blocks, trial_right_side};
-use super::error::BACKWARD_ERROR_BOUND;
 use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, supernodal};
@@ -139,10 +138,7 @@ impl SparseLdl {
         let backward_error = largest(&residual) / (largest(&row_sums) * x.norm_max());
         let is_finite = residual.iter().all(|r| r.is_finite());
         let backward_error = if is_finite { backward_error } else { f64::NAN };
-        match n == 0 || backward_error <= BACKWARD_ERROR_BOUND {
-            true => Ok(()),
-            false => Err(LinalgError::inaccurate(n, backward_error)),
-        }
+        LinalgError::check(n, backward_error, 1.0)
     }
 }
 

@@ -11,7 +11,6 @@
 //! of unsymmetric sets of linear equations, SIAM J. Sci. Stat. Comput. 5 (1984).
 
 use super::dense::{column_blocks, trial_right_side};
-use super::error::{BACKWARD_ERROR_BOUND, CONDITION_BOUND};
 use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor;
@@ -160,12 +159,10 @@ impl LuAnalysis {
             let diagonal = pivots.map(|pivot| c64::new(real(pivot), imag(pivot)).ln());
             sum = diagonal.fold(sum, |sum, ln| sum + ln) + c64::new(0.0, PI * own.parity);
         });
-        let (n, backward_error) = (self.pattern.dimension(), f64::EPSILON * growth);
-        if !(backward_error <= BACKWARD_ERROR_BOUND) {
-            return Err(LinalgError::inaccurate(n, backward_error));
-        }
-        let is_sound = sum.re.is_finite() && sum.im.is_finite();
-        is_sound.then_some(sum).ok_or_else(|| LinalgError::ill_conditioned(n, f64::INFINITY))
+        let is_regular = sum.re.is_finite() && sum.im.is_finite();
+        let condition = if is_regular { 1.0 } else { f64::INFINITY };
+        LinalgError::check(self.pattern.dimension(), f64::EPSILON * growth, condition)?;
+        Ok(sum)
     }
 
     /// Eliminates front by front and hands each one on; how much the entries grow.
@@ -400,15 +397,8 @@ macro_rules! sparse_lu {
                 let largest = x.norm_max();
                 let scale = self.norm() * largest;
                 let backward_error = self.residual(&x, &right_side).norm_max() / scale;
-                // A solution this large says that the matrix has no inverse in double precision.
-                let condition = scale / 2.0;
-                if n > 0 && !(backward_error <= BACKWARD_ERROR_BOUND) {
-                    return Err(LinalgError::inaccurate(n, backward_error));
-                }
-                match n == 0 || condition < CONDITION_BOUND {
-                    true => Ok(()),
-                    false => Err(LinalgError::ill_conditioned(n, condition)),
-                }
+                // A large solution says that the matrix has no inverse in double precision.
+                LinalgError::check(n, backward_error, scale / 2.0)
             }
 
             /// Largest row sum of absolute values.

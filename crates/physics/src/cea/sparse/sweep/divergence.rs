@@ -7,9 +7,6 @@ use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::{CeaError, UnstableInterval};
 use crate::linalg::c64;
 
-/// Exponent within which products of two determinants are neither zero nor infinite.
-const LARGEST_EXPONENT: f64 = 300.0;
-
 impl SparseSweep<'_> {
     /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
     ///
@@ -32,36 +29,17 @@ impl SparseSweep<'_> {
             && (self.static_determinant(first, 0.0)? < 0.0
                 || self.builder.model.static_growth(first)? > 1);
         let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
-        let places = ends.chain(is_unstable.then_some(first)).map(|mu| mu.max(first));
-        let place = match places.min_by(f64::total_cmp) {
-            None => self.overdamped_diverges_at()?,
-            place => place,
-        };
-        Ok(place.map(|critical_friction| UnstableInterval {
+        let mut place = ends.chain(is_unstable.then_some(first)).min_by(f64::total_cmp);
+        let after = &self.grid[1..];
+        let last = &after[after.len().saturating_sub(1)..];
+        if place.is_none() && self.sign_change(self.grid[0], last)?.is_some() {
+            place = self.sign_change(self.grid[0], after)?;
+        }
+        Ok(place.map(|mu| mu.max(first)).map(|critical_friction| UnstableInterval {
             critical_friction,
             unstable_from_start: critical_friction == first,
             ..UnstableInterval::default()
         }))
-    }
-
-    /// Where `det K` changes its sign although no branch ends there: what does not oscillate at rest has none. If its sign at the last
-    /// friction is not that at the first, the first two values of the grid between which it changes are searched.
-    fn overdamped_diverges_at(&self) -> Result<Option<f64>, CeaError> {
-        let [first, last] = [self.grid[0], self.grid[self.grid.len() - 1]];
-        let size = self.ln_static(first)?.re;
-        let (mut low, mut before) = (first, self.static_determinant(first, size)?);
-        if self.static_determinant(last, size)? * before >= 0.0 {
-            return Ok(None);
-        }
-        for &high in &self.grid[1..] {
-            let after = self.static_determinant(high, size)?;
-            if before * after < 0.0 {
-                let place = self.sign_change([low, high], [before, after], size)?;
-                return Ok(Some(place.max(self.grid[self.first_asked()])));
-            }
-            (low, before) = (high, after);
-        }
-        Ok(None)
     }
 
     /// Where, as a branch ends, `det K` changes its sign.
@@ -70,30 +48,27 @@ impl SparseSweep<'_> {
             return Ok(None);
         }
         let (low, beyond) = (end.seen.mu, end.lost_at);
-        let size = self.ln_static(low)?.re;
-        let before = self.static_determinant(low, size)?;
         // Near zero the square of an eigenvalue moves evenly: as far again. What is damped beyond the critical may come there later.
         let ReducedMode { eigenvalue, derivative, .. } = end.seen.mode;
         let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
-        let reach = low - (eigenvalue / derivative).re;
-        let places = [beyond, reach.clamp(beyond, next)].into_iter();
-        let mut places = places.chain(end.is_damped.then_some(next));
-        loop {
-            let Some(high) = places.next() else { return Ok(None) };
-            let after = self.static_determinant(high, size)?;
-            if before * after < 0.0 {
-                return self.sign_change([low, high], [before, after], size).map(Some);
-            }
-        }
+        let reach = (low - (eigenvalue / derivative).re).clamp(beyond, next);
+        self.sign_change(low, &[beyond, reach, next][..2 + usize::from(end.is_damped)])
     }
 
-    /// Where `det K / exp size` passes zero between two friction coefficients: by false position with the Illinois rule.
-    fn sign_change(
-        &self,
-        [mut low, mut high]: [f64; 2],
-        [mut before, mut after]: [f64; 2],
-        size: f64,
-    ) -> Result<f64, CeaError> {
+    /// Where `det K` changes its sign between a friction coefficient and the first place of another sign: by false position with the
+    /// Illinois rule.
+    fn sign_change(&self, mut low: f64, places: &[f64]) -> Result<Option<f64>, CeaError> {
+        let mut places = places.iter();
+        let ln = self.ln_static(low)?;
+        let (size, mut before) = (ln.re, ln.im.cos());
+        let (mut high, mut after) = loop {
+            let Some(&high) = places.next() else { return Ok(None) };
+            let after = self.static_determinant(high, size)?;
+            if before * after < 0.0 {
+                break (high, after);
+            }
+            (low, before) = (high, after);
+        };
         while high - low > SETTLED * (1.0 + high) {
             // Values far apart in size would keep the secant at one end.
             let t = (before / (before - after)).clamp(0.05, 0.95);
@@ -105,7 +80,7 @@ impl SparseSweep<'_> {
                 (high, after, before) = (middle, value, 0.5 * before);
             }
         }
-        Ok(0.5 * (low + high))
+        Ok(Some(0.5 * (low + high)))
     }
 
     /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
@@ -116,13 +91,14 @@ impl SparseSweep<'_> {
         let [damping, mass] = [&self.tangent.damping, &self.tangent.mass].map(|p| p.evaluate(mu));
         let terms = values.iter_mut().zip(damping.iter().zip(&mass));
         terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m));
-        Ok(analysis.ln_determinant(&values).unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
+        let found = analysis.ln_determinant(&values);
+        Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }
 
-    /// `det K(mu) / exp size`, with its sign even beyond the range of numbers.
+    /// `det K(mu) / exp size`, with its sign where products of two would be beyond the range of numbers.
     fn static_determinant(&self, mu: f64, size: f64) -> Result<f64, CeaError> {
         let ln = self.ln_static(mu)?;
-        Ok(ln.im.cos() * (ln.re - size).clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT).exp())
+        Ok(ln.im.cos() * (ln.re - size).clamp(-300.0, 300.0).exp())
     }
 }
 
