@@ -5,7 +5,7 @@ use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::fem::{MassKind, Triplets, assemble_mass, assemble_stiffness};
 use frictionsim_physics::linalg::c64;
 
-/// Step of a parameter for the differences of the matrices, relative to its value.
+/// Step of a parameter for the differences of the matrices, relative to its value, or of a Poisson's ratio of 0.
 pub(super) const STEP: f64 = 1e-4;
 
 /// The body of a case, where it is a part that nothing holds, damps or touches.
@@ -51,7 +51,7 @@ pub(super) fn rates<'p>(
     };
     let own = matrices(case);
     let by_parameter = parameters.map(|(parameter, value)| {
-        let step = STEP * value;
+        let step = STEP * if value == 0.0 { 1.0 } else { value };
         let side =
             |sign: f64| matrices(&case.with_parameters([(parameter, value + sign * step)]).ok()?);
         let sides = side(1.0).zip(side(-1.0));

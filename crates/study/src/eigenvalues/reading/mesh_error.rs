@@ -28,9 +28,9 @@ fn is_made(case: &Case, mass: MassKind) -> bool {
     mass == MassKind::Consistent && case.body.tables().next().is_none()
 }
 
-/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed: the least
-/// and the largest one and the case's own, as an error hardly depends on friction and an estimate takes as long as a
-/// third of a value's modes.
+/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed: the
+/// least and the largest one and the case's own, as an error hardly depends on friction and an estimate takes as long
+/// as a third of a value's modes.
 pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64]) -> Vec<f64> {
     let [least, most] = frictionsim_physics::order::range(shown.iter().copied());
     let own = case.contact.sliding.friction_coefficient;
