@@ -135,8 +135,10 @@ def test_memory_does_not_grow_from_call_to_call(
     pytest.fail(f"bytes a call: {growth}")
 
 
+# Started in the background by a script, tests inherit that interrupts are ignored.
 SCRIPT = """
-import sys, frictionsim
+import signal, sys, frictionsim
+signal.signal(signal.SIGINT, signal.default_int_handler)
 case = frictionsim.Case(sys.argv[1], eval(sys.argv[2]))
 print("begin", flush=True)
 try:
