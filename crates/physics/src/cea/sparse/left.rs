@@ -3,7 +3,7 @@
 use super::full_problem::FullProblem;
 use super::packed::{joined, side_by_side};
 use super::projected::ProjectedMatrices;
-use super::{BESIDE, GROUP_WIDTH, MOST_STEPS, NEAR};
+use super::{BESIDE, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS};
 use crate::cea::ModeVectors;
 use crate::linalg::dense::{product, transpose_product};
 use crate::linalg::vectors::{dot, length};
@@ -30,7 +30,7 @@ fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64
 /// E = Z^T T(lambda')^T Z,             lambda' beside lambda
 /// ```
 ///
-/// until the energy of what a further correction would be is small enough for an estimate, which it moves by a hundredth at most; scales them to `w^T (2 lambda M + C) x = 1`. Right vectors at
+/// until the energy of what a further correction would be is negligible; scales them to `w^T (2 lambda M + C) x = 1`. Right vectors at
 /// several friction coefficients span what is global in a left one; what is missing is near the contact, where the normal force works on
 /// its slip, and follows the load as in statics. What that stirs up of the modes, which `P` weighs otherwise than `T`, `E` takes out.
 ///
@@ -133,7 +133,7 @@ fn correct_group(
     let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
     let mut among: Vec<ComplexDenseLu> = Vec::new();
     for _ in 0..MOST_STEPS {
-        open.retain(|&k| energy(&lefts[k]) > NEAR * goals[k]);
+        open.retain(|&k| energy(&lefts[k]) > HALF_THE_DIGITS * goals[k]);
         if open.is_empty() {
             break;
         }
@@ -208,7 +208,7 @@ mod tests {
         for (own, other) in pairs.iter().zip(&exact) {
             let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
             let cosine = dot(w, exact).norm() / (length(w) * length(exact));
-            assert!(1.0 - cosine * cosine < NEAR, "{}: {}", own.eigenvalue, 1.0 - cosine * cosine);
+            assert!(1.0 - cosine * cosine < 1e-6, "{}: {}", own.eigenvalue, 1.0 - cosine * cosine);
         }
     }
 }
