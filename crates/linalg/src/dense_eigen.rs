@@ -5,9 +5,12 @@ use super::vectors::{dot, length};
 use super::{ComplexDenseLu, LinalgError, interruption};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, EvdParams, evd_cplx, evd_real, evd_scratch};
+use faer::linalg::evd::{
+    ComputeEigenvectors, EvdParams, SelfAdjointEvdParams, evd_cplx, evd_real, evd_scratch,
+    self_adjoint_evd, self_adjoint_evd_scratch,
+};
 use faer::traits::ComplexField;
-use faer::{Auto, Mat, MatRef, Par, c64};
+use faer::{Auto, Mat, MatRef, Par, Spec, c64};
 
 /// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
 const VECTOR_TOLERANCE: f64 = 1e-9;
@@ -33,9 +36,24 @@ pub struct RealEigen {
 #[inline]
 pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
     interruption::check();
-    match matrix.self_adjoint_eigen(faer::Side::Lower) {
-        Ok(found) => (found.S().column_vector().iter().copied().collect(), found.U().to_owned()),
-        Err(_) => (Vec::new(), Mat::zeros(matrix.nrows(), 0)),
+    let n = matrix.nrows();
+    // By the QR algorithm: dividing and conquering leaves errors of thousands of roundings in the smallest values (faer 0.24).
+    let auto = <SelfAdjointEvdParams as Auto<f64>>::auto();
+    let by_qr = Spec::new(SelfAdjointEvdParams { recursion_threshold: usize::MAX, ..auto });
+    let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
+    let with = ComputeEigenvectors::Yes;
+    let scratch = self_adjoint_evd_scratch::<f64>(n, with, Par::Seq, by_qr);
+    let outcome = self_adjoint_evd(
+        matrix.as_ref(),
+        values.as_mut(),
+        Some(vectors.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        by_qr,
+    );
+    match outcome {
+        Ok(()) => (values.column_vector().iter().copied().collect(), vectors),
+        Err(_) => (Vec::new(), Mat::zeros(n, 0)),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::cea::accuracy::CONVERGED;
 use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
 use crate::linalg::dense::column;
-use crate::linalg::{LanczosPairs, LanczosSettings, Mat, MatRef, SymmetricPencil, block_lanczos};
+use crate::linalg::{Mat, MatRef, SymmetricPairs, SymmetricPencil, symmetric_pairs};
 
 /// The pencil of one harmonic at rest over the unknowns that may move, and its stiffness factorized.
 pub(super) struct Pencil {
@@ -20,9 +20,6 @@ pub(super) type Modes = Vec<(f64, Vec<f64>)>;
 /// Smallest shift below zero, over the largest `K_ii / M_ii`, and how many are tried, each eight times the one before.
 const LEAST_SHIFT: f64 = 1e-9;
 const SHIFTS: i32 = 10;
-
-/// Restarts of its iteration at most.
-const RESTARTS: usize = 30;
 
 impl Pencil {
     /// `None` where no shift below all eigenvalues is found.
@@ -60,11 +57,9 @@ impl Pencil {
 
     /// The `count` modes of lowest frequency; fewer where the iteration does not settle.
     pub fn lowest(&self, count: usize) -> Modes {
-        let settings =
-            LanczosSettings { count, tolerance: CONVERGED, block: 1, max_restarts: RESTARTS };
-        let pairs = block_lanczos(self, &settings);
+        let pairs = symmetric_pairs(self, count, 1, CONVERGED);
         let settled = pairs.ok().filter(|pairs| pairs.converged == pairs.values.len());
-        let modes = |pairs: LanczosPairs| {
+        let modes = |pairs: SymmetricPairs| {
             let mode = |(j, theta): (usize, &f64)| {
                 (self.shift + theta.recip(), column(pairs.vectors.as_ref(), j).to_vec())
             };

@@ -8,8 +8,8 @@ use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
 use crate::linalg::{
-    LanczosPairs, LanczosSettings, LdlAnalysis, LinalgError, Mat, MatRef, MatrixPolynomial,
-    RealFactors, SparseLdl, SymmetricPencil, block_lanczos,
+    LdlAnalysis, LinalgError, Mat, MatRef, MatrixPolynomial, RealFactors, SparseLdl,
+    SymmetricPairs, SymmetricPencil, symmetric_pairs,
 };
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
@@ -271,19 +271,13 @@ impl<'a> Inertia<'a> {
             };
             let pencil =
                 ShiftedPencil { mass: self.mass, values: self.mass.evaluate(0.0), factors };
-            let settings = LanczosSettings {
-                count,
-                tolerance: CONVERGED,
-                block: BLOCK,
-                max_restarts: MOST_ATTEMPTS,
-            };
-            let pairs = block_lanczos(&pencil, &settings)?;
+            let pairs = symmetric_pairs(&pencil, count, BLOCK, CONVERGED)?;
             if pairs.converged == count {
                 return Ok(self.told_apart(&pencil, pairs));
             }
             converged = pairs.converged;
             // The highest pair is known well enough to place the shift by it.
-            let placed = SHIFT * (pairs.values[count - 1].recip() - *shift);
+            let placed = SHIFT * (pairs.values.last().map_or(0.0, |theta| theta.recip()) - *shift);
             *shift = match attempt {
                 0 if placed > 0.0 => placed,
                 _ => 10.0 * *shift,
@@ -295,7 +289,7 @@ impl<'a> Inertia<'a> {
 
     /// Rayleigh quotients of the vectors, and which are those of rigid motions: the energy `x^T K x` is a sum of rounding errors of
     /// `|x|^T |K| |x|`.
-    fn told_apart(&self, pencil: &ShiftedPencil<'_>, pairs: LanczosPairs) -> Lowest {
+    fn told_apart(&self, pencil: &ShiftedPencil<'_>, pairs: SymmetricPairs) -> Lowest {
         let mut vectors = pairs.vectors;
         let values = self.stiffness.evaluate(0.0);
         let pattern = self.stiffness.pattern();

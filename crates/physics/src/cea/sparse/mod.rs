@@ -1,6 +1,6 @@
 //! Sweep over the friction coefficient on any mesh, with sparse matrices.
 //!
-//! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by block Lanczos iteration; the inertia of
+//! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by Krylov-Schur iteration; the inertia of
 //!    `K - sigma M` proves that none is missing.
 //! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. It takes up the modes at a few of
 //!    these, chosen where residuals are largest, each from a Krylov iteration ([`crate::linalg::krylov_schur`]). Of a
