@@ -229,7 +229,9 @@ impl MatrixPolynomial {
         places.for_each(|(slot, &i)| place[i] = slot);
 
         // Rows keep their order.
-        let (mut pointers, mut rows, mut kept) = (vec![0], Vec::new(), Vec::new());
+        let count = values.iter().filter(|value| **value != 0.0).count();
+        let (mut rows, mut kept) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut pointers = vec![0];
         for &column in &unknowns {
             for (position, row) in nonzeros(column) {
                 rows.push(place[row]);

@@ -9,7 +9,7 @@ use super::path::{Eigenpair, Path, Waves};
 use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::CeaError;
-use crate::cea::accuracy::{MULTIPLE, SAME_EIGENVALUE};
+use crate::cea::accuracy::{BESIDE, MULTIPLE, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
@@ -17,10 +17,6 @@ use std::rc::Rc;
 
 /// The shortest step of a branch over the step of friction: a branch that turns faster begins or ends there.
 const SHORTEST: f64 = 5e-3;
-
-/// Eigenvalues below this share of the largest are creep of the contact against its dashpots, `lambda ~ - k V / (mu p)`, whatever
-/// little imaginary part friction gives them; slow modes of the body come from rest.
-const CREEP: f64 = 1e-3;
 
 /// Rayleigh quotients that take an eigenvalue to the stiffness of its own frequency.
 const QUOTIENTS: usize = 4;
@@ -226,9 +222,10 @@ impl Course<'_> {
         }
     }
 
-    /// Whether a motion that no branch has come to decays without oscillating, or creeps.
+    /// Whether a motion that no branch has come to decays without oscillating, or is creep of the contact against its dashpots,
+    /// `lambda ~ - k V / (mu p)`, whatever little imaginary part friction gives that: slow modes of the body come from rest.
     fn is_overdamped(&self, value: &c64) -> bool {
-        self.problem.is_ending(*value) || value.norm() < CREEP * self.largest
+        self.problem.is_ending(*value) || value.norm() < BESIDE * self.largest
     }
 
     /// What is listed at a friction coefficient.

@@ -3,11 +3,9 @@
 use super::RESIDUAL_BOUND;
 use super::mode::ReducedMode;
 use super::reduced::{ReducedModel, inside};
+use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::linalg::vectors::length;
 use crate::linalg::{Mat, c64};
-
-/// Residual relative to the matrices below which there is only round-off.
-const ROUND_OFF: f64 = 1e-15;
 
 /// What the full matrices say about one mode.
 #[derive(Clone, Debug)]
@@ -66,7 +64,8 @@ impl SolvedPoint {
         let pairs = self.modes.iter().zip(&self.checks).take(self.wanted);
         let open = pairs.filter(move |(_, check)| {
             // A residual of round-off is no excuse where the mode answers to it.
-            let is_round_off = check.residual <= ROUND_OFF && check.error() <= RESIDUAL_BOUND;
+            let is_summed = check.residual <= ROUNDING_ERRORS * f64::EPSILON;
+            let is_round_off = is_summed && check.error() <= RESIDUAL_BOUND;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
             !is_fine && !is_round_off
         });

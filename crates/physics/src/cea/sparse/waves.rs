@@ -1,14 +1,12 @@
 //! Tangents of a body with cyclic symmetry, one for each number of nodal diameters.
 
+use super::HALF_THE_DIGITS;
 use crate::fem::DofMap;
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::CyclicSymmetry;
 use crate::prestress::{ContactDofs, MotionMatrices, SlidingTangent, without_symmetry};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// Difference of entries of two sectors, over the largest one of the row, up to which they are alike.
-const ALIKE: f64 = 1e-8;
 
 /// The small motions of a body whose `N` sectors are alike, as waves of `n = 0 ... N / 2` nodal diameters:
 ///
@@ -87,7 +85,7 @@ impl<'a> CyclicTangent<'a> {
                 largest[k % size] = largest[k % size].max(value.abs());
             }
             let differs = |[a, b]: &[Vec<f64>; 2]| {
-                (0..total).find(|&k| (a[k] - b[k]).abs() > ALIKE * largest[k % size])
+                (0..total).find(|&k| (a[k] - b[k]).abs() > HALF_THE_DIGITS * largest[k % size])
             };
             if let Some(k) = pairs.iter().find_map(differs) {
                 let sector = k / size + 1;
