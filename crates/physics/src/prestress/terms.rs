@@ -10,9 +10,9 @@
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
 use crate::contact::PressedState;
 use crate::fem::{
-    MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_geometric_stiffness,
-    assemble_patch_damping, assemble_point_masses, assemble_support, region_mass,
-    region_stiffnesses,
+    ElementGeometry, MaterialField, RayleighDamping, Triplets, assemble_around,
+    assemble_attachments, assemble_patch_damping, assemble_point_masses, assemble_support,
+    region_mass, region_stiffnesses,
 };
 use crate::linalg::c64;
 use crate::mesh::Mesh;
@@ -187,9 +187,8 @@ impl<M> Terms<M> {
         own + root * self.factors(term)[1]
     }
 
-    /// Adds `x^H A x` of a term's matrix to the forms of its part. Stress has a part in the damping alone. Gyroscopic
-    /// forces, of which `x^H G x = i g`, take no power of a motion that neither grows nor decays; of one that does
-    /// `sigma g / omega`.
+    /// Adds `x^H A x` of a term's matrix to the forms of its part. Stress has a part in the damping alone. Gyroscopic forces, of which
+    /// `x^H G x = i g`, take no power of a motion that neither grows nor decays; of one that does `sigma g / omega`.
     pub fn add_form<N>(&self, term: &Term<N>, root: c64, form: c64, sum: &mut PartForms) {
         if term.kind == Kind::Gyroscopic {
             sum.damping += root.re * form.im / root.im;
@@ -346,16 +345,14 @@ impl Terms<Triplets> {
     }
 }
 
-/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen
-/// below `a`.
+/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen below `a`.
 pub(super) fn geometric_stiffness(
-    (mesh, material): (&Mesh, &dyn MaterialField),
+    bodies: (&Mesh, &dyn MaterialField),
     state: &PressedState,
     region: usize,
 ) -> Vec<Triplets> {
-    let powers = state.displacements.iter();
-    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, Some(region)));
-    let mut powers: Vec<Triplets> = powers.collect();
+    let of = ElementGeometry::geometric_stiffnesses;
+    let mut powers = assemble_around(bodies, &state.displacements, Some(region), of);
     if state.frozen_below > 0.0 && powers.len() > 1 {
         powers.insert(1, Triplets::default());
     }
