@@ -6,9 +6,6 @@ use crate::fem::{DofMap, Triplets};
 use crate::linalg::FrictionWeights;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Entries `(row, column, value)` over the unknowns, by power of `mu`.
-pub(super) type ProjectedPolynomial = Vec<Vec<(usize, usize, f64)>>;
-
 /// Share of a row's largest coefficient that its first free dof must have to be the one that the row replaces.
 const SMALLEST_PIVOT: f64 = 0.3;
 
@@ -155,26 +152,24 @@ impl Elimination {
 
     /// `T^T A T` over `y`.
     pub fn congruent(&self, matrix: &Triplets) -> Triplets {
-        if self.combined.is_empty() {
-            return matrix.clone();
+        match self.combined.is_empty() {
+            true => matrix.clone(),
+            false => self.transposed_product(&self.transposed_product(matrix)),
         }
-        let mut entries = Vec::with_capacity(matrix.entries.len());
+    }
+
+    /// `(A T)^T`, merged.
+    fn transposed_product(&self, matrix: &Triplets) -> Triplets {
+        let mut product = Triplets { entries: Vec::with_capacity(matrix.entries.len()) };
         for &(row, column, value) in &matrix.entries {
-            if !self.is_combined[row] && !self.is_combined[column] {
-                entries.push((row, column, value));
-                continue;
-            }
-            let [rows, columns] = [row, column].map(|dof| self.combined.get(&dof));
-            let (own_row, own_column) = ([(row, 1.0)], [(column, 1.0)]);
-            let rows = rows.map_or(&own_row[..], Vec::as_slice);
-            let columns = columns.map_or(&own_column[..], Vec::as_slice);
-            for &(row, along) in rows {
-                for &(column, across) in columns {
-                    entries.push((row, column, along * value * across));
-                }
+            if self.is_combined[column] {
+                product.push_product(value, &self.combined[&column], &[(row, 1.0)]);
+            } else {
+                product.push(column, row, value);
             }
         }
-        Triplets { entries }
+        product.merge();
+        product
     }
 
     /// A diagonal matrix over the dofs that move by themselves: what another dof has goes to those that it follows, by the size
@@ -196,46 +191,33 @@ impl Elimination {
         (power, full): (usize, &Triplets),
         unknowns: &DofMap,
         (friction, weights): (&[RigidFriction], FrictionWeights),
-    ) -> ProjectedPolynomial {
+    ) -> Vec<Triplets> {
         let powers = weights.times_mu(power).filter(|_| !friction.is_empty());
         let last = powers.fold(power, |last, (at, _)| last.max(at));
-        let mut projected = vec![Vec::new(); last + 1];
+        let mut projected = vec![Triplets::default(); last + 1];
         for (row, column, value) in self.congruent(full).entries {
             let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
             if let (Some(row), Some(column)) = (row, column) {
-                projected[power].push((row, column, value));
+                projected[power].push(row, column, value);
             }
         }
-        if friction.is_empty() {
-            return projected;
-        }
-        // The normal force is the work of the lift, taken over all dofs.
-        let slips = friction.iter().map(|rigid| self.over(unknowns, &rigid.slip));
-        let slips: Vec<Row> = slips.collect();
+        // The normal forces of rigid contact are the work of their lifts, taken over all dofs.
         let mut lifts: Vec<Row> = vec![Row::new(); self.is_dropped.len()];
         for (i, rigid) in friction.iter().enumerate() {
-            for &(dof, value) in &rigid.lift {
-                lifts[dof].push((i, value));
+            rigid.lift.iter().for_each(|&(dof, share)| lifts[dof].push((i, share)));
+        }
+        let mut forces = vec![Row::new(); friction.len()];
+        for &(row, column, value) in &full.entries {
+            lifts[row].iter().for_each(|&(i, share)| forces[i].push((column, share * value)));
+        }
+        for (rigid, force) in friction.iter().zip(&forces) {
+            let [slip, force] = [&rigid.slip, force].map(|row| self.over(unknowns, row));
+            for (at, factor) in weights.times_mu(power) {
+                projected[at].push_product(-factor, &slip, &force);
             }
         }
-        for &(row, column, value) in &full.entries {
-            let lifted = &lifts[row];
-            if lifted.is_empty() {
-                continue;
-            }
-            for (dof, across) in self.transposed(&[(column, 1.0)]) {
-                let Some(unknown) = unknowns.unknown_of[dof] else {
-                    continue;
-                };
-                for &(i, along) in lifted {
-                    let force = -along * value * across;
-                    for (at, factor) in weights.times_mu(power) {
-                        let force = factor * force;
-                        let moved = slips[i].iter().map(|&(row, a)| (row, unknown, a * force));
-                        projected[at].extend(moved);
-                    }
-                }
-            }
+        if !friction.is_empty() {
+            projected.iter_mut().for_each(Triplets::merge);
         }
         projected
     }

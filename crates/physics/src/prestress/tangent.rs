@@ -1,6 +1,6 @@
 //! The matrices of small motions around steady sliding.
 
-use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
+use super::elimination::{Elimination, RigidFriction};
 use super::terms::{Kind, Term, Terms, of_kind};
 use super::{LossGain, PrestressError, TabledGain, TangentOptions};
 use crate::contact::{
@@ -160,7 +160,7 @@ impl SlidingTangent {
         let frozen = contacts.iter().map(|part| part.state.frozen_below).fold(0.0, f64::max);
         let follows = (&friction[..], FrictionWeights::frozen_below(frozen));
         let terms = terms.map(|power, own| basis.project((power, &own), &unknowns, follows));
-        let entries = terms.all.iter().flat_map(|term| &term.matrix).flatten();
+        let entries = terms.all.iter().flat_map(|term| &term.matrix).flat_map(|own| &own.entries);
         let positions = entries.map(|&(row, column, _)| (row, column));
         let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
         let terms = terms.map(|_, own| placed(&pattern, own));
@@ -207,11 +207,17 @@ impl ContactPart<'_> {
 /// Nonzeros of a term by power of friction: their places on the pattern, and values.
 type Placed = Vec<Vec<(usize, f64)>>;
 
-fn placed(pattern: &SparsityPattern, polynomial: ProjectedPolynomial) -> Placed {
-    let place = |(row, column, value)| {
-        (pattern.position(row, column).expect("the pattern has all entries"), value)
+fn placed(pattern: &SparsityPattern, polynomial: Vec<Triplets>) -> Placed {
+    // Entries come row by row: the places of one row by their columns.
+    let (mut places, mut known) = (vec![0; pattern.dimension()], usize::MAX);
+    let mut place = |(row, column, value): (usize, usize, f64)| {
+        if row != known {
+            pattern.row(row).for_each(|(place, column)| places[column] = place);
+            known = row;
+        }
+        (places[column], value)
     };
-    polynomial.into_iter().map(|own| own.into_iter().map(place).collect()).collect()
+    polynomial.into_iter().map(|own| own.entries.into_iter().map(&mut place).collect()).collect()
 }
 
 /// The sum of terms, each times its factor, by power of friction.
