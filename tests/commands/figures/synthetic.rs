@@ -127,7 +127,7 @@ pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
             let travels = if friction == 0.0 { 0 } else { direction };
             modes.push(ComplexMode {
                 branch,
-                shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
+                shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction).into()),
                 ..mode(c64::new(real, imaginary), harmonic, travels)
             });
         }

@@ -4,6 +4,7 @@ use super::accuracy::{RESIDUAL_BOUND, ROUNDING_ERRORS};
 use super::{ModeCount, ModeLimit};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0`, equation (1) with the contact in it, with `Im(lambda) >= 0`.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +36,9 @@ pub struct ComplexMode {
     pub mesh_error: Option<f64>,
     /// Displacement shape over all nodes in nodal frames, two values a node (three in three dimensions) with
     /// `max |u| = 1`, where it was asked for.
-    pub shape: Option<Vec<c64>>,
+    pub shape: Option<Arc<[c64]>>,
     /// The left vector that belongs to it, see [`ModeVectors::left`], where a whole mesh was solved.
-    pub left: Option<Vec<c64>>,
+    pub left: Option<Arc<[c64]>>,
     /// The same of one sector of a body solved harmonic by harmonic, where it was asked for.
     pub wave: Option<ModeWave>,
 }

@@ -33,10 +33,7 @@ impl Column {
             Value::Time(day, seconds) => {
                 self.is_time = true;
                 // A time of day alone has day 0.
-                let days = match day {
-                    0 => 0,
-                    _ => day - *first_day.get_or_insert(day),
-                };
+                let days = if day == 0 { 0 } else { day - *first_day.get_or_insert(day) };
                 (86_400.0 * days as f64 + seconds, 0.0)
             }
         };

@@ -81,7 +81,7 @@ fn name_by_rank(
     sweeps: &mut [FrictionSweep],
     friction: f64,
 ) -> Result<(), StudyError> {
-    type Shapes = Vec<(Vec<c64>, usize)>;
+    type Shapes = Vec<(Arc<[c64]>, usize)>;
     let own = |sweep: &FrictionSweep| -> Shapes {
         let modes = sweep.modes_at(friction).iter();
         modes.map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch)).collect()

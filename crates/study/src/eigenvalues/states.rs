@@ -131,10 +131,7 @@ impl WholeMesh {
                     };
                     let name = format!("round-{round}-state-{k}-");
                     let sweep = self.part(state, &own, name, common)?;
-                    // Of one state there is no other round.
-                    if range.states.len() > 1 {
-                        common.solved.push((state.is_pressed.clone(), values, sweep.clone()));
-                    }
+                    common.solved.push((state.is_pressed.clone(), values, sweep.clone()));
                     sweep
                 }
             };

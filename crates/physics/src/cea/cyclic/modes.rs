@@ -70,7 +70,8 @@ fn mode(
         uncertainty: pair.uncertainty,
         contact_share: pair.contact_share,
         axial_share: Some(pair.axial_share).filter(|_| tangent.components == 3),
-        shape: wants_shape.then(|| expand(tangent, harmonic, waves, &paths.unknowns(&pair.x))),
+        shape: wants_shape
+            .then(|| expand(tangent, harmonic, waves, &paths.unknowns(&pair.x)).into()),
         mesh_error: None,
         left: None,
         nodal_diameters: None,

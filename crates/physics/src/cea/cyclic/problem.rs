@@ -13,10 +13,9 @@ pub(super) const I: c64 = c64::new(0.0, 1.0);
 
 /// `T(theta) x = 0` for one harmonic.
 ///
-/// With proportional damping the unknown is `theta = kappa` of `T = K - kappa M`, and
-/// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`; otherwise it is `theta = lambda` of
-/// `T = lambda^2 M + lambda C + K`. Either way `T = a(theta) M + b(theta) C + K`. With losses `K` has
-/// `sum_p g_p(lambda) K_p` beside it: `i eta K_p` for the wave `+n`, the conjugate for `-n`.
+/// With proportional damping the unknown is `theta = kappa` of `T = K - kappa M`, and `lambda^2 + alpha lambda + (1 + beta lambda) kappa =
+/// 0`; otherwise it is `theta = lambda` of `T = lambda^2 M + lambda C + K`. Either way `T = a(theta) M + b(theta) C + K`. With losses `K`
+/// has `sum_p g_p(lambda) K_p` beside it: `i eta K_p` for the wave `+n`, the conjugate for `-n`.
 pub(super) struct HarmonicProblem {
     pub tangent: HarmonicTangent,
     pub dimension: usize,

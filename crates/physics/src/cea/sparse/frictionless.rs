@@ -37,15 +37,13 @@ pub struct FrictionlessModes {
 }
 
 impl FrictionlessModes {
-    /// Computes the modes within `limit` and a few more, up to a gap in the spectrum, so that no
-    /// multiple eigenvalue is split.
+    /// Computes the modes within `limit` and a few more, up to a gap in the spectrum, so that no multiple eigenvalue is split.
     ///
     /// With `c > 0` the matrix `K + c^2 M` is positive definite however a body is held: one iteration on it finds rigid motions,
     /// the modes of soft mounts and those of the parts, each to its own accuracy. A sum of rounding errors tells rigid motions.
     ///
     /// # Errors
-    /// [`CeaError::NoModes`]; more modes asked for than there are; if the inertia of `K - sigma M` in that gap
-    /// counts another number.
+    /// [`CeaError::NoModes`]; more modes asked for than there are; if the inertia of `K - sigma M` in that gap counts another number.
     pub fn compute(tangent: &SlidingTangent, limit: ModeLimit) -> Result<Self, CeaError> {
         Self::found_by(tangent, &Inertia::new(tangent)?, limit)
     }

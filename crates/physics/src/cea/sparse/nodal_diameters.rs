@@ -170,7 +170,7 @@ fn expanded(
     n: usize,
     mut part: FrictionSweep,
 ) -> FrictionSweep {
-    let vectors = |right: &[c64], left: Option<&Vec<c64>>, mu: f64| {
+    let vectors = |right: &[c64], left: Option<&[c64]>, mu: f64| {
         let mut right = whole.displacement(&cyclic.expand(n, right));
         let scale = normalize(&mut right) / cyclic.weight(n);
         let left = left.map(|left| {
@@ -184,8 +184,8 @@ fn expanded(
         for mode in &mut point.modes {
             mode.nodal_diameters = Some(n);
             if let Some(shape) = mode.shape.take() {
-                let own = vectors(&shape, mode.left.as_ref(), point.friction_coefficient);
-                (mode.shape, mode.left) = (Some(own.0), own.1);
+                let own = vectors(&shape, mode.left.as_deref(), point.friction_coefficient);
+                (mode.shape, mode.left) = (Some(own.0.into()), own.1.map(Into::into));
             }
         }
     }

@@ -32,8 +32,7 @@ use std::f64::consts::TAU;
 /// Points come in the order given; repeated values are computed once.
 ///
 /// # Errors
-/// [`CeaError`]: a bad request, a mode count that the inertia contradicts, a pair above the residual
-/// bound, a lost branch.
+/// [`CeaError`]: a bad request, a mode count that the inertia contradicts, a pair above the residual bound, a lost branch.
 pub fn sweep(
     tangent: &SlidingTangent,
     request: &SweepRequest<'_>,

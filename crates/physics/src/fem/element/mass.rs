@@ -10,9 +10,8 @@ impl ElementGeometry {
         self.rotate_scalar(self.scalar_mass(material))
     }
 
-    /// Element lumped mass of each node, kg, in the plane for each metre of thickness: row sums for linear kinds; for quadratic
-    /// ones, whose row sums are not positive at the corners, the diagonal scaled to the element's mass (Hinton, Rock and
-    /// Zienkiewicz 1976).
+    /// Element lumped mass of each node, kg, in the plane for each metre of thickness: row sums for linear kinds; for quadratic ones, whose
+    /// row sums are not positive at the corners, the diagonal scaled to the element's mass (Hinton, Rock and Zienkiewicz 1976).
     pub fn lumped_mass(&self, material: &ElasticMaterial) -> Vec<f64> {
         let scalar = self.scalar_mass(material);
         let full = DMatrix::from_fn(scalar.nrows(), scalar.ncols(), |row, column| {

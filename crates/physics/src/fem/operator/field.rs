@@ -4,8 +4,7 @@ use std::ops::{Deref, DerefMut};
 
 const LINE: usize = 8;
 
-/// A fixed-length vector of `f64` that starts on a 64-byte boundary, so that no vector load crosses
-/// a cache line.
+/// A fixed-length vector of `f64` that starts on a 64-byte boundary, so that no vector load crosses a cache line.
 #[derive(Debug)]
 pub struct AlignedVector {
     storage: Vec<f64>,

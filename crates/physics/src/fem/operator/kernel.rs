@@ -1,8 +1,7 @@
 //! Inner loops of the stencil, compiled once for each instruction set, and what those of block rows share with them.
 //!
-//! Every kernel is one safe, always-inlined body; the wrappers only recompile it with more
-//! instructions enabled. The level is checked when an operator is built (`SimdLevel::available`),
-//! which is what makes the calls sound.
+//! Every kernel is one safe, always-inlined body; the wrappers only recompile it with more instructions enabled. The level is checked when
+//! an operator is built (`SimdLevel::available`), which is what makes the calls sound.
 
 use super::{MotionFields, SimdLevel, StepCoefficients};
 use std::ops::Range;

@@ -12,9 +12,8 @@ const TOLERANCE: f64 = 1e-10;
 /// Largest undamped angular frequency `omega_max` of `M^-1 K` with a free contact edge, rad/s, by the Lanczos
 /// method in the inner product of the mass.
 ///
-/// Without reorthogonalization: copies of converged eigenvalues do not move the largest. Estimates rise towards
-/// the true value; they stop when they have settled to ten digits. The start vector is fixed, so every run gets the
-/// same value.
+/// Without reorthogonalization: copies of converged eigenvalues do not move the largest. Estimates rise towards the true value; they stop
+/// when they have settled to ten digits. The start vector is fixed, so every run gets the same value.
 pub fn largest_frequency(operator: &dyn StiffnessOperator) -> f64 {
     largest_frequency_of(operator, &|_| true)
 }

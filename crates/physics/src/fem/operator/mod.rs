@@ -1,5 +1,4 @@
-//! The stiffness operator of an explicit time step: `M^-1 K` with a lumped mass, applied without a
-//! factorization.
+//! The stiffness operator of an explicit time step: `M^-1 K` with a lumped mass, applied without a factorization.
 //!
 //! Two implementations stand behind one trait: [`SparseOperator`] for any mesh, [`SectorStencil`]
 //! for bodies of equal sectors, a uniform annulus, and a body of revolution in three dimensions.
@@ -120,8 +119,7 @@ pub trait StiffnessOperator: Send + Sync {
     /// z <- M^-1 K v,   q <- q + dt z
     /// ```
     ///
-    /// Returns the power of damping `sum m d (v_old + v_new) / 2`, W/m, summed in an order that does not depend on
-    /// the instruction set.
+    /// Returns the power of damping `sum m d (v_old + v_new) / 2`, W/m, summed in an order that does not depend on the instruction set.
     fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64;
 }
 

@@ -5,8 +5,7 @@ use std::str::FromStr;
 
 /// Instruction set of the kernels.
 ///
-/// AVX2 and AVX-512 give the same bits; the scalar kernels do not fuse multiply and add, so theirs
-/// differ in the last place.
+/// AVX2 and AVX-512 give the same bits; the scalar kernels do not fuse multiply and add, so theirs differ in the last place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SimdLevel {
     /// What the build's target guarantees, without fused multiply-add.

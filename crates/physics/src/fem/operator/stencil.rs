@@ -8,11 +8,10 @@ use std::collections::BTreeMap;
 
 /// `M^-1 K` of a body of equal sectors, without a matrix.
 ///
-/// In frames that turn with the sectors all have the same element matrices. A node couples to its
-/// neighbours in its own sector and the two beside it through blocks that depend on the node of the
-/// sector alone, even or odd where that is its own mirror image. Fields hold one line around for
-/// each node of a sector and each component. Dof `d (s n + k) + c` is component `c` of node `k` of
-/// sector `s`, `n` nodes to a sector.
+/// In frames that turn with the sectors all have the same element matrices. A node couples to its neighbours in its own sector and the two
+/// beside it through blocks that depend on the node of the sector alone, even or odd where that is its own mirror image. Fields hold one
+/// line around for each node of a sector and each component. Dof `d (s n + k) + c` is component `c` of node `k` of sector `s`, `n` nodes to
+/// a sector.
 #[derive(Clone, Debug)]
 pub struct SectorStencil {
     pub(super) layout: LineLayout,

@@ -120,12 +120,10 @@ pub fn label(parts: &mut [Part]) {
 /// of the next.
 pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
     let found = joined_intervals(&mut parts, frictions);
-    let mut parts: Vec<FrictionSweep> = parts.into_iter().map(|part| part.sweep).collect();
-    let of_part = |part: &mut FrictionSweep| std::mem::take(&mut part.points);
-    let mut all: Vec<FrictionPoint> = parts.iter_mut().rev().flat_map(of_part).collect();
-    let place =
-        |all: &[FrictionPoint], mu: f64| all.iter().position(|own| own.friction_coefficient == mu);
-    let points = frictions.iter().filter_map(|&mu| Some(all.remove(place(&all, mu)?))).collect();
+    let parts: Vec<FrictionSweep> = parts.into_iter().map(|part| part.sweep).collect();
+    let all = || parts.iter().rev().flat_map(|part| &part.points);
+    let at = |mu: &f64| all().find(|point| point.friction_coefficient == *mu).cloned();
+    let points = frictions.iter().filter_map(at).collect();
     let ended = parts.iter().flat_map(|part| part.ended.iter().copied()).collect();
     let is_asked = |mu: f64| frictions.contains(&mu);
     let counts = parts.iter().flat_map(|part| part.counts.clone());

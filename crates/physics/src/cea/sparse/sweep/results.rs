@@ -167,7 +167,7 @@ impl SparseSweep<'_> {
             let is_round_off = self.tangent.is_gyroscopic
                 && mode.eigenvalue.re.abs() <= check.uncertainty * mode.eigenvalue.norm();
             let own = vectors.next();
-            let (shape, left) = own.map(|own| (own.right, own.left)).unzip();
+            let (shape, left) = own.map(|own| (own.right.into(), own.left.into())).unzip();
             let left = left.filter(|_| with_lefts);
             ComplexMode {
                 eigenvalue: match is_round_off {
