@@ -56,7 +56,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/linalg", 3_923),
     ("crates/output", 794),
     ("crates/physics/src/cea", 10_263),
-    ("crates/physics/src/contact", 2_680),
+    ("crates/physics/src/contact", 2_662),
     ("crates/physics/src/cycle", 7_707),
     ("crates/physics/src/fem", 4_390),
     ("crates/physics/src/frf", 1_315),

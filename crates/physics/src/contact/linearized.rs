@@ -1,11 +1,8 @@
 //! Small motions of contact points around steady sliding.
 
-use super::{ContactStiffness, Point, Row};
-use crate::fem::Triplets;
+use super::{ContactStiffness, Point};
+use crate::fem::{Product, Triplets};
 use crate::linalg::FrictionWeights;
-
-/// Entries of one term from which on those of one place are summed at once: thousands of points share few nodes.
-const MANY_ENTRIES: usize = 1 << 18;
 
 /// The bodies under one set of pressed points, as polynomials in `mu - a`, `mu` the friction coefficient and `a` where they begin,
 /// [`Self::frozen_below`].
@@ -52,58 +49,54 @@ pub fn linearized(
     (state, first): (&PressedState, usize),
     stiffness: &ContactStiffness,
 ) -> ContactTerms {
-    let mut terms = ContactTerms::default();
+    let [mut springs, mut dashpots, mut dragging]: [Products<'_>; 3] = Default::default();
     let frozen = state.frozen_below;
     let pressed = || (0..points.len()).filter(|&i| state.is_pressed[first + i]);
     for point in pressed().map(|i| &points[i]) {
         let weight = point.weight;
         // Springs and dashpots of the contact itself.
         if let (Some(normal), []) = (stiffness.normal_stiffness, &state.stiffnesses[..]) {
-            add_normal_law(&mut terms.stiffness, (0, frozen), point, weight * normal);
+            add_normal_law(&mut springs, (0, frozen), point, weight * normal);
         }
         if stiffness.normal_damping != 0.0 {
             let value = weight * stiffness.normal_damping;
-            add_normal_law(&mut terms.dashpots, (0, frozen), point, value);
+            add_normal_law(&mut dashpots, (0, frozen), point, value);
         }
         if stiffness.tangential_damping != 0.0 {
             let value = weight * stiffness.tangential_damping;
-            for row in [&point.slip, &point.across] {
-                power(&mut terms.dashpots, 0).push_product(value, row, row);
-            }
+            let both = [&point.slip[..], &point.across].map(|row| (value, row, row));
+            power(&mut dashpots, 0).extend(both);
         }
     }
-    for (p, springs) in state.stiffnesses.iter().enumerate() {
+    for (p, own) in state.stiffnesses.iter().enumerate() {
         for i in pressed() {
-            add_normal_law(&mut terms.stiffness, (p, frozen), &points[i], springs[first + i]);
+            add_normal_law(&mut springs, (p, frozen), &points[i], own[first + i]);
         }
-        merge_many(&mut terms.stiffness);
     }
     // What the forces of the base state do.
     for (p, forces) in state.normal_forces.iter().enumerate() {
         for i in pressed() {
             let (point, force) = (&points[i], forces[first + i]);
-            let friction = point.friction;
-            let mut add = |row: &Row, value: f64| {
-                for (term, factor) in following(p, frozen) {
-                    power(&mut terms.friction, term).push_product(factor * value, row, row);
+            let rates = [point.friction.slope, point.friction.drag.abs() / point.speed];
+            for (row, rate) in [&point.slip, &point.across].into_iter().zip(rates) {
+                for (term, factor) in
+                    following(p, frozen).filter(|_| rate != 0.0 && !row.is_empty())
+                {
+                    power(&mut dragging, term).push((factor * (rate * force), row, row));
                 }
-            };
-            if friction.slope != 0.0 {
-                add(&point.slip, friction.slope * force);
-            }
-            if !point.across.is_empty() {
-                add(&point.across, friction.drag.abs() * force / point.speed);
             }
         }
-        merge_many(&mut terms.friction);
     }
-    merge_many(&mut terms.stiffness);
-    terms
+    let [stiffness, dashpots, friction] = [springs, dashpots, dragging].map(|own| sums(&own));
+    ContactTerms { stiffness, dashpots, friction }
 }
 
-/// Sums the entries of terms that have become many.
-pub(super) fn merge_many(terms: &mut [Triplets]) {
-    terms.iter_mut().filter(|term| term.entries.len() > MANY_ENTRIES).for_each(Triplets::merge);
+/// Products of rows by power of friction.
+pub(super) type Products<'a> = Vec<Vec<Product<'a>>>;
+
+/// Their sums: thousands of points share few nodes.
+pub(super) fn sums(products: &Products<'_>) -> Vec<Triplets> {
+    products.iter().map(|own| Triplets::of_products(own)).collect()
 }
 
 /// The term of what the power `p` of a state multiplies: `mu^p`, or `(mu - a)^p` from the coefficient `a` on below which it is frozen.
@@ -117,23 +110,23 @@ pub(super) fn following(p: usize, frozen_below: f64) -> impl Iterator<Item = (us
 }
 
 /// `dN = -coefficient mu^p n.u` and the friction that follows it.
-fn add_normal_law(
-    terms: &mut Vec<Triplets>,
+fn add_normal_law<'a>(
+    terms: &mut Products<'a>,
     (p, frozen): (usize, f64),
-    point: &Point,
+    point: &'a Point,
     coefficient: f64,
 ) {
-    power(terms, alone(p, frozen)).push_product(coefficient, &point.normal, &point.normal);
+    power(terms, alone(p, frozen)).push((coefficient, &point.normal, &point.normal));
     for (term, factor) in following(p, frozen) {
         let follow = point.friction.drag * factor * coefficient;
-        power(terms, term).push_product(follow, &point.slip, &point.normal);
+        power(terms, term).push((follow, &point.slip, &point.normal));
     }
 }
 
 /// The coefficient of a term, made where it is not yet there.
-pub(super) fn power(terms: &mut Vec<Triplets>, p: usize) -> &mut Triplets {
+pub(super) fn power<T: Default>(terms: &mut Vec<T>, p: usize) -> &mut T {
     if terms.len() <= p {
-        terms.resize_with(p + 1, Triplets::default);
+        terms.resize_with(p + 1, T::default);
     }
     &mut terms[p]
 }

@@ -1,14 +1,14 @@
 //! How the forces of the base state turn with the surfaces.
 
-use super::linearized::{alone, following, merge_many, power};
-use super::{ContactInterface, ContactSurface, Counterpart, Point, PressedState, Row, row_along};
+use super::linearized::{Products, alone, following, power, sums};
+use super::{
+    ContactInterface, ContactSurface, Counterpart, Point, PressedState, Row, row_along, scaled,
+    summed,
+};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
-
-/// Points after which the entries of one place are summed.
-const POINTS_AT_A_TIME: usize = 250;
 
 /// How the directions at a contact point turn with small motions, along the sliding `t` and across it `d`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,47 +56,36 @@ pub fn turned(
     turnings: &[Turning],
     (state, first): (&PressedState, usize),
 ) -> Vec<Triplets> {
-    let mut terms = Vec::new();
-    for (i, (point, turning)) in points.iter().zip(turnings).enumerate() {
-        if i % POINTS_AT_A_TIME == 0 {
-            merge_many(&mut terms);
-        }
-        let [normal, friction] = of_unit_force(point, turning);
-        for (p, forces) in state.normal_forces.iter().enumerate() {
+    // The columns of the slips and of the normal, which combine rows.
+    let columns = points.iter().zip(turnings).map(|(point, Turning { tilt, curvature, .. })| {
+        let bent = |kappa: [f64; 2], eta: &Row| {
+            let rows = [(&point.slip, -kappa[0]), (&point.across, -kappa[1]), (eta, 1.0)];
+            summed(rows.into_iter().flat_map(|(row, factor)| scaled(row, factor)))
+        };
+        [0, 1].map(|a| bent(curvature[a], &tilt[a]))
+    });
+    let columns: Vec<[Row; 2]> = columns.collect();
+    let mut products = Products::new();
+    for (p, forces) in state.normal_forces.iter().enumerate() {
+        for (i, (point, own)) in points.iter().zip(turnings).enumerate() {
+            let ([t, d], [along, across]) = ([&point.slip, &point.across], &columns[i]);
+            let ([tilt_t, tilt_d], [stretch_t, stretch_d]) = (&own.tilt, &own.stretch);
             let (force, frozen) = (forces[first + i], state.frozen_below);
-            let pressed = power(&mut terms, alone(p, frozen));
-            normal.iter().for_each(|&(i, j, value)| pressed.push(i, j, force * value));
+            let pressed = [(t, along), (d, across), (tilt_t, t), (tilt_d, d)];
+            let pressed = pressed.map(|(row, column)| (force, &row[..], &column[..]));
+            power(&mut products, alone(p, frozen)).extend(pressed);
             for (term, factor) in following(p, frozen) {
-                let (sheared, factor) = (power(&mut terms, term), factor * force);
-                friction.iter().for_each(|&(i, j, value)| sheared.push(i, j, factor * value));
+                let drag = factor * force * point.friction.drag;
+                power(&mut products, term).extend([
+                    (-drag, &point.normal[..], &along[..]),
+                    (drag, stretch_t, t),
+                    (drag, stretch_d, d),
+                    (-drag, d, &own.veer),
+                ]);
             }
         }
     }
-    merge_many(&mut terms);
-    terms
-}
-
-/// What a unit normal force adds, and its friction for each unit of friction coefficient.
-fn of_unit_force(point: &Point, turning: &Turning) -> [Vec<(usize, usize, f64)>; 2] {
-    let [mut normal, mut friction] = [Triplets::default(), Triplets::default()];
-    let (moves, curvature, drag) =
-        ([&point.slip, &point.across], turning.curvature, point.friction.drag);
-    for a in 0..2 {
-        for b in 0..2 {
-            normal.push_product(-curvature[a][b], moves[a], moves[b]);
-        }
-        normal.push_product(1.0, moves[a], &turning.tilt[a]);
-        normal.push_product(1.0, &turning.tilt[a], moves[a]);
-        friction.push_product(curvature[0][a] * drag, &point.normal, moves[a]);
-        friction.push_product(drag, &turning.stretch[a], moves[a]);
-    }
-    friction.push_product(-drag, &point.normal, &turning.tilt[0]);
-    friction.push_product(-drag, &point.across, &turning.veer);
-    [normal, friction].map(|terms| {
-        let mut sums = BTreeMap::new();
-        terms.entries.iter().for_each(|&(i, j, value)| *sums.entry((i, j)).or_default() += value);
-        sums.into_iter().map(|((i, j), value)| (i, j, value)).collect()
-    })
+    sums(&products)
 }
 
 impl ContactInterface {

@@ -1,6 +1,10 @@
 //! Entries of a sparse matrix before they are summed.
 
 use nalgebra::SMatrix;
+use std::collections::BTreeMap;
+
+/// `factor row column^T`.
+pub type Product<'a> = (f64, &'a [(usize, f64)], &'a [(usize, f64)]);
 
 /// Entries `(row, column, value)` of a sparse matrix; entries at one place add up.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,24 +57,33 @@ impl Triplets {
             next[row] += 1;
         }
         self.entries.clear();
-        let (mut sums, mut taken_by) = (vec![0.0; columns], vec![usize::MAX; columns]);
-        let mut taken: Vec<u32> = Vec::new();
+        let mut sum = RowSum::new(columns);
         for row in 0..rows {
-            taken.clear();
-            for &(column, value) in &by_row[ends[row]..ends[row + 1]] {
-                let place = column as usize;
-                if taken_by[place] == row {
-                    sums[place] += value;
-                } else {
-                    (sums[place], taken_by[place]) = (value, row);
-                    taken.push(column);
-                }
-            }
-            taken.sort_unstable();
-            let entries = taken.iter().map(|&own| (row, own as usize, sums[own as usize]));
-            self.entries.extend(entries);
+            let own = by_row[ends[row]..ends[row + 1]].iter();
+            own.for_each(|&(column, value)| sum.add(column as usize, value));
+            sum.move_to(row, &mut self.entries);
         }
         self.entries.shrink_to_fit();
+    }
+
+    /// The sum of products, merged.
+    pub fn of_products(products: &[Product<'_>]) -> Self {
+        let mut by_row: BTreeMap<usize, Vec<(f64, &[(usize, f64)])>> = BTreeMap::new();
+        let mut columns = 0;
+        for &(factor, row, column) in products.iter().filter(|own| own.0 != 0.0) {
+            columns = column.iter().fold(columns, |m, own| m.max(own.0 + 1));
+            row.iter().for_each(|&(i, along)| {
+                by_row.entry(i).or_default().push((factor * along, column));
+            });
+        }
+        let (mut sum, mut entries) = (RowSum::new(columns), Vec::new());
+        for (row, own) in by_row {
+            for (factor, column) in own {
+                column.iter().for_each(|&(j, across)| sum.add(j, factor * across));
+            }
+            sum.move_to(row, &mut entries);
+        }
+        Self { entries }
     }
 
     /// Multiplies every value.
@@ -101,5 +114,37 @@ impl Triplets {
             *high = sum;
         }
         left.into_iter().map(|[high, low]| high + low).collect()
+    }
+}
+
+/// The sums of one row in a row of all columns, of which those taken are known.
+struct RowSum {
+    sums: Vec<f64>,
+    is_taken: Vec<bool>,
+    taken: Vec<u32>,
+}
+
+impl RowSum {
+    fn new(columns: usize) -> Self {
+        Self { sums: vec![0.0; columns], is_taken: vec![false; columns], taken: Vec::new() }
+    }
+
+    #[inline]
+    fn add(&mut self, column: usize, value: f64) {
+        if self.is_taken[column] {
+            self.sums[column] += value;
+        } else {
+            (self.sums[column], self.is_taken[column]) = (value, true);
+            self.taken.push(column as u32);
+        }
+    }
+
+    /// Appends the row to entries, by rising columns, and begins the next one.
+    fn move_to(&mut self, row: usize, entries: &mut Vec<(usize, usize, f64)>) {
+        self.taken.sort_unstable();
+        for column in self.taken.drain(..).map(|own| own as usize) {
+            entries.push((row, column, self.sums[column]));
+            self.is_taken[column] = false;
+        }
     }
 }
