@@ -247,8 +247,7 @@ pub(super) fn trial_right_side(count: usize) -> impl Iterator<Item = f64> {
 
 /// What [`orthonormalize`] found: `w = basis * against + q * within`.
 pub struct Orthonormalized {
-    /// Orthonormal columns, orthogonal to the basis; fewer than those of `w` where some of these
-    /// were dependent.
+    /// Orthonormal columns, orthogonal to the basis; fewer than those of `w` where some of these were dependent.
     pub columns: Mat<f64>,
     /// Coefficients along the basis.
     pub against: Mat<f64>,
@@ -258,9 +257,8 @@ pub struct Orthonormalized {
 
 /// Orthonormalizes the columns of `w` against an orthonormal `basis` and one another.
 ///
-/// Block classical Gram-Schmidt, twice, then modified Gram-Schmidt, twice, within the block; both once more for a column of which
-/// little is left then. A column that keeps less than `drop_below` of its length is left out: its coefficients stand, its remainder
-/// is lost.
+/// Block classical Gram-Schmidt, twice, then modified Gram-Schmidt, twice, within the block; both once more for a column of which little is
+/// left then. A column that keeps less than `drop_below` of its length is left out: its coefficients stand, its remainder is lost.
 #[inline]
 pub fn orthonormalize(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Orthonormalized {
     orthonormalize_down_to(basis, w, |length| drop_below * length)
@@ -319,8 +317,7 @@ fn orthonormalize_down_to(
 /// Length of a column of unit length, nearly orthonormal to others, beyond them: more than this unless it is nothing but round-off.
 pub const UNIT_REMAINDER: f64 = 0.5;
 
-/// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`, down to the length
-/// `drop_below` (absolute).
+/// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`, down to the length `drop_below` (absolute).
 #[inline]
 pub fn orthonormal_complement(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Mat<f64> {
     let new = orthonormalize_down_to(basis, w, |_| drop_below).columns;

@@ -218,12 +218,10 @@ fn conjugate(values: &[c64], vectors: &mut Mat<f64>) {
     }
 }
 
-/// Recomputes eigenvectors, of eigenvalues of at least the modulus `smallest`, that do not satisfy their
-/// equation.
+/// Recomputes eigenvectors, of eigenvalues of at least the modulus `smallest`, that do not satisfy their equation.
 ///
-/// The back substitution of the decomposition loses up to all digits in the vectors of repeated complex
-/// eigenvalues. Inverse iteration restores them; projections against the sound vectors of equal
-/// eigenvalues keep them independent.
+/// The back substitution of the decomposition loses up to all digits in the vectors of repeated complex eigenvalues. Inverse iteration
+/// restores them; projections against the sound vectors of equal eigenvalues keep them independent.
 fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut Mat<f64>) {
     let first_columns: Vec<usize> = (0..values.len())
         .filter(|&j| values[j].im >= 0.0 && values[j].norm() >= smallest)

@@ -18,9 +18,8 @@ pub(super) fn splitmix64(state: &mut u64) -> u64 {
 
 /// A stream of Gaussian noise that depends on its seed alone.
 ///
-/// Each value has independent real and imaginary parts with mean 0 and standard deviation 1
-/// (dimensionless): Box and Muller's transform of splitmix64. Streams of different seeds share no
-/// part of any practical length. Not for cryptography.
+/// Each value has independent real and imaginary parts with mean 0 and standard deviation 1 (dimensionless): Box and Muller's transform of
+/// splitmix64. Streams of different seeds share no part of any practical length. Not for cryptography.
 #[derive(Clone, Debug)]
 pub struct GaussianNoise(u64);
 
@@ -28,9 +27,8 @@ impl GaussianNoise {
     /// The stream of a seed.
     #[inline]
     pub fn new(mut seed: u64) -> Self {
-        // All streams are parts of one sequence, `state + k increment`. A state that is linear in the
-        // seed would let neighbouring seeds run through the same numbers a few places apart; a
-        // scrambled one puts each seed at a random place among 2^64.
+        // All streams are parts of one sequence, `state + k increment`. A state that is linear in the seed would let neighbouring seeds run
+        // through the same numbers a few places apart; a scrambled one puts each seed at a random place among 2^64.
         Self(splitmix64(&mut seed))
     }
 
@@ -74,9 +72,8 @@ mod tests {
                 }
             }
         }
-        // Real and imaginary part of such a sum have variance 2 COUNT. Of 2240 sums the largest is
-        // below 6 of those standard deviations with probability 1 - 2240 exp(-18); the same noise
-        // would give 2 COUNT = 90.
+        // Real and imaginary part of such a sum have variance 2 COUNT. Of 2240 sums the largest is below 6 of those standard deviations
+        // with probability 1 - 2240 exp(-18); the same noise would give 2 COUNT = 90.
         let chance = (2.0 * COUNT as f64).sqrt();
         assert!(largest < 6.0 * chance, "{}", largest / chance);
     }
@@ -90,8 +87,7 @@ mod tests {
             fourth += z.re.powi(4) + z.im.powi(4);
             cross += z.re * z.im;
         }
-        // Five standard deviations of each sum of n numbers: variances 1, 2 and 96, and 1 of each
-        // of the n / 2 products.
+        // Five standard deviations of each sum of n numbers: variances 1, 2 and 96, and 1 of each of the n / 2 products.
         let n = (64 * 2 * COUNT) as f64;
         assert!(mean.abs() < 5.0 * n.sqrt(), "{mean}");
         assert!((square - n).abs() < 5.0 * (2.0 * n).sqrt(), "{square}");

@@ -1,9 +1,8 @@
 //! Stopping a computation that runs inside another program.
 //!
-//! A command of its own ends with its process. Inside another program it must give its threads
-//! back. Those that work for it carry its [`Stop`], and the factorizations and iterations of this
-//! floor look at it ([`check`]). They unwind with [`Stopped`] to where the computation was begun,
-//! as cancelled queries do in salsa. Results do not depend on it.
+//! A command of its own ends with its process. Inside another program it must give its threads back. Those that work for it carry its
+//! [`Stop`], and the factorizations and iterations of this floor look at it ([`check`]). They unwind with [`Stopped`] to where the
+//! computation was begun, as cancelled queries do in salsa. Results do not depend on it.
 
 use std::cell::RefCell;
 use std::panic::resume_unwind;

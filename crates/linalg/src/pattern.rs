@@ -28,8 +28,7 @@ pub struct SparsityPattern {
 }
 
 impl SparsityPattern {
-    /// Pattern of a `dimension x dimension` matrix from `(row, column)` positions in any order,
-    /// repeated or not.
+    /// Pattern of a `dimension x dimension` matrix from `(row, column)` positions in any order, repeated or not.
     ///
     /// # Panics
     /// If a position lies outside the matrix, or there are more than `u32::MAX` nonzeros.

@@ -115,8 +115,7 @@ impl MatrixPolynomial {
         Self::from_coefficients(pattern, coefficients)
     }
 
-    /// Polynomial on its own pattern, the union of the positions of all triplets; see
-    /// [`Self::on_pattern`].
+    /// Polynomial on its own pattern, the union of the positions of all triplets; see [`Self::on_pattern`].
     #[inline]
     pub fn from_triplets(dimension: usize, triplets: &[Vec<(usize, usize, f64)>]) -> Self {
         let positions = triplets.iter().flatten().map(|&(row, col, _)| (row, col));
@@ -124,8 +123,7 @@ impl MatrixPolynomial {
         Self::on_pattern(&pattern, triplets)
     }
 
-    /// Polynomial whose coefficient of `mu^p` has the nonzero values `coefficients[p]`, in the
-    /// order of the pattern.
+    /// Polynomial whose coefficient of `mu^p` has the nonzero values `coefficients[p]`, in the order of the pattern.
     ///
     /// # Panics
     /// If a coefficient does not have one value for each nonzero.
@@ -163,8 +161,7 @@ impl MatrixPolynomial {
 
     /// Coefficients of the powers of `mu - a`, of the polynomial that it is above [`Self::frozen_below`].
     ///
-    /// Near `a` they are of the size of the matrix. Powers about a place far away from where the polynomial was made cancel each
-    /// other.
+    /// Near `a` they are of the size of the matrix. Powers about a place far away from where the polynomial was made cancel each other.
     pub fn about(&self, a: f64) -> Vec<Vec<f64>> {
         let mut terms = self.coefficients.clone();
         // What does not change above the origin is one term.
@@ -207,8 +204,7 @@ impl MatrixPolynomial {
     /// The coefficient of `mu^power` alone, as a constant over the unknowns that it touches (its nonzero
     /// rows and columns), and these unknowns in ascending order.
     ///
-    /// Friction touches the contact rows only: on the shared pattern most of such a coefficient is
-    /// structural zeros.
+    /// Friction touches the contact rows only: on the shared pattern most of such a coefficient is structural zeros.
     pub fn compact_coefficient(&self, power: usize) -> (Self, Vec<usize>) {
         let values = &self.coefficients[power];
         let nonzeros = |column: usize| {

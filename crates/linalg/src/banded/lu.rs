@@ -31,8 +31,7 @@ impl BandedLu {
 
     /// Factorizes the matrix whose band has `values`, laid out like [`super::BandedMatrix::values`].
     ///
-    /// An exactly singular pivot is replaced by a tiny one: a shift that is an eigenvalue to the last bit
-    /// is welcome in inverse iteration.
+    /// An exactly singular pivot is replaced by a tiny one: a shift that is an eigenvalue to the last bit is welcome in inverse iteration.
     pub fn factorize(&mut self, values: &[c64]) {
         interruption::check();
         let (n, h) = (self.dimension, self.half_bandwidth);

@@ -1,5 +1,4 @@
-//! Banded matrices: storage, inertia by `L D L^H`, complex LU with partial pivoting,
-//! several complex systems at a time.
+//! Banded matrices: storage, inertia by `L D L^H`, complex LU with partial pivoting, several complex systems at a time.
 
 mod batch;
 mod compact;

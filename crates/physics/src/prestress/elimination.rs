@@ -189,9 +189,8 @@ impl Elimination {
         Triplets { entries: diagonal.entries.iter().flat_map(gather).collect() }
     }
 
-    /// A matrix of small motions that comes with a power of `mu` over the unknowns: `T^T A T` without what vanishes, where
-    /// `friction` adds `-mu` times the work of a lift, the normal force of rigid contact, to the rows of its slip.
-    /// Coefficients have the given weights.
+    /// A matrix of small motions that comes with a power of `mu` over the unknowns: `T^T A T` without what vanishes, where `friction` adds
+    /// `-mu` times the work of a lift, the normal force of rigid contact, to the rows of its slip. Coefficients have the given weights.
     pub(super) fn project(
         &self,
         (power, full): (usize, &Triplets),

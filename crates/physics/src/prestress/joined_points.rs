@@ -5,7 +5,8 @@ use super::cholesky::factorized;
 use super::pressed_state::{ContactState, Pressing};
 use crate::contact::{Row, scaled};
 use crate::fem::{DofMap, Triplets};
-use crate::linalg::SparseCholesky;
+use crate::linalg::dense::{column, column_mut};
+use crate::linalg::{Mat, SparseCholesky};
 
 /// Bodies and the rows of their contact points over the unknowns. Bodies may be held by contact alone: what is factorized has
 /// springs at the points,
@@ -60,21 +61,25 @@ impl<'a> JoinedPoints<'a> {
         self.unknowns.restrict(&elimination.transposed_forces(load))
     }
 
-    /// `P^-1` times `right_side` and forces along the normals and drags of the points.
+    /// `P^-1` times `load` and, a column each, forces along the normals and drags of the points.
     pub fn respond(
         &self,
         solver: &SparseCholesky,
-        mut right_side: Vec<f64>,
-        along: impl Iterator<Item = [f64; 2]>,
-    ) -> Vec<f64> {
-        for (i, forces) in along.enumerate() {
-            for (row, force) in [&self.normals[i], &self.drags[i]].into_iter().zip(forces) {
-                if force != 0.0 {
+        load: &[f64],
+        along: &[Vec<[f64; 2]>],
+    ) -> Mat<f64> {
+        let mut block = Mat::zeros(load.len(), along.len());
+        for (j, forces) in along.iter().enumerate() {
+            let right_side = column_mut(&mut block, j);
+            right_side.copy_from_slice(load);
+            for (rows, forces) in self.normals.iter().zip(&self.drags).zip(forces) {
+                for (row, force) in [rows.0, rows.1].into_iter().zip(forces) {
                     row.iter().for_each(|&(dof, a)| right_side[dof] += force * a);
                 }
             }
         }
-        solver.solve(right_side)
+        solver.solve_in_place(block.as_mut());
+        block
     }
 
     /// `c_i` of a displacement.
@@ -94,7 +99,8 @@ impl<'a> JoinedPoints<'a> {
             let force = state.normal_forces[i];
             [force + spring * state.separations[i], friction_coefficient * force]
         });
-        let y = self.unknowns.expand(&self.respond(solver, self.load(), along));
+        let found = self.respond(solver, &self.load(), &[along.collect()]);
+        let y = self.unknowns.expand(column(found.as_ref(), 0));
         self.pressing.elimination.displacement(&y)
     }
 }

@@ -1,13 +1,11 @@
 //! Steady sliding equilibrium and the tangent around it.
 //!
-//! [`PressedState`] is the base state: the counterface pushed in by `delta`, every pressed contact node
-//! slipping, the others open. [`SlidingTangent`] holds the matrices of small motions around it,
-//! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
-//! Both stand on contact points with rows: [`Pressing`] finds the base state by complementarity, [`Elimination`] takes held
-//! dofs, ties and rigid contact out, and [`SlidingTangent::assemble`] sums the [`Terms`] up. [`Assembly`] is the bodies of
-//! one mesh, plane or solid, that slide on a counterface or on each other.
-//! [`WaveTangent`] is the same of a body of equal sectors from one of them, harmonic by harmonic: of a plane annulus around
-//! [`SectorSliding`], of a body of revolution around [`SolidSliding`].
+//! [`PressedState`] is the base state: the counterface pushed in by `delta`, every pressed contact node slipping, the others open.
+//! [`SlidingTangent`] holds the matrices of small motions around it, `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction
+//! coefficient. Both stand on contact points with rows: [`Pressing`] finds the base state by complementarity, [`Elimination`] takes held
+//! dofs, ties and rigid contact out, and [`SlidingTangent::assemble`] sums the [`Terms`] up. [`Assembly`] is the bodies of one mesh, plane
+//! or solid, that slide on a counterface or on each other. [`WaveTangent`] is the same of a body of equal sectors from one of them,
+//! harmonic by harmonic: of a plane annulus around [`SectorSliding`], of a body of revolution around [`SolidSliding`].
 
 mod assembly;
 mod cholesky;

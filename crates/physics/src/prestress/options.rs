@@ -8,8 +8,7 @@ use crate::fem::{MassKind, RayleighDamping};
 pub enum DampingModel {
     /// `C = alpha_R M + beta_R K_t`: contact and friction terms included.
     WholeTangent,
-    /// `C = alpha_R M + beta_R K_e`: the body's elastic stiffness alone. Friction still follows all of
-    /// the normal force.
+    /// `C = alpha_R M + beta_R K_e`: the body's elastic stiffness alone. Friction still follows all of the normal force.
     BodyOnly,
 }
 

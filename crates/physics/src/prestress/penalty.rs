@@ -3,7 +3,8 @@
 use super::PrestressError;
 use super::joined_points::JoinedPoints;
 use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, widened};
-use crate::linalg::{SparseCholesky, gmres};
+use crate::linalg::dense::{column, difference};
+use crate::linalg::{LinearFamily, SparseCholesky};
 
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
 const OPEN_SHARE: f64 = 1e-6;
@@ -16,7 +17,7 @@ const MOST_CHANGED: f64 = 0.1;
 const MOST_TANGENTS: usize = 60;
 const SETTLED: f64 = 1e-11;
 
-/// Residual of the separations, over those without friction.
+/// Residual of the penetrations, over those without friction.
 const TOLERANCE: f64 = 1e-14;
 
 /// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
@@ -32,14 +33,15 @@ const NODES: [usize; 2] = [6, 8];
 /// ```
 ///
 /// With `P = K + sum r_i k_i n_i n_i^T`, symmetric and factorized once for a set of pressed points (`r_i` is one, and small at
-/// open points), the separations alone are unknown:
+/// open points), the separations alone are unknown, from those of no force on, `c_i = s_i p_i + y_i`:
 ///
 /// ```text
-/// c + n . P^-1 E c = n . P^-1 (f + sum_pressed k_i p_i (n_i + mu drag_i t_i))
-/// E c = sum_i ((s_i - r_i) n_i + s_i mu drag_i t_i) k_i c_i,     s_i = 1 where pressed, else 0
+/// y + n . P^-1 E y = n . P^-1 (f + sum_i r_i k_i s_i p_i n_i) - s p
+/// E y = sum_i ((s_i - r_i) n_i + mu s_i drag_i t_i) k_i y_i,     s_i = 1 where pressed, else 0
 /// ```
 ///
-/// a system near the identity, as friction and the points that changed since are small beside `P`.
+/// a system near the identity, as friction and the points that changed since are small beside `P`. Friction is in the matrix alone:
+/// the systems of a set of pressed points share one space.
 ///
 /// Contact that stiffens, `N_i = w_i p(p_i - c_i)`, is linear about the force found last, with the stiffness of its tangent
 /// there and the push with which that passes through it: Newton's iteration on the approach as a function of the force, which
@@ -55,8 +57,10 @@ pub(super) struct PenaltyContact<'a> {
     held: Vec<f64>,
     /// Whether the last solution took too long.
     is_slow: bool,
-    /// Separations found last.
+    /// Separations at the tangents of contact that stiffens found last.
     last: Vec<f64>,
+    /// The systems of the springs as they are and of a set of pressed points.
+    systems: Option<(Vec<bool>, LinearFamily)>,
 }
 
 impl<'a> PenaltyContact<'a> {
@@ -71,7 +75,7 @@ impl<'a> PenaltyContact<'a> {
         };
         let points = JoinedPoints::new(pressing);
         Ok(Some(Self {
-            last: vec![0.0; springs.len()],
+            last: Vec::new(),
             pushed: pressing.pushed.clone(),
             held: springs.clone(),
             solver: points.factorize(&springs)?,
@@ -79,6 +83,7 @@ impl<'a> PenaltyContact<'a> {
             points,
             springs,
             is_slow: false,
+            systems: None,
         }))
     }
 
@@ -94,6 +99,7 @@ impl<'a> PenaltyContact<'a> {
             self.solver = self.points.factorize(&held)?;
             self.factorized = is_pressed.to_vec();
             self.held = held;
+            self.systems = None;
         }
         Ok(())
     }
@@ -104,37 +110,37 @@ impl<'a> PenaltyContact<'a> {
         friction_coefficient: f64,
         is_pressed: &[bool],
     ) -> (Vec<f64>, Vec<f64>) {
-        let (pushed, springs) = (&self.pushed, &self.springs);
-        let pressed = |i: usize| f64::from(u8::from(is_pressed[i]));
-        let count = springs.len();
-
-        // What the loads and the pushes alone do.
-        let along = (0..count).map(|i| {
-            let push = pressed(i) * springs[i] * pushed[i];
-            [push, friction_coefficient * push]
-        });
-        let points = &self.points;
-        let given = points.separations(&points.respond(&self.solver, points.load(), along));
-
-        // The separations with what `P` has not.
-        let apply = |c: &[f64]| -> Vec<f64> {
-            let along = (0..count).map(|i| {
-                let force = pressed(i) * springs[i] * c[i];
-                [force - self.held[i] * c[i], friction_coefficient * force]
-            });
-            let none = vec![0.0; points.unknowns.len()];
-            let response = points.separations(&points.respond(&self.solver, none, along));
-            c.iter().zip(response).map(|(c, r)| c + r).collect()
+        let known = self.systems.take().filter(|(set, _)| set == is_pressed);
+        let Self { points, springs, held, solver, .. } = &*self;
+        let pressed = |values: &[f64]| -> Vec<f64> {
+            let both = values.iter().zip(is_pressed);
+            both.map(|(value, is_pressed)| if *is_pressed { *value } else { 0.0 }).collect()
         };
-        let mut separations = self.last.clone();
-        let (products, _) = gmres(apply, &given, &mut separations, TOLERANCE);
-        let forces = (0..count).map(|i| match is_pressed[i] {
-            true => springs[i] * (pushed[i] - separations[i]),
-            false => 0.0,
+        let (own, origin) = (pressed(springs), pressed(&self.pushed));
+        let along = |own: &dyn Fn(usize) -> [f64; 2]| (0..springs.len()).map(own).collect();
+        // What the loads and the pushes alone do.
+        let (_, mut systems) = known.unwrap_or_else(|| {
+            let pushes = along(&|i| [held[i] * origin[i], 0.0]);
+            let response = points.respond(solver, &points.load(), &[pushes]);
+            let separations = points.separations(column(response.as_ref(), 0));
+            (Vec::new(), LinearFamily::new(difference(&separations, &origin)))
         });
-        let forces = forces.collect();
+
+        // With what `P` has not.
+        let none = vec![0.0; points.unknowns.len()];
+        let apply = |y: &[f64]| {
+            let parts =
+                [along(&|i| [(own[i] - held[i]) * y[i], 0.0]), along(&|i| [0.0, own[i] * y[i]])];
+            let response = points.respond(solver, &none, &parts);
+            let [fixed, moving] = [0, 1].map(|j| points.separations(column(response.as_ref(), j)));
+            [y.iter().zip(fixed).map(|(y, r)| y + r).collect(), moving]
+        };
+        let start = difference(&self.last, &origin);
+        let (found, products) = systems.solve(friction_coefficient, &start, apply, TOLERANCE);
+        let forces = own.iter().zip(&found).map(|(spring, y)| 0.0 - spring * y).collect();
         self.is_slow = products > MOST_PRODUCTS;
-        self.last.clone_from(&separations);
+        let separations = origin.iter().zip(&found).map(|(p, y)| p + y).collect();
+        self.systems = Some((is_pressed.to_vec(), systems));
         (separations, forces)
     }
 
@@ -150,6 +156,7 @@ impl<'a> PenaltyContact<'a> {
                 self.pushed[i] = pressing.pushed[i] - approach + force / self.springs[i];
             }
         }
+        self.systems.take_if(|_| stiffens);
         stiffens
     }
 }
@@ -189,7 +196,7 @@ impl PressedBodies for PenaltyContact<'_> {
                     stiffnesses: (!is_linear).then(|| self.springs.clone()),
                 });
             }
-            before = Some(normal_forces);
+            (before, self.last) = (Some(normal_forces), separations);
         }
         Err(PrestressError::NoState { friction_coefficient })
     }

@@ -8,8 +8,7 @@ use super::pressed_range::{PressedRange, RESOLVED};
 use crate::contact::{NormalLaw, Point, PressedState};
 use crate::fem::Triplets;
 
-/// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
-/// followed from there.
+/// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is followed from there.
 pub(super) const LEAST_RANGE: f64 = 0.05;
 
 /// What follows the last two terms of a series that falls by a factor of three or more from one to the next, beside the larger of them.

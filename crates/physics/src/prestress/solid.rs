@@ -78,8 +78,7 @@ impl SolidSliding {
         self.approaches_over(sector).along(element, along).max(0.0)
     }
 
-    /// The parts of an element of the face that are pressed, see [`face_points`]. Of quadratic elements in
-    /// rigid contact it is all.
+    /// The parts of an element of the face that are pressed, see [`face_points`]. Of quadratic elements in rigid contact it is all.
     fn pressed_spans(&self, sector: &SolidSector, element: &FaceElement) -> Vec<[f64; 2]> {
         match self.law {
             None if self.rule == FaceRule::Integrated => vec![WHOLE_ELEMENT],

@@ -19,13 +19,12 @@ use std::sync::Arc;
 /// dF_n = dN - (T / a) q_t,   dF_t = s mu dN + (N / a) q_t - N mu' q_t'   at each pressed contact node:
 /// ```
 ///
-/// with `mu` that at the sliding speed `V` and `mu'` its slope there: where friction falls, the last term feeds the
-/// motion. The contact forces `N` and `T = s mu N` of the base state turn with the node on the curved edge (a
-/// rigid rotation of everything leaves the edge in balance), and friction follows the normal force. `1 / a` is the
-/// curvature of the counterface, negative around the body and zero for a plane. Open nodes are free.
-/// Penalty contact has `dN = -w (k_n q_n + c_n q_n')`, `w` the node's tributary length. Rigid contact has
-/// `q_n = 0` and unknown `dN`, eliminated by adding `-s mu` times each normal row to its tangential row,
-/// in `M`, `C` and `K` alike: the contact force balances inertia and damping too.
+/// with `mu` that at the sliding speed `V` and `mu'` its slope there: where friction falls, the last term feeds the motion. The contact
+/// forces `N` and `T = s mu N` of the base state turn with the node on the curved edge (a rigid rotation of everything leaves the edge in
+/// balance), and friction follows the normal force. `1 / a` is the curvature of the counterface, negative around the body and zero for a
+/// plane. Open nodes are free. Penalty contact has `dN = -w (k_n q_n + c_n q_n')`, `w` the node's tributary length. Rigid contact has
+/// `q_n = 0` and unknown `dN`, eliminated by adding `-s mu` times each normal row to its tangential row, in `M`, `C` and `K` alike: the
+/// contact force balances inertia and damping too.
 ///
 /// `K_sigma` is a polynomial in `mu` like the base state (affine on the annulus), so every matrix is one too, all
 /// on one sparsity pattern. Supports add their springs and dashpots, which `beta_R` does not multiply. Source: Brunetti et al., section 4, which leaves the
@@ -41,8 +40,7 @@ pub struct SlidingTangent {
     /// Stiffness of loss factors and of tables over frequency, which `K_t` has beside it with these factors, Pa: first, where there
     /// is one, structural damping `H(mu)`, whose force is `i H q` at positive frequencies.
     pub losses: Vec<(LossGain, MatrixPolynomial)>,
-    /// Coefficients with which `C = alpha_R M + beta_R K_t` exactly; `None` where damping is not
-    /// proportional.
+    /// Coefficients with which `C = alpha_R M + beta_R K_t` exactly; `None` where damping is not proportional.
     pub proportional: Option<RayleighDamping>,
     /// Whether `C(0)` has a skew part: bodies that turn.
     pub is_gyroscopic: bool,
@@ -135,16 +133,14 @@ pub struct ContactDofs {
     pub normal: Vec<usize>,
     /// Of the opposite body, two for each contact node of an annulus; none on a rigid counterface.
     pub opposite: Vec<usize>,
-    /// Angle of each contact node, rad; empty for a body without rotational symmetry, whose modes have no
-    /// circumferential harmonic.
+    /// Angle of each contact node, rad; empty for a body without rotational symmetry, whose modes have no circumferential harmonic.
     pub angles: Vec<f64>,
     /// Sense of the friction force `s`.
     pub sliding_direction: f64,
 }
 
 impl SlidingTangent {
-    /// The matrices of bodies, `terms` over all dofs, and their contacts over what `basis` (held dofs, ties) and rigid
-    /// contact leave.
+    /// The matrices of bodies, `terms` over all dofs, and their contacts over what `basis` (held dofs, ties) and rigid contact leave.
     ///
     /// # Errors
     /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.

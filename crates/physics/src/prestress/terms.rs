@@ -187,9 +187,8 @@ impl<M> Terms<M> {
         own + root * self.factors(term)[1]
     }
 
-    /// Adds `x^H A x` of a term's matrix to the forms of its part. Stress has a part in the damping alone. Gyroscopic
-    /// forces, of which `x^H G x = i g`, take no power of a motion that neither grows nor decays; of one that does
-    /// `sigma g / omega`.
+    /// Adds `x^H A x` of a term's matrix to the forms of its part. Stress has a part in the damping alone. Gyroscopic forces, of which
+    /// `x^H G x = i g`, take no power of a motion that neither grows nor decays; of one that does `sigma g / omega`.
     pub fn add_form<N>(&self, term: &Term<N>, root: c64, form: c64, sum: &mut PartForms) {
         if term.kind == Kind::Gyroscopic {
             sum.damping += root.re * form.im / root.im;
@@ -346,8 +345,7 @@ impl Terms<Triplets> {
     }
 }
 
-/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen
-/// below `a`.
+/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen below `a`.
 pub(super) fn geometric_stiffness(
     (mesh, material): (&Mesh, &dyn MaterialField),
     state: &PressedState,

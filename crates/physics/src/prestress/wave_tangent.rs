@@ -330,8 +330,7 @@ impl WaveTangent {
         if self.contact.rigid.is_empty() { matrix } else { matrix.restricted_to(&self.moving) }
     }
 
-    /// Harmonic `n` of the terms, each times its factor, over the unknowns; the odd part, `i` times this, is the coefficient
-    /// of `i mu`.
+    /// Harmonic `n` of the terms, each times its factor, over the unknowns; the odd part, `i` times this, is the coefficient of `i mu`.
     fn polynomial(
         &self,
         n: usize,
