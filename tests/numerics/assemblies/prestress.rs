@@ -58,8 +58,9 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
     });
     let whole = whole - elastic;
     let displacement = state.displacement(friction);
-    let stress = assemble_geometric_stiffness(mesh, &STEEL, &displacement, None);
-    let alone = stress.multiply(mesh.dof_count(), &rotation);
+    let of = ElementGeometry::geometric_stiffnesses;
+    let stress = assemble_around((mesh, &STEEL), &[displacement], None, of);
+    let alone = stress[0].multiply(mesh.dof_count(), &rotation);
     largest(&|unknown| whole[(unknown, 0)])
         / largest(&|unknown| alone[tangent.unknowns.dofs[unknown]])
 }

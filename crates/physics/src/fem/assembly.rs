@@ -143,37 +143,18 @@ fn masses_of(mesh: &Mesh, material: &dyn MaterialField, keep: &dyn Fn(usize) -> 
     masses
 }
 
-/// Global geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, of all elements or those of one
-/// region, N/m for each metre of thickness.
-pub fn assemble_geometric_stiffness(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
-    base: &[f64],
-    region: Option<usize>,
-) -> Triplets {
-    sum_around((mesh, material), base, region, ElementGeometry::geometric_stiffness)
-}
-
-/// What the displacements `base` (all dofs, nodal frames, m) add to the elastic stiffness of the elements, N/m: beside
-/// [`assemble_geometric_stiffness`] the other term of the first order in the strain of `base`.
-pub fn assemble_displacement_stiffness(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
-    base: &[f64],
-) -> Triplets {
-    sum_around((mesh, material), base, None, ElementGeometry::displacement_stiffness)
-}
-
-/// Sums matrices of elements that follow from the displacements of their nodes.
-fn sum_around(
+/// Sums of element matrices, of all elements or those of one region, that follow from each of the displacements `bases` (all dofs, nodal
+/// frames, m): `of` is [`ElementGeometry::geometric_stiffnesses`] or [`ElementGeometry::displacement_stiffnesses`].
+pub fn assemble_around(
     (mesh, material): (&Mesh, &dyn MaterialField),
-    base: &[f64],
+    bases: &[Vec<f64>],
     region: Option<usize>,
-    of: impl Fn(&ElementGeometry, &ElasticMaterial, &[f64]) -> DMatrix<f64> + Sync,
-) -> Triplets {
+    of: impl Fn(&ElementGeometry, &ElasticMaterial, &[Vec<f64>]) -> Vec<DMatrix<f64>> + Sync,
+) -> Vec<Triplets> {
     let is_own = |e: usize| region.is_none_or(|region| mesh.region(e) == region);
-    sum_elements((mesh, &is_own), false, |e| {
-        let values = element::nodal_values(mesh, e, base);
+    sums_of_elements((mesh, &is_own), false, bases.len(), |e| {
+        let values = bases.iter().map(|base| element::nodal_values(mesh, e, base));
+        let values: Vec<Vec<f64>> = values.collect();
         of(&ElementGeometry::new(mesh, e), material.of(mesh.region(e)), &values)
     })
 }
@@ -229,10 +210,20 @@ const ELEMENTS_AT_A_TIME: usize = 4096;
 
 /// Sums the matrices of the elements that are kept; with `shares` that of the first of several congruent ones serves all.
 fn sum_elements(
-    (mesh, keep): (&Mesh, &dyn Fn(usize) -> bool),
+    kept: (&Mesh, &dyn Fn(usize) -> bool),
     shares: bool,
     compute: impl Fn(usize) -> DMatrix<f64> + Sync,
 ) -> Triplets {
+    sums_of_elements(kept, shares, 1, |e| vec![compute(e)]).swap_remove(0)
+}
+
+/// The same of `count` matrices of each element.
+fn sums_of_elements(
+    (mesh, keep): (&Mesh, &dyn Fn(usize) -> bool),
+    shares: bool,
+    count: usize,
+    compute: impl Fn(usize) -> Vec<DMatrix<f64>> + Sync,
+) -> Vec<Triplets> {
     let kept: Vec<usize> = (0..mesh.element_count()).filter(|&e| keep(e)).collect();
     let kind = |e: usize| if shares { mesh.congruent_to[e] as usize } else { e };
     // Only what several elements share is held.
@@ -246,31 +237,32 @@ fn sum_elements(
     }
     shared.sort_unstable();
     shared.dedup();
-    let mut held: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
-    let matrices: Vec<DMatrix<f64>> = crate::parallel::map(&shared, |&e| compute(e));
-    shared.iter().zip(matrices).for_each(|(&e, matrix)| held[kind(e)] = Some(matrix));
+    let mut held: Vec<Option<Vec<DMatrix<f64>>>> = vec![None; mesh.element_count()];
+    let matrices: Vec<Vec<DMatrix<f64>>> = crate::parallel::map(&shared, |&e| compute(e));
+    shared.iter().zip(matrices).for_each(|(&e, own)| held[kind(e)] = Some(own));
 
     let is_solid = mesh.dimension == 3;
     let sizes = kept.iter().map(|&e| (mesh.dimension * mesh.element_kinds[e].node_count()).pow(2));
     let (size, mut limit): (usize, _) =
         (sizes.sum(), if is_solid { MANY_ENTRIES } else { usize::MAX });
-    let mut sum = Triplets::default();
-    sum.entries.reserve_exact(size.min(limit));
+    let mut sums = vec![Triplets::default(); count];
+    sums.iter_mut().for_each(|sum| sum.entries.reserve_exact(size.min(limit)));
     for elements in kept.chunks(ELEMENTS_AT_A_TIME) {
         let own = |&e: &usize| held[kind(e)].is_none().then(|| compute(e));
-        let own: Vec<Option<DMatrix<f64>>> = crate::parallel::map(elements, own);
+        let own: Vec<Option<Vec<DMatrix<f64>>>> = crate::parallel::map(elements, own);
         for (&e, own) in elements.iter().zip(&own) {
-            own.iter().chain(&held[kind(e)]).for_each(|matrix| scatter(&mut sum, mesh, e, matrix));
-            if sum.entries.len() > limit {
-                sum.merge();
-                limit = MANY_ENTRIES + 2 * sum.entries.len();
+            let matrices = own.iter().chain(&held[kind(e)]).flatten();
+            sums.iter_mut().zip(matrices).for_each(|(sum, own)| scatter(sum, mesh, e, own));
+            if sums.first().is_some_and(|sum| sum.entries.len() > limit) {
+                sums.iter_mut().for_each(Triplets::merge);
+                limit = MANY_ENTRIES + 2 * sums[0].entries.len();
             }
         }
     }
     if is_solid {
-        sum.merge();
+        sums.iter_mut().for_each(Triplets::merge);
     }
-    sum
+    sums
 }
 
 fn scatter(triplets: &mut Triplets, mesh: &Mesh, element: usize, matrix: &DMatrix<f64>) {

@@ -1,8 +1,7 @@
 //! Element matrices of isoparametric elements in nodal frames, plane and solid alike.
 //!
-//! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish.
-//! Strains have six components; the material says what they mean
-//! ([`ElasticMaterial::elasticity_at`]).
+//! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish. Strains have six components; the material
+//! says what they mean ([`ElasticMaterial::elasticity_at`]).
 
 mod mass;
 mod strain;
@@ -192,19 +191,21 @@ impl ElementGeometry {
         self.condensed(self.upper_stiffness(material, None, 0))
     }
 
-    /// What the displacements `values` of the nodes, in their frames, m, add to [`Self::stiffness`]: the elements stand where these
-    /// took them. With [`Self::geometric_stiffness`] it is the whole tangent of a stressed body, to the first order in its strain.
+    /// What each of the displacements `values` of the nodes, in their frames, m, adds to [`Self::stiffness`]: the elements stand where these
+    /// took them. With [`Self::geometric_stiffnesses`] it is the whole tangent of a stressed body, to the first order in its strain.
     ///
     /// Source: K.-J. Bathe, Finite Element Procedures (1996), 6.3.5: the initial displacement effect.
-    pub fn displacement_stiffness(
+    pub fn displacement_stiffnesses(
         &self,
         material: &ElasticMaterial,
-        values: &[f64],
-    ) -> DMatrix<f64> {
+        values: &[Vec<f64>],
+    ) -> Vec<DMatrix<f64>> {
         let points = self.stiffness_points();
-        let gradients = self.displacement_gradients(&points, material, values);
-        let deformed = self.upper_stiffness(material, Some(&gradients), 0);
-        self.condensed(deformed) - self.stiffness(material)
+        let of = |gradients: Vec<Matrix3<f64>>| {
+            let deformed = self.upper_stiffness(material, Some(&gradients), 0);
+            self.condensed(deformed) - self.stiffness(material)
+        };
+        self.displacement_gradients(&points, material, values).into_iter().map(of).collect()
     }
 
     /// A stiffness, of which the upper triangle is given, without the amplitudes of incompatible modes.
@@ -241,29 +242,34 @@ impl ElementGeometry {
         Some(-factor.solve(&coupling))
     }
 
-    /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of the stress of nodal displacements
+    /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of the stress of nodal displacements, for each of
     /// `values`, in their frames, m, and of the amplitudes of the incompatible modes that come with them: N/m, in the plane for
     /// each metre of thickness.
     ///
     /// It is the stress part of the tangent alone: a pressure that follows its surface adds the follower terms of the contact,
     /// which the caller must include too.
-    pub fn geometric_stiffness(&self, material: &ElasticMaterial, values: &[f64]) -> DMatrix<f64> {
-        let count = self.node_count();
-        let points = self.stiffness_points();
-        let gradients = self.displacement_gradients(&points, material, values);
-        let law = self.solid_aware(material);
-        let mut scalar = DMatrix::<f64>::zeros(count, count);
-        for (i, point) in points.iter().enumerate() {
-            let stress = tensor(&stress_of(&law, &gradients[i], self.position(point)));
-            let stress = stress * point.measure;
-            for column in 0..count {
-                let flux = stress * point.gradients[column];
-                for row in 0..=column {
-                    scalar[(row, column)] += point.gradients[row].dot(&flux);
+    pub fn geometric_stiffnesses(
+        &self,
+        material: &ElasticMaterial,
+        values: &[Vec<f64>],
+    ) -> Vec<DMatrix<f64>> {
+        let (count, points, law) =
+            (self.node_count(), self.stiffness_points(), self.solid_aware(material));
+        let of = |gradients: Vec<Matrix3<f64>>| {
+            let mut scalar = DMatrix::<f64>::zeros(count, count);
+            for (point, gradient) in points.iter().zip(&gradients) {
+                let stress = tensor(&stress_of(&law, gradient, self.position(point)));
+                let stress = stress * point.measure;
+                for column in 0..count {
+                    let flux = stress * point.gradients[column];
+                    for row in 0..=column {
+                        scalar[(row, column)] += point.gradients[row].dot(&flux);
+                    }
                 }
             }
-        }
-        self.rotate_scalar(scalar)
+            self.rotate_scalar(scalar)
+        };
+        self.displacement_gradients(&points, material, values).into_iter().map(of).collect()
     }
 
     /// Expands the upper triangle of `s_IJ` into `s_IJ F_I^T F_J`, `F_I` node I's frame.

@@ -1,9 +1,8 @@
 //! A matrix of a body of equal sectors, kept as that of one sector, and folded into circumferential harmonics.
 //!
-//! All sectors are alike, so a wave `u = U e^{i n theta}` over the nodes sees one small matrix for
-//! each harmonic `n`. In the basis `(u_r, -i u_theta)`, in space `(u_r, -i u_theta, u_z)`, that
-//! matrix is real where the body looks the same in a mirror along a radius. It is `i` times real
-//! where the mirror reverses it, as it does the stress of sliding friction.
+//! All sectors are alike, so a wave `u = U e^{i n theta}` over the nodes sees one small matrix for each harmonic `n`. In the basis
+//! `(u_r, -i u_theta)`, in space `(u_r, -i u_theta, u_z)`, that matrix is real where the body looks the same in a mirror along a radius. It
+//! is `i` times real where the mirror reverses it, as it does the stress of sliding friction.
 
 use super::{DofMap, Triplets};
 use crate::linalg::banded::BandedMatrix;

@@ -145,8 +145,7 @@ impl ElasticMaterial {
     /// Lamé constants `[lambda, G]` of the plane problem, Pa:
     /// `sigma = lambda tr(epsilon) I + 2 G epsilon` with the in-plane trace; of an orthotropic material those of its mean.
     ///
-    /// Plane strain: `lambda = E nu / ((1 + nu)(1 - 2 nu))`; plane stress:
-    /// `lambda = E nu / (1 - nu^2)`. Both: `G = E / (2 (1 + nu))`.
+    /// Plane strain: `lambda = E nu / ((1 + nu)(1 - 2 nu))`; plane stress: `lambda = E nu / (1 - nu^2)`. Both: `G = E / (2 (1 + nu))`.
     pub fn lame_constants(&self) -> [f64; 2] {
         let (e, nu) = (self.young_modulus, self.poisson_ratio);
         let lambda = match self.formulation {
@@ -221,8 +220,7 @@ pub struct RayleighDamping {
 }
 
 impl RayleighDamping {
-    /// Modal damping factor `zeta = (alpha_R / omega + beta_R omega) / 2` (equation (3)) at the
-    /// undamped angular frequency `omega`, rad/s.
+    /// Modal damping factor `zeta = (alpha_R / omega + beta_R omega) / 2` (equation (3)) at the undamped angular frequency `omega`, rad/s.
     pub fn damping_factor(&self, omega: f64) -> f64 {
         0.5 * (self.mass_coefficient / omega + self.stiffness_coefficient * omega)
     }

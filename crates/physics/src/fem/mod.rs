@@ -1,9 +1,8 @@
 //! Elements, assembly, mass, stiffness, damping, stress.
 //!
-//! Every nodal vector and matrix is written in the nodal frames of [`crate::mesh::Mesh`].
-//! Dof `d i + a` is that of node `i` along axis `a` of its frame, `d` the dimension.
-//! On the annulus dof `2 i` is radial and dof `2 i + 1` circumferential. Everything in the plane is
-//! for one metre of thickness.
+//! Every nodal vector and matrix is written in the nodal frames of [`crate::mesh::Mesh`]. Dof `d i + a` is that of node `i` along axis `a`
+//! of its frame, `d` the dimension. On the annulus dof `2 i` is radial and dof `2 i + 1` circumferential. Everything in the plane is for
+//! one metre of thickness.
 
 mod assembly;
 mod discretization;
@@ -24,13 +23,13 @@ mod support;
 mod triplets;
 
 pub use assembly::{
-    MassKind, assemble_displacement_stiffness, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_mass, assemble_patch_damping, assemble_point_masses,
-    assemble_stiffness, element_mass, element_matrices, element_stiffness, lumped_masses,
-    region_mass, region_stiffness, region_stiffnesses,
+    MassKind, assemble_around, assemble_extra_damping, assemble_mass, assemble_patch_damping,
+    assemble_point_masses, assemble_stiffness, element_mass, element_matrices, element_stiffness,
+    lumped_masses, region_mass, region_stiffness, region_stiffnesses,
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;
+pub use element::ElementGeometry;
 pub use gain::{LossGain, TabledGain};
 pub use material::{
     ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, RegionMaterial,

@@ -84,9 +84,8 @@ pub const RATIOS: [&str; 3] = ["nu_12", "nu_13", "nu_23"];
 impl Orthotropy {
     /// Checks that every strain has positive energy. The moduli must be positive.
     ///
-    /// The compliances `S_ij = -nu_ij / E_i`, scaled to a unit diagonal, are `-r_ij` with `r_ij = nu_ij sqrt(E_j / E_i)`; they
-    /// are positive definite where `|r_ij| < 1` and
-    /// `-r_12 r_13 - w < r_23 < -r_12 r_13 + w`, `w^2 = (1 - r_12^2)(1 - r_13^2)`.
+    /// The compliances `S_ij = -nu_ij / E_i`, scaled to a unit diagonal, are `-r_ij` with `r_ij = nu_ij sqrt(E_j / E_i)`; they are positive
+    /// definite where `|r_ij| < 1` and `-r_12 r_13 - w < r_23 < -r_12 r_13 + w`, `w^2 = (1 - r_12^2)(1 - r_13^2)`.
     ///
     /// # Errors
     /// The ratio that breaks it, the last of the three where each is possible but not all together.

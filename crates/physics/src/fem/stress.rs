@@ -62,9 +62,8 @@ impl SolidStress {
 /// Stress at each node of a plane body by superconvergent patch recovery (Zienkiewicz and Zhu 1992).
 ///
 /// At each node the linear polynomial that fits the stress best at the superconvergent points (see
-/// [`crate::mesh::ElementKind::superconvergent_points`]) of the elements around it is evaluated at the
-/// node. A node on an edge has elements on one side only; its patch takes in their neighbours too, so that
-/// the recovered stress is of second order there as well.
+/// [`crate::mesh::ElementKind::superconvergent_points`]) of the elements around it is evaluated at the node. A node on an edge has elements
+/// on one side only; its patch takes in their neighbours too, so that the recovered stress is of second order there as well.
 ///
 /// `displacement` has `2 * node_count` values in nodal frames, m.
 pub fn nodal_stress(

@@ -5,8 +5,8 @@ use super::cholesky::factorized;
 use super::elimination::Elimination;
 use crate::contact::Motion;
 use crate::fem::{
-    MassKind, MaterialField, RotationFrame, Spin, Triplets, assemble_displacement_stiffness,
-    assemble_geometric_stiffness, assemble_mass, assemble_rotation,
+    ElementGeometry, MassKind, MaterialField, RotationFrame, Spin, Triplets, assemble_around,
+    assemble_mass, assemble_rotation,
 };
 use crate::mesh::Mesh;
 use std::collections::BTreeSet;
@@ -63,15 +63,15 @@ impl Rotation {
         let solver = factorized(&grounded(held(), (mesh, materials), basis), &unknowns)?;
         let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
         let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
-        let stressed = assemble_geometric_stiffness(mesh, materials, &displacement, None);
-        let deformed = assemble_displacement_stiffness(mesh, materials, &displacement);
-        terms.transport.entries.extend(stressed.entries);
-        terms.transport.entries.extend(deformed.entries);
-        Ok(Some(Self {
-            terms: [terms.transport, terms.gyroscopic],
-            centrifugal: terms.centrifugal,
-            displacement,
-        }))
+        let bases = [displacement];
+        let of =
+            [ElementGeometry::geometric_stiffnesses, ElementGeometry::displacement_stiffnesses];
+        let added = of.map(|of| assemble_around((mesh, materials), &bases, None, of));
+        let added = added.into_iter().flatten().flat_map(|own| own.entries);
+        terms.transport.entries.extend(added);
+        let (terms, centrifugal, [displacement]) =
+            ([terms.transport, terms.gyroscopic], terms.centrifugal, bases);
+        Ok(Some(Self { terms, centrifugal, displacement }))
     }
 }
 

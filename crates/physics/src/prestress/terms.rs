@@ -10,9 +10,9 @@
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
 use crate::contact::PressedState;
 use crate::fem::{
-    MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_geometric_stiffness,
-    assemble_patch_damping, assemble_point_masses, assemble_support, region_mass,
-    region_stiffnesses,
+    ElementGeometry, MaterialField, RayleighDamping, Triplets, assemble_around,
+    assemble_attachments, assemble_patch_damping, assemble_point_masses, assemble_support,
+    region_mass, region_stiffnesses,
 };
 use crate::linalg::c64;
 use crate::mesh::Mesh;
@@ -347,13 +347,12 @@ impl Terms<Triplets> {
 
 /// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen below `a`.
 pub(super) fn geometric_stiffness(
-    (mesh, material): (&Mesh, &dyn MaterialField),
+    bodies: (&Mesh, &dyn MaterialField),
     state: &PressedState,
     region: usize,
 ) -> Vec<Triplets> {
-    let powers = state.displacements.iter();
-    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, Some(region)));
-    let mut powers: Vec<Triplets> = powers.collect();
+    let of = ElementGeometry::geometric_stiffnesses;
+    let mut powers = assemble_around(bodies, &state.displacements, Some(region), of);
     if state.frozen_below > 0.0 && powers.len() > 1 {
         powers.insert(1, Triplets::default());
     }

@@ -122,7 +122,7 @@ pub(super) fn element_terms(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 3
         let elastic = materials.of(region);
         let values = nodal_values(&base.mesh, element, displacement);
         let geometry = ElementGeometry::new(&base.mesh, element);
-        let geometric = geometry.geometric_stiffness(elastic, &values);
+        let geometric = geometry.geometric_stiffnesses(elastic, &[values]).swap_remove(0);
         if base.options.damping_model == DampingModel::WholeTangent {
             damping += &geometric * common.stiffness_coefficient;
         }

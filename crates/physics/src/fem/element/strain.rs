@@ -40,27 +40,30 @@ impl ElementGeometry {
         gradient
     }
 
-    /// Displacement gradients at some points, from the values of the element's nodes in their frames and the amplitudes of the
-    /// incompatible modes that come with them.
+    /// Displacement gradients at some points, from each of several `values` of the element's nodes in their frames and the amplitudes of
+    /// the incompatible modes that come with them.
     pub(super) fn displacement_gradients(
         &self,
         points: &[IntegrationPoint],
         material: &ElasticMaterial,
-        values: &[f64],
-    ) -> Vec<Matrix3<f64>> {
-        let internal = self.recovered(material).map(|own| own * DVector::from_column_slice(values));
-        let modes = self.incompatible_gradients(points);
-        let at_point = |(point, modes): (&IntegrationPoint, Vec<Vector3<f64>>)| {
-            let mut gradient = self.nodal_gradient(point, values);
-            if let Some(internal) = &internal {
-                for (k, mode) in modes.iter().enumerate() {
-                    let amplitude = Vector3::from_fn(|axis, _| internal[3 * k + axis]);
-                    gradient += amplitude * mode.transpose();
+        values: &[Vec<f64>],
+    ) -> Vec<Vec<Matrix3<f64>>> {
+        let (recovered, modes) = (self.recovered(material), self.incompatible_gradients(points));
+        let of = |values: &Vec<f64>| {
+            let internal = recovered.as_ref().map(|own| own * DVector::from_column_slice(values));
+            let at_point = |(point, modes): (&IntegrationPoint, &Vec<Vector3<f64>>)| {
+                let mut gradient = self.nodal_gradient(point, values);
+                if let Some(internal) = &internal {
+                    for (k, mode) in modes.iter().enumerate() {
+                        let amplitude = Vector3::from_fn(|axis, _| internal[3 * k + axis]);
+                        gradient += amplitude * mode.transpose();
+                    }
                 }
-            }
-            gradient
+                gradient
+            };
+            points.iter().zip(&modes).map(at_point).collect()
         };
-        points.iter().zip(modes).map(at_point).collect()
+        values.iter().map(of).collect()
     }
 
     /// Stress at some points, Pa, from the values of the element's nodes in their frames, m.
@@ -70,8 +73,9 @@ impl ElementGeometry {
         material: &ElasticMaterial,
         values: &[f64],
     ) -> Vec<Voigt> {
-        let gradients = self.displacement_gradients(points, material, values);
-        let pairs = points.iter().zip(&gradients);
+        let all = self.displacement_gradients(points, material, &[values.to_vec()]);
+        let gradients = &all[0];
+        let pairs = points.iter().zip(gradients);
         pairs.map(|(point, gradient)| stress_of(material, gradient, self.position(point))).collect()
     }
 
