@@ -110,7 +110,7 @@ pub fn join_rows(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 /// # Panics
 /// If the rows of the view are not contiguous.
 #[inline]
-pub fn column(a: MatRef<'_, f64>, j: usize) -> &[f64] {
+pub fn column<T>(a: MatRef<'_, T>, j: usize) -> &[T] {
     let column = a.col(j).try_as_col_major();
     column.expect("columns are contiguous").as_slice()
 }

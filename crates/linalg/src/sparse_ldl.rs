@@ -36,9 +36,8 @@ impl LdlAnalysis {
 
 /// Factors of a symmetric matrix, definite or not.
 ///
-/// There is no pivoting: a matrix whose leading minors come close to zero in the fill-reducing order
-/// loses accuracy, which the trial solve of [`SparseLdl::factorize`] detects. A shift moved a little is
-/// then the remedy.
+/// There is no pivoting: a matrix whose leading minors come close to zero in the fill-reducing order loses accuracy, which the trial solve
+/// of [`SparseLdl::factorize`] detects. A shift moved a little is then the remedy.
 #[derive(Debug)]
 pub struct SparseLdl {
     analysis: LdlAnalysis,

@@ -10,7 +10,7 @@
 //! and the last goes to the front that eliminates the first of its unknowns. Source: I. S. Duff and J. K. Reid, The multifrontal solution
 //! of unsymmetric sets of linear equations, SIAM J. Sci. Stat. Comput. 5 (1984).
 
-use super::dense::{column_blocks, trial_right_side};
+use super::dense::{column, column_blocks, trial_right_side};
 use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor;
@@ -28,8 +28,7 @@ use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Right-hand sides solved together: enough to stream the factors once for many of them, few enough
-/// that a block of them stays in cache.
+/// Right-hand sides solved together: enough to stream the factors once for many of them, few enough that a block of them stays in cache.
 const BLOCK: usize = 16;
 
 /// Order of elimination and fronts of every matrix on one pattern, symmetric in structure or not.
@@ -247,21 +246,28 @@ impl<T: ComplexField<Real = f64>> Eliminated<T> {
     }
 }
 
-/// Some rows of a block.
-fn gathered<T: Copy>(
+/// Some rows of a block, in memory that serves for one front after the other.
+fn gathered<'a, T: Copy>(
     x: &MatMut<'_, T>,
     rows: impl ExactSizeIterator<Item = usize> + Clone,
-) -> Mat<T> {
-    let rows: Vec<usize> = rows.collect();
-    Mat::from_fn(rows.len(), x.ncols(), |i, j| x[(rows[i], j)])
+    memory: &'a mut Vec<T>,
+) -> MatMut<'a, T> {
+    memory.clear();
+    for j in 0..x.ncols() {
+        let own = column(x.as_ref(), j);
+        memory.extend(rows.clone().map(|row| own[row]));
+    }
+    MatMut::from_column_major_slice_mut(memory, rows.len(), x.ncols())
 }
 
 /// Puts rows of a block in place.
-fn scatter<T: Copy>(x: &mut MatMut<'_, T>, rows: &[usize], own: &Mat<T>) {
+fn scatter<T: Copy>(
+    x: &mut MatMut<'_, T>,
+    rows: impl Iterator<Item = usize> + Clone,
+    own: MatRef<'_, T>,
+) {
     for j in 0..own.ncols() {
-        for (i, &row) in rows.iter().enumerate() {
-            x[(row, j)] = own[(i, j)];
-        }
+        rows.clone().zip(column(own, j)).for_each(|(row, value)| x[(row, j)] = *value);
     }
 }
 
@@ -270,14 +276,16 @@ fn subtract<T: ComplexField + Copy>(
     x: &mut MatMut<'_, T>,
     rows: &[usize],
     a: MatRef<'_, T>,
-    y: &Mat<T>,
+    y: MatRef<'_, T>,
+    memory: &mut Vec<T>,
 ) {
-    let mut change = Mat::zeros(a.nrows(), y.ncols());
-    matmul(change.as_mut(), Accum::Replace, a, y.as_ref(), T::one_impl(), Par::Seq);
+    memory.clear();
+    memory.resize(a.nrows() * y.ncols(), T::zero_impl());
+    let mut change = MatMut::from_column_major_slice_mut(memory, a.nrows(), y.ncols());
+    matmul(change.as_mut(), Accum::Replace, a, y, T::one_impl(), Par::Seq);
     for j in 0..change.ncols() {
-        for (i, &row) in rows.iter().enumerate() {
-            x[(row, j)] -= change[(i, j)];
-        }
+        let changes = rows.iter().zip(column(change.as_ref(), j));
+        changes.for_each(|(&row, change)| x[(row, j)] -= *change);
     }
 }
 
@@ -314,12 +322,12 @@ macro_rules! sparse_lu {
 
             /// Solves `A x = b` for each column of `right_sides`, in place.
             pub fn solve_in_place(&self, right_sides: MatMut<'_, $scalar>) {
-                column_blocks(right_sides, BLOCK).for_each(|block| self.solve_block(block));
+                column_blocks(right_sides, BLOCK).for_each(|block| self.solve_block(block, false));
             }
 
             /// Solves `A^T x = b` for each column of `right_sides`, in place.
             pub fn solve_transpose_in_place(&self, right_sides: MatMut<'_, $scalar>) {
-                column_blocks(right_sides, BLOCK).for_each(|block| self.solve_transposed(block));
+                column_blocks(right_sides, BLOCK).for_each(|block| self.solve_block(block, true));
             }
 
             /// Solves `A x = b` with one step of iterative refinement.
@@ -332,47 +340,40 @@ macro_rules! sparse_lu {
                 (0..n).map(|i| x[(i, 0)] + r[(i, 0)]).collect()
             }
 
-            /// `y = L^-1 P b`, then `x = U^-1 (y - right x)`.
-            fn solve_block(&self, mut x: MatMut<'_, $scalar>) {
+            /// `y = L^-1 P b`, then `x = U^-1 (y - right x)`; transposed `y = U^-T b`, then `x = P^T L^-T (y - below^T x)`.
+            fn solve_block(&self, mut x: MatMut<'_, $scalar>, is_transposed: bool) {
+                let [memory, other] = &mut [Vec::new(), Vec::new()];
                 for (front, own) in self.analysis.fronts.iter().zip(&self.fronts) {
                     let (eliminated, others) = front.unknowns.split_at(front.width);
-                    let mut y = gathered(&x, own.exchanges.iter().map(|&i| eliminated[i]));
                     let (pivots, below) = own.columns.as_ref().split_at_row(front.width);
-                    solve_unit_lower_triangular_in_place(pivots, y.as_mut(), Par::Seq);
-                    scatter(&mut x, eliminated, &y);
-                    subtract(&mut x, others, below, &y);
+                    let row = |i: usize| eliminated[if is_transposed { i } else { own.exchanges[i] }];
+                    let mut y = gathered(&x, (0..front.width).map(row), memory);
+                    let beyond = match is_transposed {
+                        true => {
+                            solve_lower_triangular_in_place(pivots.transpose(), y.as_mut(), Par::Seq);
+                            own.right.transpose()
+                        }
+                        false => {
+                            solve_unit_lower_triangular_in_place(pivots, y.as_mut(), Par::Seq);
+                            below
+                        }
+                    };
+                    scatter(&mut x, eliminated.iter().copied(), y.as_ref());
+                    subtract(&mut x, others, beyond, y.as_ref(), other);
                 }
                 for (front, own) in self.analysis.fronts.iter().zip(&self.fronts).rev() {
                     let (eliminated, others) = front.unknowns.split_at(front.width);
-                    let known = gathered(&x, others.iter().copied());
-                    subtract(&mut x, eliminated, own.right.as_ref(), &known);
-                    let mut y = gathered(&x, eliminated.iter().copied());
-                    let pivots = own.columns.get(..front.width, ..);
-                    solve_upper_triangular_in_place(pivots, y.as_mut(), Par::Seq);
-                    scatter(&mut x, eliminated, &y);
-                }
-            }
-
-            /// `y = U^-T b`, then `x = P^T L^-T (y - below^T x)`.
-            fn solve_transposed(&self, mut x: MatMut<'_, $scalar>) {
-                for (front, own) in self.analysis.fronts.iter().zip(&self.fronts) {
-                    let (eliminated, others) = front.unknowns.split_at(front.width);
-                    let mut y = gathered(&x, eliminated.iter().copied());
-                    let pivots = own.columns.get(..front.width, ..).transpose();
-                    solve_lower_triangular_in_place(pivots, y.as_mut(), Par::Seq);
-                    scatter(&mut x, eliminated, &y);
-                    subtract(&mut x, others, own.right.transpose(), &y);
-                }
-                for (front, own) in self.analysis.fronts.iter().zip(&self.fronts).rev() {
-                    let (eliminated, others) = front.unknowns.split_at(front.width);
-                    let known = gathered(&x, others.iter().copied());
                     let (pivots, below) = own.columns.as_ref().split_at_row(front.width);
-                    subtract(&mut x, eliminated, below.transpose(), &known);
-                    let mut y = gathered(&x, eliminated.iter().copied());
-                    let pivots = pivots.transpose();
-                    solve_unit_upper_triangular_in_place(pivots, y.as_mut(), Par::Seq);
-                    let rows: Vec<usize> = own.exchanges.iter().map(|&i| eliminated[i]).collect();
-                    scatter(&mut x, &rows, &y);
+                    let beyond = if is_transposed { below.transpose() } else { own.right.as_ref() };
+                    let known = gathered(&x, others.iter().copied(), memory);
+                    subtract(&mut x, eliminated, beyond, known.as_ref(), other);
+                    let mut y = gathered(&x, eliminated.iter().copied(), memory);
+                    match is_transposed {
+                        true => solve_unit_upper_triangular_in_place(pivots.transpose(), y.as_mut(), Par::Seq),
+                        false => solve_upper_triangular_in_place(pivots, y.as_mut(), Par::Seq),
+                    }
+                    let row = |i: usize| eliminated[if is_transposed { own.exchanges[i] } else { i }];
+                    scatter(&mut x, (0..front.width).map(row), y.as_ref());
                 }
             }
 

@@ -5,8 +5,7 @@ use super::dense::{column, column_mut};
 use faer::{Mat, MatRef};
 use std::cell::Cell;
 
-/// Vectors multiplied together; their entries are interleaved so that each nonzero is read once and
-/// meets contiguous memory.
+/// Vectors multiplied together; their entries are interleaved so that each nonzero is read once and meets contiguous memory.
 const LANES: usize = 8;
 /// Rows of results that stay in cache until their columns are written.
 const STRIP: usize = 128;
