@@ -259,7 +259,8 @@ fn sums_of_elements(
             }
         }
     }
-    if is_solid {
+    // Plane matrices that elements share add up in the order of elements alone, on alike places alike.
+    if is_solid || !shares {
         sums.iter_mut().for_each(Triplets::merge);
     }
     sums
