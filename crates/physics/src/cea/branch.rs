@@ -18,8 +18,7 @@ pub struct BranchPoint {
 
 /// One eigenvalue followed continuously from rest over the friction coefficient.
 ///
-/// Between two points the cubic through both eigenvalues and rates represents it to about `1e-6` of
-/// `|lambda|`.
+/// Between two points the cubic through both eigenvalues and rates represents it to about `1e-6` of `|lambda|`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeBranch {
     /// Circumferential harmonic `n`.
@@ -42,8 +41,7 @@ impl ModeBranch {
             && self.direction * mode.direction >= 0
     }
 
-    /// `lambda` at any friction coefficient of the range, by the cubic between its neighbours; `None`
-    /// outside.
+    /// `lambda` at any friction coefficient of the range, by the cubic between its neighbours; `None` outside.
     pub fn interpolate(&self, friction_coefficient: f64) -> Option<c64> {
         let mu = friction_coefficient;
         if let Some(point) = self.points.iter().find(|p| p.friction_coefficient == mu) {

@@ -195,9 +195,8 @@ impl<B: BranchSolver> Search<'_, B> {
         self.solver.point(calm).eigenvalue.re > -self.round_off(calm)
     }
 
-    /// Root of `Re(lambda)` between states of opposite sign: Newton steps on the branch, kept inside the
-    /// bracket, from the root of the cubic; nothing where it jumps across zero. A branch that is neutral on one side begins to grow where
-    /// that exceeds round-off.
+    /// Root of `Re(lambda)` between states of opposite sign: Newton steps on the branch, kept inside the bracket, from the root of the
+    /// cubic; nothing where it jumps across zero. A branch that is neutral on one side begins to grow where that exceeds round-off.
     fn root(
         &mut self,
         start: &B::State,

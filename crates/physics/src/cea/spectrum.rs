@@ -19,18 +19,15 @@ pub struct ComplexMode {
     /// Nodal diameters of a body that was made of one sector and solved by waves around it: of all that differ by multiples of the
     /// number of sectors, or add up to one, the lowest.
     pub nodal_diameters: Option<usize>,
-    /// Relative residual of the quadratic problem,
-    /// `|(lambda^2 M + lambda C + K) phi| / ((|lambda|^2 |M| + |lambda| |C| + |K|) |phi|)`.
+    /// Relative residual of the quadratic problem, `|(lambda^2 M + lambda C + K) phi| / ((|lambda|^2 |M| + |lambda| |C| + |K|) |phi|)`.
     pub residual: f64,
     /// Relative change of the eigenvalue where the matrices change by one rounding error,
-    /// `epsilon (|lambda|^2 |M| + |lambda| |C| + |K|) |w| |x| / (|w^T (2 lambda M + C) x| |lambda|)`: what no
-    /// solver can better.
+    /// `epsilon (|lambda|^2 |M| + |lambda| |C| + |K|) |w| |x| / (|w^T (2 lambda M + C) x| |lambda|)`: what no solver can better.
     pub uncertainty: f64,
     /// Kinetic energy of the contact edge's nodes over that of the body, `Re(x_c^H (M x)_c) / x^H M x` with
     /// the mass of the body alone: how much the mode moves where friction works.
     ///
-    /// The nodes' mass shrinks with the elements: compare modes of one mesh, or divide by the edge's share of
-    /// the mass.
+    /// The nodes' mass shrinks with the elements: compare modes of one mesh, or divide by the edge's share of the mass.
     pub contact_share: f64,
     /// Kinetic energy of motion along the axis over the whole, 0 to 1; `None` in the plane.
     pub axial_share: Option<f64>,
@@ -62,8 +59,7 @@ pub struct ModeVectors {
 /// A mode as a wave of its harmonic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeWave {
-    /// The unknowns of the wave `+n` that has the eigenvalue [`Self::root`]: those of
-    /// [`crate::prestress::HarmonicTangent`].
+    /// The unknowns of the wave `+n` that has the eigenvalue [`Self::root`]: those of [`crate::prestress::HarmonicTangent`].
     pub unknowns: Vec<c64>,
     /// Whether the mode is the wave `-n`, the conjugate of these unknowns with the conjugate eigenvalue.
     pub is_backward: bool,
@@ -182,8 +178,7 @@ pub struct UnstableInterval {
     pub branch: usize,
     /// Travelling direction (see [`ComplexMode::direction`]).
     pub direction: i8,
-    /// Critical friction: where the branch turns unstable. The lower end of the range studied where
-    /// it is unstable from there on.
+    /// Critical friction: where the branch turns unstable. The lower end of the range studied where it is unstable from there on.
     pub critical_friction: f64,
     /// Frequency there, Hz.
     pub frequency_hz: f64,

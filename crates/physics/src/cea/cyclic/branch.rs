@@ -26,8 +26,7 @@ pub(super) fn branches_of(paths: &HarmonicPaths, sliding_direction: f64) -> Vec<
     branches
 }
 
-/// `U(r) e^{i n theta + lambda t}` with `Im(lambda) > 0` travels towards `-theta`: against a rotor that
-/// turns counter-clockwise.
+/// `U(r) e^{i n theta + lambda t}` with `Im(lambda) > 0` travels towards `-theta`: against a rotor that turns counter-clockwise.
 pub(super) fn direction_of(problem: &HarmonicProblem, waves: Waves, sliding_direction: f64) -> i8 {
     let with_rotor: i8 = if sliding_direction > 0.0 { 1 } else { -1 };
     match waves {

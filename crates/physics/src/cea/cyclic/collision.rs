@@ -1,8 +1,7 @@
 //! Past the friction coefficient at which two branches of a standing harmonic meet.
 //!
-//! The waves of a standing harmonic (`n = 0`, or the shortest on the mesh) see real matrices. So
-//! two real `kappa` can meet and go on as a conjugate pair, or the other way round. No derivative
-//! exists at that point; both are followed on the far side.
+//! The waves of a standing harmonic (`n = 0`, or the shortest on the mesh) see real matrices. So two real `kappa` can meet and go on as a
+//! conjugate pair, or the other way round. No derivative exists at that point; both are followed on the far side.
 
 use super::follow::Follower;
 use super::path::{Eigenpair, GUESSED, Path};
@@ -43,8 +42,7 @@ pub(super) fn pass(
     Some(())
 }
 
-/// The two eigenpairs that continue `a` and `b`: real ones rising, or the conjugate pair with the
-/// positive imaginary part first.
+/// The two eigenpairs that continue `a` and `b`: real ones rising, or the conjugate pair with the positive imaginary part first.
 fn pair_near(
     follower: &mut Follower<'_>,
     at: &Matrices,

@@ -24,9 +24,8 @@ fn quarters(grid: &[f64]) -> Vec<f64> {
     places.into_iter().map(|place| grid[place]).collect()
 }
 
-/// Looks for modes below `limit` (rad/s) that no path stands for: in the followed harmonics by counting at
-/// the quarters of the friction values of `grid`, in all others by proof, or by counting where the
-/// proof does not reach.
+/// Looks for modes below `limit` (rad/s) that no path stands for: in the followed harmonics by counting at the quarters of the friction
+/// values of `grid`, in all others by proof, or by counting where the proof does not reach.
 ///
 /// Returns the harmonics, among those that were not followed, which are proven empty for every friction coefficient of the range, and
 /// those counted empty at the friction coefficients checked.
@@ -73,8 +72,7 @@ pub(super) fn verify(
     }
 }
 
-/// `kappa` of every `lambda` with `0 <= Im <= limit` and `|Re| <= WIDEST_GROWTH limit`, from points along
-/// the edge of that rectangle.
+/// `kappa` of every `lambda` with `0 <= Im <= limit` and `|Re| <= WIDEST_GROWTH limit`, from points along the edge of that rectangle.
 fn region(tangent: &WaveTangent, limit: f64) -> Region {
     let rayleigh = tangent.options.damping;
     let mut region = Region { real: 0.0, imaginary: 0.0 };
@@ -95,8 +93,7 @@ fn corners([low, high]: [f64; 2], half_width: f64) -> [c64; 4] {
         .map(|(re, im)| c64::new(re, im))
 }
 
-/// Eigenvalues in the range at friction `mu` that no path stands for, by the argument principle; `None`
-/// where one lies on the edge.
+/// Eigenvalues in the range at friction `mu` that no path stands for, by the argument principle; `None` where one lies on the edge.
 ///
 /// The determinant divided by that at rest and by the factors of the known eigenvalues has neither zeros
 /// nor poles left inside unless one was missed, so it changes little along the edge. The

@@ -22,10 +22,9 @@ pub(super) struct Region {
 /// T = I + z sum_t e_t psi_t^T,   psi_t^T (K_0 - kappa_0 M_0) = - row_t of (K_1 - kappa_0 M_1)
 /// ```
 ///
-/// takes the friction, which is not small, out of `H` but for the part with `kappa - kappa_0`. `H` is a
-/// cubic in `mu` and affine in `kappa`: its Bernstein coefficients at the corners of the region hold all
-/// others in their convex hull, so that a few factorizations prove it for the whole range. Shifts are made
-/// with proportional damping in mind; the quadratic problem has another form.
+/// takes the friction, which is not small, out of `H` but for the part with `kappa - kappa_0`. `H` is a cubic in `mu` and affine in
+/// `kappa`: its Bernstein coefficients at the corners of the region hold all others in their convex hull, so that a few factorizations
+/// prove it for the whole range. Shifts are made with proportional damping in mind; the quadratic problem has another form.
 pub(super) fn is_empty(
     tangent: &HarmonicTangent,
     tangential: &[usize],
@@ -39,8 +38,7 @@ pub(super) fn is_empty(
     (0..=3).all(|corner| test.is_definite(&bernstein_weights(corner, friction), region))
 }
 
-/// Weights of the monomials `mu^0 .. mu^3` in the Bernstein coefficient `corner` of a cubic on
-/// `[0, length]`.
+/// Weights of the monomials `mu^0 .. mu^3` in the Bernstein coefficient `corner` of a cubic on `[0, length]`.
 fn bernstein_weights(corner: usize, length: f64) -> [f64; 4] {
     let i = corner as f64;
     [
@@ -91,8 +89,7 @@ impl<'a> TestSpace<'a> {
         })
     }
 
-    /// Whether the Hermitian part with the given weights of `mu^k` is positive definite at all four
-    /// corners of the region.
+    /// Whether the Hermitian part with the given weights of `mu^k` is positive definite at all four corners of the region.
     fn is_definite(&self, weights: &[f64; 4], region: Region) -> bool {
         // Away from the tangential rows H is Hermitian as it stands and falls with Re(kappa): its inverse
         // at the largest one bounds all others.

@@ -13,8 +13,7 @@ use std::rc::Rc;
 pub(super) struct StepControl {
     /// Least `|x_0^H x_1|` of the unit right vectors.
     pub least_overlap: f64,
-    /// Largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both
-    /// points and slopes could hide.
+    /// Largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both points and slopes could hide.
     pub largest_defect: f64,
     /// Steps below this length of the parameter are given up.
     pub shortest: f64,
@@ -42,8 +41,7 @@ impl<'a> Follower<'a> {
         Self { problem, lu: problem.workspace(), values: Vec::new(), factorizations: 0 }
     }
 
-    /// Two-sided Rayleigh quotient iteration: the error is cubed each time. `None` where it does not
-    /// settle.
+    /// Two-sided Rayleigh quotient iteration: the error is cubed each time. `None` where it does not settle.
     pub fn refine(
         &mut self,
         at: &Matrices,
@@ -118,8 +116,7 @@ impl<'a> Follower<'a> {
         self.refine(at, parameter, guess, &start(0.3), &start(1.1))
     }
 
-    /// The eigenpair `(theta, x)` of matrices that are symmetric there, so that `y` is the conjugate of
-    /// `x`.
+    /// The eigenpair `(theta, x)` of matrices that are symmetric there, so that `y` is the conjugate of `x`.
     pub fn at_rest(&self, at: &Matrices, theta: c64, x: Vec<c64>) -> Eigenpair {
         let y: Vec<c64> = x.iter().map(|v| v.conj()).collect();
         let (_, slope) = self.problem.rayleigh_quotient(at, theta, &x, &y);

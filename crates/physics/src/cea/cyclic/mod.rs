@@ -1,10 +1,8 @@
-//! The eigenvalues of a body of equal sectors, harmonic by harmonic: of a plane annulus, and of a body of revolution in three
-//! dimensions.
+//! The eigenvalues of a body of equal sectors, harmonic by harmonic: of a plane annulus, and of a body of revolution in three dimensions.
 //!
 //! In steady sliding all sectors are alike. So each circumferential harmonic `n` is a problem of its own (see
-//! [`crate::prestress::WaveTangent`]). Without friction the problems are real and symmetric, and inertia counts their modes:
-//! none is missed. Then each mode is followed continuously over the friction coefficient by two-sided Rayleigh quotient
-//! iteration.
+//! [`crate::prestress::WaveTangent`]). Without friction the problems are real and symmetric, and inertia counts their modes: none is
+//! missed. Then each mode is followed continuously over the friction coefficient by two-sided Rayleigh quotient iteration.
 //!
 //! A harmonic of the plane annulus has a narrow band and is followed as it stands (`paths`). One in three dimensions has some
 //! thousand unknowns, too many to factorize for every mode and friction coefficient. Friction acts on the few nodes of the

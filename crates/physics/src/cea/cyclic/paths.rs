@@ -99,8 +99,7 @@ impl HarmonicPaths {
     }
 }
 
-/// Follows the branches with these `(kappa, x)` at rest. They end early where one stops to oscillate: see
-/// [`HarmonicPaths::are_whole`].
+/// Follows the branches with these `(kappa, x)` at rest. They end early where one stops to oscillate: see [`HarmonicPaths::are_whole`].
 pub(super) fn follow_pairs(
     problem: HarmonicProblem,
     pairs: &[(f64, Vec<f64>)],
@@ -174,8 +173,7 @@ fn follow_all(
     Ok(paths)
 }
 
-/// Shares and uncertainty of the last point, which has the matrices `at`; the vectors of earlier ones are dropped but for those
-/// kept.
+/// Shares and uncertainty of the last point, which has the matrices `at`; the vectors of earlier ones are dropped but for those kept.
 pub(super) fn describe(
     problem: &HarmonicProblem,
     at: &Matrices,
@@ -195,8 +193,7 @@ pub(super) fn describe(
     }
 }
 
-/// First point of each path of one mode at rest. `None` where damping cannot be switched on
-/// continuously.
+/// First point of each path of one mode at rest. `None` where damping cannot be switched on continuously.
 pub(super) fn start(
     follower: &mut Follower<'_>,
     at_rest: &Matrices,

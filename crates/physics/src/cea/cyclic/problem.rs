@@ -77,8 +77,7 @@ impl HarmonicProblem {
         }
     }
 
-    /// Matrices without friction and with the share `damped` of the damping; the derivative is that
-    /// with respect to `damped`.
+    /// Matrices without friction and with the share `damped` of the damping; the derivative is that with respect to `damped`.
     pub fn at_damping(&self, damped: f64) -> Matrices {
         let mut matrices = self.at(0.0);
         let scale = |own: &mut [c64]| own.iter_mut().for_each(|value| *value *= damped);
@@ -135,8 +134,7 @@ impl HarmonicProblem {
         at.now.combine([(a, &at.now.mass[..]), (b, &at.now.damping)], x, adjoint)
     }
 
-    /// Two-sided Rayleigh functional: the root nearest to `theta` of `y^H T(.) x = 0`, and `y^H T' x`
-    /// there.
+    /// Two-sided Rayleigh functional: the root nearest to `theta` of `y^H T(.) x = 0`, and `y^H T' x` there.
     pub fn rayleigh_quotient(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64]) -> (c64, c64) {
         let form = |values: &[c64]| dot(y, &at.now.combine([(c64::ONE, values)], x, false));
         let (m, k) = (form(&at.now.mass), form(&at.now.stiffness_at(theta)));
@@ -152,8 +150,7 @@ impl HarmonicProblem {
         (step.map_or(root, |step| theta + step), slope)
     }
 
-    /// The step of an eigenvalue whose stiffness follows it, from the `step` at fixed stiffness and `y^H T' x`; `None` without
-    /// tables.
+    /// The step of an eigenvalue whose stiffness follows it, from the `step` at fixed stiffness and `y^H T' x`; `None` without tables.
     fn own_step(
         &self,
         at: &Matrices,
@@ -307,8 +304,7 @@ impl HarmonicProblem {
         self.is_solid() && theta.im.abs() < STANDSTILL * theta.norm()
     }
 
-    /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is
-    /// real to round-off.
+    /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is real to round-off.
     pub fn without_round_off(&self, theta: c64) -> c64 {
         let is_real = theta.im.abs() <= SETTLED * theta.norm();
         if self.tangent.is_standing && self.is_proportional() && is_real {

@@ -35,11 +35,10 @@ struct Turned {
 impl Reduction {
     /// The space of the modes at rest and of what the contact excites.
     ///
-    /// With friction the shape of a mode is the response `G = (K - kappa M)^-1` to forces on the contact, and the left one that to
-    /// motions along its normal. Beside the modes, two terms of the series of `G` in `kappa` hold the rest of it:
-    /// `K^-1 b` and `K^-1 M K^-1 b` for forces `b` on the unknowns `contact` and for the columns of `M` and `K` of
-    /// the normals in rigid contact. What two terms leave out is estimated by
-    /// [`Self::error`]: 1.7e-8 of an eigenvalue at 11 kHz on 24 x 5 x 1 bricks.
+    /// With friction the shape of a mode is the response `G = (K - kappa M)^-1` to forces on the contact, and the left one that to motions
+    /// along its normal. Beside the modes, two terms of the series of `G` in `kappa` hold the rest of it: `K^-1 b` and `K^-1 M K^-1 b` for
+    /// forces `b` on the unknowns `contact` and for the columns of `M` and `K` of the normals in rigid contact. What two terms leave out is
+    /// estimated by [`Self::error`]: 1.7e-8 of an eigenvalue at 11 kHz on 24 x 5 x 1 bricks.
     ///
     /// `held` are modes with the motion across the sliding held, where dashpots are strong enough to do so; `lossy` are matrices of
     /// parts, with the forces of which on the modes the response begins as well.

@@ -17,8 +17,7 @@ use std::f64::consts::TAU;
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
 const MARGIN: f64 = 1.2;
 
-/// How often the margin is raised, by its own factor, where a branch comes from above it, or too few
-/// modes are found.
+/// How often the margin is raised, by its own factor, where a branch comes from above it, or too few modes are found.
 const MARGIN_ATTEMPTS: usize = 4;
 
 /// Eigenvalues of steady sliding of a plane annulus over a range of friction coefficients.

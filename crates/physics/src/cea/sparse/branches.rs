@@ -136,10 +136,9 @@ fn split_degenerate(
 
 /// Continues all branches over `points` (ascending friction coefficients).
 ///
-/// Neighbouring points are matched by the overlap
-/// `|w_i^T N x'_j| |w'_j^T N x_i|`, `N = (lambda_i + lambda'_j) M + C`, which is 1 for one mode and 0 for
-/// different modes of one problem, and by `lambda' - lambda = (dlambda/dmu + dlambda'/dmu) dmu / 2`.
-/// Where this is not clear the interval is bisected.
+/// Neighbouring points are matched by the overlap `|w_i^T N x'_j| |w'_j^T N x_i|`, `N = (lambda_i + lambda'_j) M + C`, which is 1 for one
+/// mode and 0 for different modes of one problem, and by `lambda' - lambda = (dlambda/dmu + dlambda'/dmu) dmu / 2`. Where this is not clear
+/// the interval is bisected.
 ///
 /// A wanted mode that no branch reaches has come from above the range, or from motions that did not oscillate: it starts a branch. A mode
 /// whose damping nears the critical one may cease to oscillate: its branch ends, as do those that are lost.

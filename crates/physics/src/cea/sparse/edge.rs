@@ -6,8 +6,7 @@ use crate::prestress::SlidingTangent;
 
 /// Discrete Fourier transform over the contact nodes.
 ///
-/// A mode `phi e^{lambda t}`, `Im(lambda) > 0`, whose edge moves as `e^{-i n theta}` travels towards
-/// increasing angle.
+/// A mode `phi e^{lambda t}`, `Im(lambda) > 0`, whose edge moves as `e^{-i n theta}` travels towards increasing angle.
 pub struct ContactEdge {
     /// Unknowns of each displacement component along the edge, in order of angle.
     components: Vec<Vec<usize>>,

@@ -61,8 +61,7 @@ pub use structure::{ShiftInverted, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 pub use waves::CyclicTangent;
 
-/// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range
-/// are seen.
+/// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range are seen.
 const GUARD_MODES: usize = 5;
 /// Modes held beyond the wanted ones, besides, where damping is not viscous alone: it moves modes past each other, and of two close ones
 /// at the end corrections from the viscous modes may reach the wrong one.

@@ -22,6 +22,9 @@ use crate::prestress::{MotionMatrices, SlidingTangent};
 pub(super) use parts::inside;
 use parts::{BasisPart, BasisParts};
 
+/// Digits of an entry of two matrices up to which it is the same in both, but for a factor.
+const SHARED_DIGITS: f64 = 64.0 * f64::EPSILON;
+
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
     let known = columns.nrows();
@@ -54,6 +57,25 @@ fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
     sum
 }
 
+/// Damping as `C = b K + R`: `b` and the coefficients of `R`. Where stress damps in proportion, with all powers of friction and on all
+/// unknowns, those of `R` beyond the first touch the contact alone.
+fn beside_stiffness(tangent: &SlidingTangent) -> (f64, Vec<Vec<f64>>) {
+    let [damping, stiffness] = [&tangent.damping, &tangent.stiffness].map(|p| p.coefficients());
+    let size = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    // The highest power has stress alone.
+    let last = damping.len() - 1;
+    let share = stiffness.get(last).map_or(0.0, |own| size(&damping[last]) / size(own));
+    let beside = |p: usize| -> Vec<f64> {
+        let bound = if p == 0 { 0.0 } else { SHARED_DIGITS * size(&damping[p]) };
+        let own = damping[p].iter().zip(&stiffness[p]).map(|(c, k)| c - share * k);
+        own.map(|own| if own.abs() > bound { own } else { 0.0 }).collect()
+    };
+    match share > 0.0 && stiffness.len() == damping.len() && size(&beside(last)) == 0.0 {
+        true => (share, (0..=last).map(beside).collect()),
+        false => (0.0, damping.to_vec()),
+    }
+}
+
 /// Makes of the left vectors of modes those that belong to their right ones, of which the decomposition leaves any basis of the space of a
 /// multiple eigenvalue: `W G^-T` with `G = W^T N X`, of which `overlaps` has the entries.
 fn pair_lefts(modes: &mut [ReducedMode], overlaps: &Mat<c64>) {
@@ -82,12 +104,12 @@ fn pair_lefts(modes: &mut [ReducedMode], overlaps: &Mat<c64>) {
 /// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right vectors
 /// of all friction coefficients. Left vectors are those of the projected problem: they serve overlaps and derivatives.
 ///
-/// Coordinates stay valid when the basis grows, with zeros for the columns added since; not so when it
-/// is compressed.
+/// Coordinates stay valid when the basis grows, with zeros for the columns added since; not so when it is compressed.
 pub struct ReducedModel {
     linearization: Linearization,
-    /// Coefficients of each matrix by power of `mu`; of `C` only where it is not proportional.
+    /// Coefficients of each matrix by power of `mu`; of `C` only where it is not proportional, and but for the `share` of `K` in it.
     terms: MotionMatrices<Vec<Term>>,
+    share: f64,
     /// What they weigh.
     weights: FrictionWeights,
     /// `V`, `unknowns x m`.
@@ -108,10 +130,12 @@ impl ReducedModel {
             let term = |power: usize| Term::new(p, power, is_symmetric && power == 0);
             powers.map(term).collect()
         };
-        let damping = match linearization {
-            Linearization::Reduced(..) => Vec::new(),
-            Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
-        };
+        let (mut share, mut damping) = (0.0, Vec::new());
+        if let Linearization::Companion { .. } = linearization {
+            let (own, rest) = beside_stiffness(tangent);
+            let rest = MatrixPolynomial::from_coefficients(tangent.stiffness.pattern(), rest);
+            (share, damping) = (own, terms(&rest, !tangent.is_gyroscopic));
+        }
         let losses = tangent.losses.iter();
         let terms = MotionMatrices {
             stiffness: terms(&tangent.stiffness, true),
@@ -121,6 +145,7 @@ impl ReducedModel {
         };
         Self {
             linearization,
+            share,
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
             terms,
             weights: tangent.stiffness.weights(),
@@ -167,6 +192,8 @@ impl ReducedModel {
         if let Linearization::Reduced(coefficients, _) = self.linearization {
             all.damping = Scale(coefficients.mass_coefficient) * &all.mass
                 + Scale(coefficients.stiffness_coefficient) * &all.stiffness;
+        } else if self.share != 0.0 {
+            all.damping += Scale(self.share) * &all.stiffness;
         }
         all
     }
@@ -322,8 +349,7 @@ impl ReducedModel {
         (self.basis.columns().nrows().isqrt() / widest).max(NEIGHBOURS)
     }
 
-    /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without
-    /// samples.
+    /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without samples.
     fn span_of_nearest(&self, mu: f64, count: usize) -> Option<Mat<f64>> {
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
         crate::order::sort_by_number(&mut nearest, |a| (a.0 - mu).abs());

@@ -25,10 +25,9 @@ use std::f64::consts::TAU;
 
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
 ///
-/// Oscillating modes of lowest natural frequency only: overdamped motions, and modes whose eigenvalue is
-/// far from the origin because of damping alone, are not searched. Friction values are solved in parallel
-/// on the current rayon pool; the result is the same, bit for bit, for any number of threads, and whether `watch` kept a part of
-/// it from an earlier run or not.
+/// Oscillating modes of lowest natural frequency only: overdamped motions, and modes whose eigenvalue is far from the origin because of
+/// damping alone, are not searched. Friction values are solved in parallel on the current rayon pool; the result is the same, bit for bit,
+/// for any number of threads, and whether `watch` kept a part of it from an earlier run or not.
 ///
 /// Points come in the order given; repeated values are computed once.
 ///

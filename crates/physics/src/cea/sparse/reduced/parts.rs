@@ -88,6 +88,7 @@ impl ReducedModel {
         Self {
             linearization: self.linearization,
             terms: self.terms.map(within),
+            share: self.share,
             weights: self.weights,
             basis: GrowingColumns::new(0),
             samples: Vec::new(),

@@ -24,16 +24,17 @@ impl SparseSweep<'_> {
             return Ok(None);
         }
         let first = self.grid[self.first_asked()];
+        let start = (self.grid[0], self.ln_static(self.grid[0])?);
+        let at = |mu: f64| if mu == start.0 { Ok(start.1) } else { self.ln_static(mu) };
         // Of two the determinant has no sign.
         let is_unstable = (self.is_continued || self.is_unheld)
-            && (self.static_determinant(first, 0.0)? < 0.0
-                || self.builder.model.static_growth(first)? > 1);
+            && (at(first)?.im.cos() < 0.0 || self.builder.model.static_growth(first)? > 1);
         let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
         let mut place = ends.chain(is_unstable.then_some(first)).min_by(f64::total_cmp);
         let after = &self.grid[1..];
         let last = &after[after.len().saturating_sub(1)..];
-        if place.is_none() && self.sign_change(self.grid[0], last)?.is_some() {
-            place = self.sign_change(self.grid[0], after)?;
+        if place.is_none() && self.sign_change(start, last)?.is_some() {
+            place = self.sign_change(start, after)?;
         }
         Ok(place.map(|mu| mu.max(first)).map(|critical_friction| UnstableInterval {
             critical_friction,
@@ -52,14 +53,14 @@ impl SparseSweep<'_> {
         let ReducedMode { eigenvalue, derivative, .. } = end.seen.mode;
         let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
         let reach = (low - (eigenvalue / derivative).re).clamp(beyond, next);
-        self.sign_change(low, &[beyond, reach, next][..2 + usize::from(end.is_damped)])
+        let places = &[beyond, reach, next][..2 + usize::from(end.is_damped)];
+        self.sign_change((low, self.ln_static(low)?), places)
     }
 
-    /// Where `det K` changes its sign between a friction coefficient and the first place of another sign: by false position with the
-    /// Illinois rule.
-    fn sign_change(&self, mut low: f64, places: &[f64]) -> Result<Option<f64>, CeaError> {
-        let mut places = places.iter();
-        let ln = self.ln_static(low)?;
+    /// Where `det K` changes its sign between a friction coefficient, of known `ln det K`, and the first place of another sign: by false
+    /// position with the Illinois rule.
+    fn sign_change(&self, from: (f64, c64), places: &[f64]) -> Result<Option<f64>, CeaError> {
+        let ((mut low, ln), mut places) = (from, places.iter());
         let (size, mut before) = (ln.re, ln.im.cos());
         let (mut high, mut after) = loop {
             let Some(&high) = places.next() else { return Ok(None) };
