@@ -102,9 +102,10 @@ impl ReducedModel {
 mod tests {
     use super::*;
     use crate::cea::sparse::fixtures::string_on_belt;
-    use crate::cea::sparse::reduced::lengthened;
+    use crate::cea::sparse::reduced::{beside_stiffness, lengthened};
     use crate::cea::sparse::{BasisBuilder, FrictionlessModes, Linearization};
     use crate::cea::{ModeLimit, Unwatched};
+    use crate::linalg::MatrixPolynomial;
     use crate::linalg::dense::orthonormal_complement;
 
     /// Consistency check: between samples a mode in a part of the basis is that in all of it. Samples that change do not leave an
@@ -138,5 +139,34 @@ mod tests {
         let own = lengthened(&own.1, columns.nrows());
         let beyond = orthonormal_complement(columns.as_ref(), own, 1e-9);
         assert_eq!(beyond.ncols(), 0);
+    }
+
+    /// Consistency check: whether damping follows what friction does to the stiffness, or has a part of its own there, its projection is
+    /// that of the damping itself.
+    #[test]
+    fn damping_beside_the_stiffness_is_projected_whole() {
+        for own_part in [0.0, 0.02] {
+            let mut tangent = string_on_belt(400, 0.4, false);
+            let pattern = std::sync::Arc::clone(tangent.stiffness.pattern());
+            let dashpots = [(0..90, 0.05), (0..60, own_part)];
+            let dashpots = dashpots.map(|(at, own)| at.map(|i| (i, i, own)).collect());
+            let dashpots = MatrixPolynomial::on_pattern(&pattern, &dashpots);
+            tangent.damping = MatrixPolynomial::combination(1.0, &tangent.damping, 1.0, &dashpots);
+            let (share, rest) = beside_stiffness(&tangent);
+            let is_shared = own_part == 0.0;
+            assert!((share - if is_shared { 1e-3 } else { 0.0 }).abs() < 1e-15, "{share}");
+            assert_eq!(rest[1].iter().all(|value| *value == 0.0), is_shared);
+
+            let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(6)).unwrap();
+            let linearization = Linearization::of(&tangent, modes.frequencies[5], modes.centre);
+            let start = (&modes.vectors, modes.rigid);
+            let builder =
+                BasisBuilder::new(&tangent, linearization, start, modes.factors, &Unwatched);
+            let (model, mu) = (&builder.model, 0.3);
+            let all = model.expand(Mat::identity(model.dimension(), model.dimension()).as_ref());
+            let image = pattern.multiply(&tangent.damping.evaluate(mu), all.as_ref());
+            let away = (all.transpose() * image - model.at(mu).damping).norm_max();
+            assert!(away < 1e-14, "{away:e}");
+        }
     }
 }
