@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 
 /// The next number of the sequence of a state, which depends on the first state alone.
 ///
-/// Source: G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",
-/// OOPSLA 2014.
+/// Source: G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 pub(super) fn splitmix64(state: &mut u64) -> u64 {
     // The increment is `2^64` over the golden ratio.
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);

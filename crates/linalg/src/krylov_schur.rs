@@ -41,8 +41,7 @@ pub struct KrylovSchurSettings {
 
 /// Real eigenpairs in real storage, largest modulus first.
 ///
-/// Conjugate pairs are neighbours, the positive imaginary part first, their vector stored as
-/// `(Re, Im)` in two neighbouring columns.
+/// Conjugate pairs are neighbours, the positive imaginary part first, their vector stored as `(Re, Im)` in two neighbouring columns.
 #[derive(Clone, Debug)]
 pub struct RealPairs {
     /// Eigenvalues `theta`.
@@ -64,9 +63,8 @@ pub struct RealPairs {
 /// # Errors
 /// [`LinalgError::DenseEigen`].
 ///
-/// Source: G. W. Stewart, A Krylov-Schur algorithm for large eigenproblems, SIAM J. Matrix Anal.
-/// Appl. 23 (2001); here in blocks, and with an orthonormal basis of the Ritz subspace for the Schur
-/// vectors.
+/// Source: G. W. Stewart, A Krylov-Schur algorithm for large eigenproblems, SIAM J. Matrix Anal. Appl. 23 (2001); here in blocks, and with
+/// an orthonormal basis of the Ritz subspace for the Schur vectors.
 pub fn krylov_schur(
     operator: &dyn BlockOperator,
     start: Mat<f64>,

@@ -137,8 +137,7 @@ impl RigidCounterface {
         }
     }
 
-    /// Rate at which its unit normal `n` into the body turns towards `a` as the point moves along `b`, 1/m; both lie in its
-    /// surface.
+    /// Rate at which its unit normal `n` into the body turns towards `a` as the point moves along `b`, 1/m; both lie in its surface.
     pub(super) fn curvature(
         &self,
         at: [f64; 3],

@@ -23,8 +23,7 @@ pub struct ContactInterface {
 }
 
 impl ContactInterface {
-    /// The contact edge of `mesh`; nodes that a boundary condition clamps, or that have no other body before them, have no
-    /// part in it.
+    /// The contact edge of `mesh`; nodes that a boundary condition clamps, or that have no other body before them, have no part in it.
     pub fn of(mesh: &Mesh) -> Self {
         Self::meeting(mesh, meetings(mesh))
     }
@@ -106,8 +105,7 @@ impl ContactInterface {
         self.nodes.is_empty()
     }
 
-    /// Velocity of the counterface along the nodes' second axes at its speed `speed` (rad/s of a cylinder, m/s of a
-    /// plane), m/s.
+    /// Velocity of the counterface along the nodes' second axes at its speed `speed` (rad/s of a cylinder, m/s of a plane), m/s.
     pub fn surface_speed(&self, speed: f64) -> f64 {
         speed * self.counterface.lever()
     }

@@ -1,8 +1,9 @@
 //! Small motions of contact points around steady sliding.
 
 use super::{ContactStiffness, Point};
-use crate::fem::{Product, Triplets};
+use crate::fem::Triplets;
 use crate::linalg::FrictionWeights;
+use std::collections::BTreeMap;
 
 /// The bodies under one set of pressed points, as polynomials in `mu - a`, `mu` the friction coefficient and `a` where they begin,
 /// [`Self::frozen_below`].
@@ -33,8 +34,7 @@ pub struct ContactTerms {
     pub friction: Vec<Triplets>,
 }
 
-/// Linearises contact and friction at `points` around `state`, among whose points they begin at `first`, moved to the left-hand
-/// side:
+/// Linearises contact and friction at `points` around `state`, among whose points they begin at `first`, moved to the left-hand side:
 ///
 /// ```text
 /// dN = -w (k_n n.u + c_n n.u')                                       (rigid contact: unknown, n.u = 0)
@@ -91,12 +91,29 @@ pub fn linearized(
     ContactTerms { stiffness, dashpots, friction }
 }
 
-/// Products of rows by power of friction.
+/// `factor row column^T`.
+type Product<'a> = (f64, &'a [(usize, f64)], &'a [(usize, f64)]);
+/// Products by power of friction.
 pub(super) type Products<'a> = Vec<Vec<Product<'a>>>;
 
-/// Their sums: thousands of points share few nodes.
+/// Their sums, row by row: thousands of points share few nodes.
 pub(super) fn sums(products: &Products<'_>) -> Vec<Triplets> {
-    products.iter().map(|own| Triplets::of_products(own)).collect()
+    let sum = |products: &Vec<Product<'_>>| {
+        let mut by_row: BTreeMap<usize, Vec<(f64, &[(usize, f64)])>> = BTreeMap::new();
+        let mut columns = 0;
+        for &(factor, row, column) in products.iter().filter(|own| own.0 != 0.0) {
+            columns = column.iter().fold(columns, |m, own| m.max(own.0 + 1));
+            for &(i, along) in row {
+                by_row.entry(i).or_default().push((factor * along, column));
+            }
+        }
+        let rows = by_row.into_iter().map(|(row, own)| {
+            let own = own.into_iter();
+            (row, own.flat_map(|(f, column)| column.iter().map(move |&(j, a)| (j, f * a))))
+        });
+        Triplets::of_rows(columns, rows)
+    };
+    products.iter().map(sum).collect()
 }
 
 /// The term of what the power `p` of a state multiplies: `mu^p`, or `(mu - a)^p` from the coefficient `a` on below which it is frozen.

@@ -4,12 +4,11 @@
 //! across it. [`linearized`] makes the terms of small motions of such points, whatever they come from, [`turned`] those of forces
 //! that turn with the surfaces.
 //!
-//! A plane body touches a rigid cylinder that turns inside the contact edge or around it. Or it
-//! touches a rigid plane that moves along itself, or another body. `delta` is how far it is pushed
-//! in. At each contact node the frame is `(n, t)`: its normal into the body and the direction a
-//! quarter turn ahead, `(e_r, e_theta)` around a shaft. The contact pushes the body along `+n` with
-//! the nodal force `N >= 0`. While it slips it drags the body along `s t`, with `s` the sense of
-//! sliding: `T = s mu(v) N`. The coefficient may fall with the slip speed `v`.
+//! A plane body touches a rigid cylinder that turns inside the contact edge or around it. Or it touches a rigid plane that moves along
+//! itself, or another body. `delta` is how far it is pushed in. At each contact node the frame is `(n, t)`: its normal into the body and
+//! the direction a quarter turn ahead, `(e_r, e_theta)` around a shaft. The contact pushes the body along `+n` with the nodal force
+//! `N >= 0`. While it slips it drags the body along `s t`, with `s` the sense of sliding: `T = s mu(v) N`. The coefficient may fall with the
+//! slip speed `v`.
 //!
 //! Solid bodies touch where faces of two of their surfaces lie over each other ([`SurfacePair`]): [`ContactSurface`] has the
 //! points, from the quadrature of the common segments or from dual mortar weights of nodes, and slides as a [`Motion`] says. A

@@ -201,11 +201,10 @@ impl Plane {
 impl SurfacePair {
     /// Cuts the faces of `surface` into segments with those of `counter` before them.
     ///
-    /// Each face's corners span a plane; the corners of the faces before it are projected along the plane's normal, the two
-    /// polygons are clipped (Sutherland and Hodgman 1974), and the segment has a quadrature rule of degree 4 on each of its
-    /// triangles (segment to segment, Puso and Laursen 2004): a constant pressure passes exactly between flat surfaces
-    /// whatever their meshes. Points on curved faces are found by Newton's method along the normal. Faces meet within half an
-    /// element's size.
+    /// Each face's corners span a plane; the corners of the faces before it are projected along the plane's normal, the two polygons are
+    /// clipped (Sutherland and Hodgman 1974), and the segment has a quadrature rule of degree 4 on each of its triangles (segment to
+    /// segment, Puso and Laursen 2004): a constant pressure passes exactly between flat surfaces whatever their meshes. Points on curved
+    /// faces are found by Newton's method along the normal. Faces meet within half an element's size.
     ///
     /// # Errors
     /// [`PairError`] where no segment is found.

@@ -13,8 +13,7 @@ use std::collections::BTreeMap;
 /// How the directions at a contact point turn with small motions, along the sliding `t` and across it `d`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Turning {
-    /// Rows of the slopes `eta` of the counterface's displacement along the normal, by arc along `t` and `d`, 1/m; empty on a
-    /// rigid one.
+    /// Rows of the slopes `eta` of the counterface's displacement along the normal, by arc along `t` and `d`, 1/m; empty on a rigid one.
     pub tilt: [Row; 2],
     /// Rows of the slopes `epsilon` of its displacement along `t`, 1/m.
     pub stretch: [Row; 2],

@@ -92,8 +92,7 @@ pub struct WaveBody {
 }
 
 impl WaveBody {
-    /// The body of a mesh for a wave of `harmonic` nodal diameters: entry `k` sees circumferential harmonic `k` of the
-    /// list given.
+    /// The body of a mesh for a wave of `harmonic` nodal diameters: entry `k` sees circumferential harmonic `k` of the list given.
     ///
     /// # Errors
     /// [`CycleError::Element`] for elements other than Quad4; [`CycleError::Mesh`].

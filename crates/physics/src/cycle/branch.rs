@@ -1,10 +1,9 @@
 //! Following a branch of limit cycles from one change of contact state to the next.
 //!
-//! With the contact state of every point fixed the equations are smooth: no gap in contact, no slip
-//! in stick, the phase fixed by `Im(u_theta,1) = 0`. Forces, frequency and one parameter move along
-//! a curve, up to where an inequality of Signorini's and Coulomb's laws is about to break. There
-//! the state of that one point changes, and the curve goes on to the side on which its new
-//! inequality holds. Folds need no special care, and no iteration over contact states can cycle.
+//! With the contact state of every point fixed the equations are smooth: no gap in contact, no slip in stick, the phase fixed by
+//! `Im(u_theta,1) = 0`. Forces, frequency and one parameter move along a curve, up to where an inequality of Signorini's and Coulomb's laws
+//! is about to break. There the state of that one point changes, and the curve goes on to the side on which its new inequality holds. Folds
+//! need no special care, and no iteration over contact states can cycle.
 
 use super::continuation::Values;
 use super::parameter::Parameter;

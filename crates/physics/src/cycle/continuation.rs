@@ -89,8 +89,7 @@ impl Values {
     }
 }
 
-/// The places where a branch turns back, told from the steps back that single points of the grid make as their contact
-/// changes.
+/// The places where a branch turns back, told from the steps back that single points of the grid make as their contact changes.
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
     /// Sense of the parameter, +1 or -1.

@@ -92,8 +92,7 @@ pub enum CycleError {
 }
 
 impl CycleError {
-    /// Whether elements, mesh, damping or harmonics of the case are to blame, which hold for all cycles, rather than the
-    /// operating point.
+    /// Whether elements, mesh, damping or harmonics of the case are to blame, which hold for all cycles, rather than the operating point.
     pub fn is_usage(&self) -> bool {
         matches!(self, Self::Element | Self::Mesh(_) | Self::Harmonic { .. } | Self::Undamped(_))
     }

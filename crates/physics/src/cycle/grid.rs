@@ -35,9 +35,8 @@ impl PhaseGrid {
     /// The grid for a wave of about `frequency` (rad/s) on a mesh whose contact nodes have the frequency `node`, with
     /// `nodes` of them along one wave.
     ///
-    /// With `points` given, the landing time is never below what they resolve. Near a multiple of twice `nodes` the
-    /// highest harmonics, which the differences in time take for slow ones, are long waves to the mesh and would
-    /// resonate: there fewer phases are taken.
+    /// With `points` given, the landing time is never below what they resolve. Near a multiple of twice `nodes` the highest harmonics,
+    /// which the differences in time take for slow ones, are long waves to the mesh and would resonate: there fewer phases are taken.
     pub fn new(frequency: f64, node: f64, nodes: f64, points: Option<usize>) -> Self {
         let wanted = landing_share(frequency, node);
         let wished = points

@@ -74,8 +74,7 @@ pub struct LimitCycle {
     pub powers: CyclePowers,
     /// Fractions of the contact edge that `[stick, slip, open]`.
     pub fractions: [f64; 3],
-    /// Amplitude of the tangential displacement of the edge at circumferential harmonics 0 to 8 (the mean twist for 0),
-    /// m.
+    /// Amplitude of the tangential displacement of the edge at circumferential harmonics 0 to 8 (the mean twist for 0), m.
     pub harmonics: [f64; HARMONIC_COUNT],
     /// Contact and motion of the edge along the phase.
     pub points: Vec<PhasePoint>,

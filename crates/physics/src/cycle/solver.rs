@@ -69,8 +69,7 @@ impl CycleSolver {
     /// next odd number is taken) or as many as the mesh asks for, see [`PhaseGrid`].
     ///
     /// # Errors
-    /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry, a wave that grows
-    /// at any friction.
+    /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry, a wave that grows at any friction.
     pub fn born_at(
         model: &DiscModel,
         family: Family,
@@ -145,8 +144,7 @@ impl CycleSolver {
     /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.
     ///
     /// # Errors
-    /// [`CycleError::NotReached`] if the branch ends before, [`CycleError::NotFound`] if it leaves the motions of the
-    /// disc.
+    /// [`CycleError::NotReached`] if the branch ends before, [`CycleError::NotFound`] if it leaves the motions of the disc.
     pub fn continue_to(
         &self,
         cycle: &LimitCycle,

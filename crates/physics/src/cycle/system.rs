@@ -97,8 +97,7 @@ struct Equation {
 /// The unknowns of one set of contact states: normal forces in contact, tangential forces in stick, and the scalars, one or two
 /// frequencies and the parameter.
 ///
-/// All unknowns and equations are scaled: forces by the mean normal force, a frequency by a hundredth of itself,
-/// the parameter by itself.
+/// All unknowns and equations are scaled: forces by the mean normal force, a frequency by a hundredth of itself, the parameter by itself.
 pub struct System<'a> {
     state: &'a WaveState,
     parameter: Parameter,

@@ -1,10 +1,9 @@
 //! Forces and motion of a rotating wave on points along its phase.
 //!
-//! The wave `u(r, theta, t) = U(r, xi)`, `xi = n theta + omega t`, is sampled at an odd number `M`
-//! of phases `xi_i = 2 pi i / M`. Time steps of `h = 2 pi / (omega M)` take each contact node from
-//! one phase to the next. So the discrete Fourier transform over the phases turns the equation of
-//! motion into one receptance for each temporal harmonic `k`. With `phi = 2 pi k / M`, motion has
-//! the velocity of central differences of fourth order, contact that of the last step:
+//! The wave `u(r, theta, t) = U(r, xi)`, `xi = n theta + omega t`, is sampled at an odd number `M` of phases `xi_i = 2 pi i / M`. Time
+//! steps of `h = 2 pi / (omega M)` take each contact node from one phase to the next. So the discrete Fourier transform over the phases
+//! turns the equation of motion into one receptance for each temporal harmonic `k`. With `phi = 2 pi k / M`, motion has the velocity of
+//! central differences of fourth order, contact that of the last step:
 //!
 //! ```text
 //! v = i s u,   s = (8 sin phi - sin 2 phi) / (6 h),   D = K_kn + i s C - s^2 M
@@ -14,9 +13,8 @@
 //! Both reach a few neighbours only: a jump of the force disturbs the phases around it, and no others. `s` is real, so that
 //! the motion itself neither gains nor loses energy; `b` looks back, so that a point that touches can only push.
 //!
-//! Two waves at once, `U(r, xi_1, xi_2)` with `xi_a = n_a theta + omega_a t`, are the same on a
-//! grid of both phases. Harmonic `(k_1, k_2)` has `n = k_1 n_1 + k_2 n_2` around the circumference;
-//! `s` and `b` are the sums of those along either phase.
+//! Two waves at once, `U(r, xi_1, xi_2)` with `xi_a = n_a theta + omega_a t`, are the same on a grid of both phases. Harmonic `(k_1, k_2)`
+//! has `n = k_1 n_1 + k_2 n_2` around the circumference; `s` and `b` are the sums of those along either phase.
 
 use super::body::{DynamicCoefficients, Receptance, WaveBody};
 use super::parameter::Parameter;
@@ -243,8 +241,7 @@ impl HarmonicResponse {
     }
 }
 
-/// Displacement of the edge at each harmonic under the forces of a state, and its derivatives with both frequencies and the
-/// parameter.
+/// Displacement of the edge at each harmonic under the forces of a state, and its derivatives with both frequencies and the parameter.
 fn displacements(
     wave: &Wave<'_>,
     state: &WaveState,

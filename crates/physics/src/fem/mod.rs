@@ -42,4 +42,4 @@ pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_
 pub use support::{
     assemble_attachments, assemble_pressures, assemble_support, assemble_supports, element_supports,
 };
-pub use triplets::{Product, Triplets};
+pub use triplets::Triplets;

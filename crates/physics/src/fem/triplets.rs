@@ -1,10 +1,6 @@
 //! Entries of a sparse matrix before they are summed.
 
 use nalgebra::SMatrix;
-use std::collections::BTreeMap;
-
-/// `factor row column^T`.
-pub type Product<'a> = (f64, &'a [(usize, f64)], &'a [(usize, f64)]);
 
 /// Entries `(row, column, value)` of a sparse matrix; entries at one place add up.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,7 +37,7 @@ impl Triplets {
 
     /// Sums the entries of one place, in their order; then they are in the order of rows and columns.
     pub fn merge(&mut self) {
-        // Rows by counting; in each the sums of its columns in a row of all columns, of which those taken are then sorted.
+        // Rows by counting.
         let [rows, columns] =
             self.entries.iter().fold([0; 2], |[m, n], own| [m.max(own.0 + 1), n.max(own.1 + 1)]);
         let mut ends = vec![0_usize; rows + 1];
@@ -56,33 +52,36 @@ impl Triplets {
             by_row[next[row]] = (column as u32, value);
             next[row] += 1;
         }
-        self.entries.clear();
-        let mut sum = RowSum::new(columns);
-        for row in 0..rows {
-            let own = by_row[ends[row]..ends[row + 1]].iter();
-            own.for_each(|&(column, value)| sum.add(column as usize, value));
-            sum.move_to(row, &mut self.entries);
-        }
-        self.entries.shrink_to_fit();
+        self.entries = Vec::new();
+        let of_row = |row: usize| {
+            by_row[ends[row]..ends[row + 1]].iter().map(|&(j, value)| (j as usize, value))
+        };
+        *self = Self::of_rows(columns, (0..rows).map(|row| (row, of_row(row))));
     }
 
-    /// The sum of products, merged.
-    pub fn of_products(products: &[Product<'_>]) -> Self {
-        let mut by_row: BTreeMap<usize, Vec<(f64, &[(usize, f64)])>> = BTreeMap::new();
-        let mut columns = 0;
-        for &(factor, row, column) in products.iter().filter(|own| own.0 != 0.0) {
-            columns = column.iter().fold(columns, |m, own| m.max(own.0 + 1));
-            row.iter().for_each(|&(i, along)| {
-                by_row.entry(i).or_default().push((factor * along, column));
+    /// The entries of rows that rise, those of one place summed in their order.
+    pub fn of_rows<R: Iterator<Item = (usize, f64)>>(
+        columns: usize,
+        rows: impl Iterator<Item = (usize, R)>,
+    ) -> Self {
+        // The sums of a row in a row of all columns, of which those taken are then sorted.
+        let (mut sums, mut is_taken) = (vec![0.0; columns], vec![false; columns]);
+        let (mut taken, mut entries) = (Vec::new(), Vec::new());
+        for (row, own) in rows {
+            own.for_each(|(column, value)| {
+                if !std::mem::replace(&mut is_taken[column], true) {
+                    sums[column] = 0.0;
+                    taken.push(column);
+                }
+                sums[column] += value;
             });
-        }
-        let (mut sum, mut entries) = (RowSum::new(columns), Vec::new());
-        for (row, own) in by_row {
-            for (factor, column) in own {
-                column.iter().for_each(|&(j, across)| sum.add(j, factor * across));
+            taken.sort_unstable();
+            for column in taken.drain(..) {
+                entries.push((row, column, sums[column]));
+                is_taken[column] = false;
             }
-            sum.move_to(row, &mut entries);
         }
+        entries.shrink_to_fit();
         Self { entries }
     }
 
@@ -114,37 +113,5 @@ impl Triplets {
             *high = sum;
         }
         left.into_iter().map(|[high, low]| high + low).collect()
-    }
-}
-
-/// The sums of one row in a row of all columns, of which those taken are known.
-struct RowSum {
-    sums: Vec<f64>,
-    is_taken: Vec<bool>,
-    taken: Vec<u32>,
-}
-
-impl RowSum {
-    fn new(columns: usize) -> Self {
-        Self { sums: vec![0.0; columns], is_taken: vec![false; columns], taken: Vec::new() }
-    }
-
-    #[inline]
-    fn add(&mut self, column: usize, value: f64) {
-        if self.is_taken[column] {
-            self.sums[column] += value;
-        } else {
-            (self.sums[column], self.is_taken[column]) = (value, true);
-            self.taken.push(column as u32);
-        }
-    }
-
-    /// Appends the row to entries, by rising columns, and begins the next one.
-    fn move_to(&mut self, row: usize, entries: &mut Vec<(usize, usize, f64)>) {
-        self.taken.sort_unstable();
-        for column in self.taken.drain(..).map(|own| own as usize) {
-            entries.push((row, column, self.sums[column]));
-            self.is_taken[column] = false;
-        }
     }
 }

@@ -36,8 +36,7 @@ pub struct CyclicResponse {
 /// thickness `b` divide by `b`; a body in three dimensions has its own thickness, and `h` is in m/N.
 ///
 /// # Errors
-/// [`FrfError::Node`], [`FrfError::NoAxes`]; [`FrfError::Frequency`];
-/// [`FrfError::Factorization`] where an undamped system is at resonance.
+/// [`FrfError::Node`], [`FrfError::NoAxes`]; [`FrfError::Frequency`]; [`FrfError::Factorization`] where an undamped system is at resonance.
 pub fn cyclic_response(
     system: &CyclicSystem,
     force: Terminal,

@@ -38,8 +38,7 @@ impl CyclicSystem {
         Self::sliding(&tangent, 0.0)
     }
 
-    /// Small motions around steady sliding at a friction coefficient, in space the dashpot `mu p_0 / V` across the sliding
-    /// included.
+    /// Small motions around steady sliding at a friction coefficient, in space the dashpot `mu p_0 / V` across the sliding included.
     ///
     /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
     /// body, not through the contact. A distance between two bodies is no place to strike or to observe.

@@ -13,11 +13,10 @@ const GENERAL_LINES_AT_ONCE: usize = 16;
 /// Receptance `u / f` for each frequency, m/N for each metre of thickness, between two ports:
 /// `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
 ///
-/// Neighbouring lines share one sparse factorization, real with proportional damping and complex with
-/// any other, and each is solved from it in a Krylov space until its own backward error is that of
-/// round-off (`1e-14`); a line that does not get there has a sparse complex LU factorization of its
-/// own, with one step of refinement. Frequencies in parallel, the result
-/// independent of the number of threads. For a body of thickness `b` divide by `b`.
+/// Neighbouring lines share one sparse factorization, real with proportional damping and complex with any other, and each is solved from it
+/// in a Krylov space until its own backward error is that of round-off (`1e-14`); a line that does not get there has a sparse complex LU
+/// factorization of its own, with one step of refinement. Frequencies in parallel, the result independent of the number of threads. For a
+/// body of thickness `b` divide by `b`.
 ///
 /// `done` hears how many lines are solved, a few at a time, from any thread.
 ///

@@ -27,9 +27,8 @@ impl Driven<'_> {
 
     /// Solutions of lines `(1 + i omega beta) (K - s M) x = f`, `s = (omega^2 - i omega alpha) / (1 + i omega beta)`.
     ///
-    /// With `B = (K - sigma M)^{-1} M` and `g = (K - sigma M)^{-1} f`, both real, every line is
-    /// `(1 - (s - sigma) B) x = g`: one real space serves them all, larger for lines far apart or close
-    /// to a resonance.
+    /// With `B = (K - sigma M)^{-1} M` and `g = (K - sigma M)^{-1} f`, both real, every line is `(1 - (s - sigma) B) x = g`: one real space
+    /// serves them all, larger for lines far apart or close to a resonance.
     fn proportional(&self, rayleigh: RayleighDamping, lines: &[f64]) -> Option<Vec<Vec<c64>>> {
         let (system, count) = (self.system, self.system.dimension());
         let middle = 0.5 * (lines[0] + lines[lines.len() - 1]);

@@ -27,8 +27,7 @@ pub struct ReducedResponse {
     pub receptance: Vec<c64>,
     /// Largest `|h_reduced - h_direct| / |h_direct|` at the check lines.
     pub largest_error: f64,
-    /// Frequencies of the check lines, Hz, solved directly: between the shifts, at both ends, and at
-    /// the largest response.
+    /// Frequencies of the check lines, Hz, solved directly: between the shifts, at both ends, and at the largest response.
     pub checked_hz: Vec<f64>,
     /// Vectors in the basis.
     pub vectors: usize,
@@ -36,15 +35,13 @@ pub struct ReducedResponse {
 
 /// Receptance between two ports, by a rational Krylov reduction.
 ///
-/// At real shifts `sigma_j = omega_j^2` spread over the range, one basis `V` collects
-/// `((K - sigma_j M)^{-1} M)^k (K - sigma_j M)^{-1} e_force` and the same of the transposed system from
-/// `e_response`, `k < 6`; the response is that of `V^T M V, V^T C V, V^T K V`. Direct solutions at
-/// check lines measure its error; where it is above the tolerance, the worst line becomes a shift. Each
-/// shift is moved a little if it hits an undamped resonance.
+/// At real shifts `sigma_j = omega_j^2` spread over the range, one basis `V` collects `((K - sigma_j M)^{-1} M)^k (K - sigma_j M)^{-1}
+/// e_force` and the same of the transposed system from `e_response`, `k < 6`; the response is that of `V^T M V, V^T C V, V^T K V`. Direct
+/// solutions at check lines measure its error; where it is above the tolerance, the worst line becomes a shift. Each shift is moved a
+/// little if it hits an undamped resonance.
 ///
 /// # Errors
-/// [`FrfError::NotReduced`] if the most shifts do not reach the tolerance; those of
-/// [`super::direct_response`].
+/// [`FrfError::NotReduced`] if the most shifts do not reach the tolerance; those of [`super::direct_response`].
 ///
 /// Source: E. J. Grimme, "Krylov projection methods for model reduction", thesis, Urbana (1997).
 pub fn reduced_response(
@@ -103,8 +100,7 @@ pub fn reduced_response(
     }
 }
 
-/// Lines at which the reduction is checked: both ends, midway between neighbouring shifts, and the
-/// largest response.
+/// Lines at which the reduction is checked: both ends, midway between neighbouring shifts, and the largest response.
 fn check_lines(frequencies_hz: &[f64], receptance: &[c64], shifts: &[f64]) -> Vec<f64> {
     let [low, high] = range(frequencies_hz.iter().copied());
     let mut sorted = shifts.to_vec();

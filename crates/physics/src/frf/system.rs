@@ -36,8 +36,7 @@ pub struct FrfSystem {
 }
 
 impl FrfSystem {
-    /// The body without contact and prestress, free or with its outer edge clamped, `C = alpha_R M +
-    /// beta_R K`.
+    /// The body without contact and prestress, free or with its outer edge clamped, `C = alpha_R M + beta_R K`.
     pub fn body(
         mesh: &Mesh,
         material: &dyn MaterialField,

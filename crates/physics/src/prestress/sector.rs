@@ -24,8 +24,7 @@ impl SectorSliding {
     /// pressure, if there is a `law`.
     ///
     /// # Errors
-    /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a
-    /// stiffness that is not positive definite.
+    /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a stiffness that is not positive definite.
     pub fn solve(
         strip: &Strip,
         stiffness: &Triplets,

@@ -4,8 +4,7 @@ use super::corrector::{GOOD, Goal, Place, Point, way};
 use super::follower::{ALONG, Follower};
 use crate::transient::TransientError;
 
-/// Distances off a branch at which another is looked for beyond a corner, by the largest amplitude, and how much farther along it
-/// may be.
+/// Distances off a branch at which another is looked for beyond a corner, by the largest amplitude, and how much farther along it may be.
 const CORNERS: [f64; 3] = [0.005, 0.02, 0.002];
 const FAR: f64 = 20.0;
 /// Motions spent on a fold.

@@ -78,8 +78,7 @@ impl Step {
     }
 }
 
-/// Differences of iterates `(dx, dT)` with those of their residuals `dr`, which a linear residual `r` would have as
-/// `dr = r' (dx, dT)`.
+/// Differences of iterates `(dx, dT)` with those of their residuals `dr`, which a linear residual `r` would have as `dr = r' (dx, dT)`.
 ///
 /// A step takes the combination of them, and of the change of the period with `dr / dT = dx / dt`, that leaves the least
 /// residual, then one period on the rest:

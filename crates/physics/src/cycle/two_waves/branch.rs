@@ -124,8 +124,7 @@ impl Half<'_> {
         usize::from(self.here.amplitudes[1] < self.here.amplitudes[0])
     }
 
-    /// The motion at a value, by shorter steps where one does not lead there; false where none does or the weaker wave falls
-    /// steeply.
+    /// The motion at a value, by shorter steps where one does not lead there; false where none does or the weaker wave falls steeply.
     fn reach(&mut self, value: f64) -> bool {
         let weaker = self.weaker();
         let mut step = value - self.value();
@@ -153,8 +152,7 @@ impl Half<'_> {
         true
     }
 
-    /// One motion on towards where the weaker wave vanishes, whose amplitude leads the way from its `first` one on; the end, if
-    /// this is it.
+    /// One motion on towards where the weaker wave vanishes, whose amplitude leads the way from its `first` one on; the end, if this is it.
     fn shrink(&mut self, (weaker, first): (usize, f64)) -> Option<BranchEnd> {
         let last = *self.ahead.last()?;
         if self.here.amplitudes[weaker] <= VANISHED * first {
