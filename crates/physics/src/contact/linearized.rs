@@ -91,15 +91,15 @@ pub fn linearized(
     ContactTerms { stiffness, dashpots, friction }
 }
 
-/// `factor row column^T`.
-type Product<'a> = (f64, &'a [(usize, f64)], &'a [(usize, f64)]);
-/// Products by power of friction.
-pub(super) type Products<'a> = Vec<Vec<Product<'a>>>;
+/// A row of dofs with values.
+type Entries = [(usize, f64)];
+/// Products `factor row column^T` by power of friction.
+pub(super) type Products<'a> = Vec<Vec<(f64, &'a Entries, &'a Entries)>>;
 
 /// Their sums, row by row: thousands of points share few nodes.
 pub(super) fn sums(products: &Products<'_>) -> Vec<Triplets> {
-    let sum = |products: &Vec<Product<'_>>| {
-        let mut by_row: BTreeMap<usize, Vec<(f64, &[(usize, f64)])>> = BTreeMap::new();
+    let sum = |products: &Vec<(f64, &Entries, &Entries)>| {
+        let mut by_row: BTreeMap<usize, Vec<(f64, &Entries)>> = BTreeMap::new();
         let mut columns = 0;
         for &(factor, row, column) in products.iter().filter(|own| own.0 != 0.0) {
             columns = column.iter().fold(columns, |m, own| m.max(own.0 + 1));
