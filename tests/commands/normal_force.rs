@@ -73,3 +73,16 @@ fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
     let found = case.contact.sliding.interference;
     assert!((found / exact - 1.0).abs() < 1e-9, "{found:e} {exact:e}");
 }
+
+/// Closed form: springs of `k` on the length `l` give way by `F / (k l)`, and a stiff block with them. The force that is found on
+/// springs so soft is rounded by more than the share to which it is met elsewhere.
+#[test]
+fn a_stiff_block_on_soft_springs_is_pushed_in_by_its_force() {
+    let folder = folder();
+    let set = "material.young_modulus=2e11 ; contact.normal_force=10.0 ; boundaries.back={ \
+        condition=\"support\", normal_stiffness=1e4, tangential_stiffness=1e4 }";
+    let case = case_of(folder.path().join("case.toml"), BLOCK, &[set]);
+    let exact = 10.0 / (1e4 * 0.04);
+    let found = case.contact.sliding.interference;
+    assert!((found / exact - 1.0).abs() < 1e-4, "{found:e} {exact:e}");
+}

@@ -35,9 +35,8 @@ impl Triplets {
         }
     }
 
-    /// Sums the entries of one place, in their order; then they are in the order of rows and columns.
+    /// Sums the entries of one place, in their order; then they are in the order of rows, found by counting, and columns.
     pub fn merge(&mut self) {
-        // Rows by counting.
         let [rows, columns] =
             self.entries.iter().fold([0; 2], |[m, n], own| [m.max(own.0 + 1), n.max(own.1 + 1)]);
         let mut ends = vec![0_usize; rows + 1];
