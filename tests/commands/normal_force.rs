@@ -47,7 +47,7 @@ fn the_force_of_an_interference_gives_that_interference_back() {
     }
 }
 
-/// Two contacts of one body lean on each other through it, and each gets its own force.
+/// Contacts of one body lean on each other through it, the more so the stiffer it is and the softer it is held: each gets its own force.
 #[test]
 fn every_contact_gets_its_own_force() {
     let folder = folder();
@@ -58,9 +58,20 @@ fn every_contact_gets_its_own_force() {
              friction_coefficient=0.3 }}"
         )
     };
-    let set = [SEAM.to_owned(), contact("left", 200.0), contact("right", 300.0)];
-    let forces = case_of(folder.path().join("case.toml"), PADS, &set).normal_forces().unwrap();
-    near_each(&forces, &[200.0, 300.0], 1e-9);
+    let forces = |more: &[String], [left, right]: [f64; 2]| {
+        let set =
+            [&[SEAM.to_owned(), contact("left", left), contact("right", right)], more].concat();
+        case_of(folder.path().join("case.toml"), PADS, &set).normal_forces().unwrap()
+    };
+    near_each(&forces(&[], [200.0, 300.0]), &[200.0, 300.0], 1e-9);
+    for (held, bound) in [(1e4, 1e-4), (1e6, 1e-6), (1e9, 1e-9)] {
+        let held = |name: &str| {
+            let springs = format!("normal_stiffness={held:e}, tangential_stiffness={held:e}");
+            format!("boundaries.{name}_z1={{ condition=\"support\", {springs} }}")
+        };
+        let more = ["material.young_modulus=2e11".to_owned(), held("left"), held("right")];
+        near_each(&forces(&more, [2.0, 3.0]), &[2.0, 3.0], bound);
+    }
 }
 
 /// Closed form: a block without Poisson's ratio under a rigid plane is a spring `E A / h`.

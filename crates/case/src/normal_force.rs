@@ -8,6 +8,7 @@ use frictionsim_physics::contact::{Counterpart, SlidingContact};
 use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::mesh::{SolidSector, Strip};
 use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
+use nalgebra::{DMatrix, DVector};
 
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
@@ -17,98 +18,166 @@ const MOST_STEPS: usize = 15;
 const TOLERANCE: f64 = 1e-12;
 /// Relative distance of two bounds between which the force of a body on soft springs is rounded.
 const ROUNDED: f64 = 1e-6;
-/// Evaluations between two bounds, and rounds over contacts that lean on each other.
+/// Relative difference of forces that such bodies may leave.
+const MET: f64 = 1e-4;
+/// Evaluations between two bounds, and steps of Newton's method.
 const MOST_ROUNDS: usize = 60;
+/// Step of an interference for slopes, relative to it, and the change of a force, relative to it, that a step may make.
+const SMALL_STEP: f64 = 1e-4;
+const LITTLE: f64 = 0.1;
 
-/// A contact that is pressed with a force.
+/// Contacts that are pressed with a force.
 struct Wanted {
     key: String,
-    /// Place of the contact in the body.
-    contact: usize,
+    /// Their places in the body.
+    contacts: Vec<usize>,
     force: f64,
 }
 
 /// Pushes every counterface in whose contact has a force, and says how far.
 pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
-    let wanted = wanted(case);
-    for _ in 0..MOST_ROUNDS {
-        let mut is_met = true;
-        for own in &wanted {
-            is_met &= solve(case, own)?;
-        }
-        // Contacts that others have not moved since are all met.
-        if is_met || wanted.len() == 1 {
-            break;
-        }
+    let sections = case.contact_sections().into_iter().enumerate();
+    let found = sections.filter_map(|(contact, (section, _))| {
+        let key = format!("{section}.normal_force");
+        Some(Wanted { force: case.number(&key)?, key, contacts: vec![contact] })
+    });
+    let wanted: Vec<Wanted> = found.collect();
+    match &wanted[..] {
+        [] => return Ok(()),
+        [own] => solve(case, own)?,
+        all => press_together(case, all)?,
     }
     for own in &wanted {
-        let pushed = interference_of(case, own.contact);
+        let pushed = interference_of(case, own.contacts[0]);
         let told = format!("{} = {}: the counterface is pushed in", own.key, own.force);
         case.taken.notes.push(format!("{told} by {pushed:.6e} m"));
     }
     Ok(())
 }
 
-fn wanted(case: &Case) -> Vec<Wanted> {
-    let sections = case.contact_sections().into_iter().enumerate();
-    let found = sections.filter_map(|(contact, (section, _))| {
-        let key = format!("{section}.normal_force");
-        Some(Wanted { force: case.number(&key)?, key, contact })
-    });
-    found.collect()
+/// Presses contacts that lean on each other: all of them alike with the sum of their forces, then each by Newton's method, as forces
+/// have straight pieces.
+fn press_together(case: &mut Case, wanted: &[Wanted]) -> Result<(), CaseErrors> {
+    let all = wanted.iter().map(|own| own.contacts[0]);
+    let mut places: Vec<f64> = all.clone().map(|contact| interference_of(case, contact)).collect();
+    let mut left = excesses(case, wanted, &places)?;
+    if largest(&left) > TOLERANCE {
+        let force = wanted.iter().map(|own| own.force).sum();
+        let whole = Wanted { key: wanted[0].key.clone(), contacts: all.clone().collect(), force };
+        solve(case, &whole)?;
+        places = all.map(|contact| interference_of(case, contact)).collect();
+        left = excesses(case, wanted, &places)?;
+    }
+    for _ in 0..MOST_ROUNDS {
+        if largest(&left) <= TOLERANCE {
+            break;
+        }
+        // Slopes of all forces over each interference, by a step that no contact opens at.
+        let count = wanted.len();
+        let mut slopes = DMatrix::zeros(count, count);
+        for j in 0..count {
+            let mut step = SMALL_STEP * places[j];
+            loop {
+                let mut moved = places.clone();
+                moved[j] += step;
+                let beside = excesses(case, wanted, &moved)?;
+                let change = DVector::from_fn(count, |i, _| beside[i] - left[i]);
+                slopes.set_column(j, &(&change / step));
+                if !(change.amax() > LITTLE) {
+                    break;
+                }
+                step *= 0.5 * LITTLE / change.amax();
+            }
+        }
+        let Some(change) = slopes.lu().solve(&DVector::from_column_slice(&left)) else { break };
+        // As much of Newton's step as comes nearer.
+        let mut nearer = None;
+        for halvings in 0..MOST_STEPS {
+            let share = 0.5_f64.powi(halvings as i32);
+            let to = |(place, change): (&f64, &f64)| (place - share * change).max(0.1 * place);
+            let next: Vec<f64> = places.iter().zip(change.iter()).map(to).collect();
+            let found = excesses(case, wanted, &next)?;
+            if largest(&found) < largest(&left) {
+                nearer = Some((next, found));
+                break;
+            }
+        }
+        let Some(found) = nearer else { break };
+        (places, left) = found;
+    }
+    // The case is left at what was found.
+    left = excesses(case, wanted, &places)?;
+    let missed = wanted.iter().zip(&left).find(|(_, left)| !(left.abs() <= MET));
+    missed.map_or(Ok(()), |(own, _)| Err(not_reached(case, own)))
 }
 
-/// Whether the interference of one contact is that of its force already, which it is afterwards.
-fn solve(case: &mut Case, wanted: &Wanted) -> Result<bool, CaseErrors> {
-    let (target, first) = (wanted.force, interference_of(case, wanted.contact));
+/// The largest of some excesses.
+fn largest(excesses: &[f64]) -> f64 {
+    excesses.iter().fold(0.0, |m, own| m.max(own.abs()))
+}
+
+/// Pushes contacts in alike until the sum of their forces is that wanted.
+fn solve(case: &mut Case, wanted: &Wanted) -> Result<(), CaseErrors> {
+    let first = interference_of(case, wanted.contacts[0]);
     let start = excess(case, wanted, first)?;
-    if start.abs() <= TOLERANCE * target {
-        return Ok(true);
+    if start.abs() <= TOLERANCE {
+        return Ok(());
     }
     // Bounds on either side; without any interference a contact without overlap has no force.
-    let (mut low, mut high) = ((0.0, -target), (first, start));
+    let (mut low, mut high) = ((0.0, -1.0), (first, start));
     let mut steps = 0..MOST_STEPS;
     while high.1 < 0.0 && steps.next().is_some() {
         (low, high.0) = (high, STEP * high.0);
         high.1 = excess(case, wanted, high.0)?;
     }
     // The secant meets straight pieces at once; the bound that stays has its weight halved, after the Illinois rule.
-    let mut side = None;
+    let (mut side, mut left) = (None, high.1);
     for _ in 0..MOST_ROUNDS {
         if high.1 < 0.0 || high.0 - low.0 <= f64::EPSILON * high.0 {
             break;
         }
         let next = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-        let found = excess(case, wanted, next)?;
-        if found.abs() <= TOLERANCE * target {
-            return Ok(false);
+        left = excess(case, wanted, next)?;
+        if left.abs() <= TOLERANCE {
+            return Ok(());
         }
-        let (moved, other) = match found < 0.0 {
+        let (moved, other) = match left < 0.0 {
             true => (&mut low, &mut high),
             false => (&mut high, &mut low),
         };
-        *moved = (next, found);
-        other.1 *= if side == Some(found < 0.0) { 0.5 } else { 1.0 };
-        side = Some(found < 0.0);
+        *moved = (next, left);
+        other.1 *= if side == Some(left < 0.0) { 0.5 } else { 1.0 };
+        side = Some(left < 0.0);
     }
-    let own = interference_of(case, wanted.contact);
-    let left = excess(case, wanted, own)?.abs();
     // On soft springs the force has no root beyond its rounding: between close bounds it is met.
     let is_rounded = high.1 >= 0.0 && high.0 - low.0 <= ROUNDED * high.0;
-    if left <= 1e3 * TOLERANCE * target || is_rounded && left <= 1e2 * ROUNDED * target {
-        return Ok(is_rounded && (own - first).abs() <= ROUNDED * own);
-    }
-    Err(refusal!(case, &wanted.key,
-        "{} = {target}: no interference presses with this force", wanted.key; "not reached";
-        "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way"))
+    let is_met = left.abs() <= 1e3 * TOLERANCE || is_rounded && left.abs() <= MET;
+    if is_met { Ok(()) } else { Err(not_reached(case, wanted)) }
 }
 
-/// The normal force of a contact pushed in so far, less the one that is wanted.
+fn not_reached(case: &Case, wanted: &Wanted) -> CaseErrors {
+    refusal!(case, &wanted.key,
+        "{} = {}: no interference presses with this force", wanted.key, wanted.force; "not reached";
+        "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way")
+}
+
+/// The force of contacts pushed in alike, less that wanted, over that.
 fn excess(case: &mut Case, wanted: &Wanted, interference: f64) -> Result<f64, CaseErrors> {
-    set_interference(case, wanted.contact, interference);
+    wanted.contacts.iter().for_each(|&own| set_interference(case, own, interference));
     let forces = case.normal_forces();
     let forces = forces.map_err(|why| case.error_at(&wanted.key, why, "no base state", None))?;
-    Ok(forces.get(wanted.contact).copied().unwrap_or(0.0) - wanted.force)
+    let own = wanted.contacts.iter().filter_map(|&contact| forces.get(contact));
+    Ok(own.sum::<f64>() / wanted.force - 1.0)
+}
+
+/// The same of several, each pushed in as far as its place says.
+fn excesses(case: &mut Case, wanted: &[Wanted], places: &[f64]) -> Result<Vec<f64>, CaseErrors> {
+    for (own, &place) in wanted.iter().zip(places) {
+        set_interference(case, own.contacts[0], place);
+    }
+    let forces = case.normal_forces();
+    let forces = forces.map_err(|why| case.error_at(&wanted[0].key, why, "no base state", None))?;
+    Ok(wanted.iter().map(|own| forces[own.contacts[0]] / own.force - 1.0).collect())
 }
 
 fn interference_of(case: &Case, contact: usize) -> f64 {
