@@ -49,7 +49,7 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_841),
+    ("crates/case", 10_886),
     ("crates/chart", 4_836),
     ("crates/described", 107),
     ("crates/formats", 6_152),
@@ -64,7 +64,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/mesh", 4_175),
     ("crates/physics/src/order.rs", 34),
     ("crates/physics/src/parallel.rs", 26),
-    ("crates/physics/src/prestress", 4_501),
+    ("crates/physics/src/prestress", 4_503),
     ("crates/physics/src/transient", 4_632),
     ("crates/results", 17_540),
     ("crates/signal", 5_995),

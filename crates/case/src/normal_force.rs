@@ -26,11 +26,11 @@ const MOST_ROUNDS: usize = 60;
 const SMALL_STEP: f64 = 1e-4;
 const LITTLE: f64 = 0.1;
 
-/// Contacts that are pressed with a force.
+/// A contact that is pressed with a force.
 struct Wanted {
     key: String,
-    /// Their places in the body.
-    contacts: Vec<usize>,
+    /// Its place in the body.
+    contact: usize,
     force: f64,
 }
 
@@ -39,73 +39,61 @@ pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
     let sections = case.contact_sections().into_iter().enumerate();
     let found = sections.filter_map(|(contact, (section, _))| {
         let key = format!("{section}.normal_force");
-        Some(Wanted { force: case.number(&key)?, key, contacts: vec![contact] })
+        Some(Wanted { force: case.number(&key)?, key, contact })
     });
     let wanted: Vec<Wanted> = found.collect();
-    match &wanted[..] {
-        [] => return Ok(()),
-        [own] => solve(case, own)?,
-        all => press_together(case, all)?,
+    let places: Vec<f64> = wanted.iter().map(|own| interference_of(case, own.contact)).collect();
+    if wanted.len() > 1 && largest(&excesses(case, &wanted, &places)?) > TOLERANCE {
+        let alike = press_alike(case, &wanted, places[0])?;
+        press_each(case, &wanted, vec![alike; wanted.len()])?;
+    } else if wanted.len() == 1 {
+        press_alike(case, &wanted, places[0])?;
     }
     for own in &wanted {
-        let pushed = interference_of(case, own.contacts[0]);
+        let pushed = interference_of(case, own.contact);
         let told = format!("{} = {}: the counterface is pushed in", own.key, own.force);
         case.taken.notes.push(format!("{told} by {pushed:.6e} m"));
     }
     Ok(())
 }
 
-/// Presses contacts that lean on each other: all of them alike with the sum of their forces, then each by Newton's method, as forces
-/// have straight pieces.
-fn press_together(case: &mut Case, wanted: &[Wanted]) -> Result<(), CaseErrors> {
-    let all = wanted.iter().map(|own| own.contacts[0]);
-    let mut places: Vec<f64> = all.clone().map(|contact| interference_of(case, contact)).collect();
-    let mut left = excesses(case, wanted, &places)?;
-    if largest(&left) > TOLERANCE {
-        let force = wanted.iter().map(|own| own.force).sum();
-        let whole = Wanted { key: wanted[0].key.clone(), contacts: all.clone().collect(), force };
-        solve(case, &whole)?;
-        places = all.map(|contact| interference_of(case, contact)).collect();
-        left = excesses(case, wanted, &places)?;
-    }
-    for _ in 0..MOST_ROUNDS {
-        if largest(&left) <= TOLERANCE {
-            break;
-        }
-        // Slopes of all forces over each interference, by a step that no contact opens at.
-        let count = wanted.len();
+/// Presses contacts that lean on each other, from where all touch, by Newton's method: forces have straight pieces.
+fn press_each(case: &mut Case, wanted: &[Wanted], mut places: Vec<f64>) -> Result<(), CaseErrors> {
+    let (count, mut left) = (wanted.len(), excesses(case, wanted, &places)?);
+    'steps: for _ in 0..MOST_ROUNDS {
+        // Slopes of all forces over each interference, by a step at which no contact opens.
         let mut slopes = DMatrix::zeros(count, count);
         for j in 0..count {
             let mut step = SMALL_STEP * places[j];
-            loop {
+            let mut reach = f64::INFINITY;
+            while reach > LITTLE {
                 let mut moved = places.clone();
                 moved[j] += step;
                 let beside = excesses(case, wanted, &moved)?;
                 let change = DVector::from_fn(count, |i, _| beside[i] - left[i]);
                 slopes.set_column(j, &(&change / step));
-                if !(change.amax() > LITTLE) {
-                    break;
-                }
-                step *= 0.5 * LITTLE / change.amax();
+                reach = change.amax();
+                step *= 0.5 * LITTLE / reach;
             }
         }
         let Some(change) = slopes.lu().solve(&DVector::from_column_slice(&left)) else { break };
         // As much of Newton's step as comes nearer.
-        let mut nearer = None;
-        for halvings in 0..MOST_STEPS {
-            let share = 0.5_f64.powi(halvings as i32);
-            let to = |(place, change): (&f64, &f64)| (place - share * change).max(0.1 * place);
+        for halvings in 0..MOST_STEPS as i32 {
+            let to = |(place, change): (&f64, &f64)| {
+                (place - 0.5_f64.powi(halvings) * change).max(0.1 * place)
+            };
             let next: Vec<f64> = places.iter().zip(change.iter()).map(to).collect();
             let found = excesses(case, wanted, &next)?;
             if largest(&found) < largest(&left) {
-                nearer = Some((next, found));
-                break;
+                (places, left) = (next, found);
+                if largest(&left) <= TOLERANCE {
+                    return Ok(());
+                }
+                continue 'steps;
             }
         }
-        let Some(found) = nearer else { break };
-        (places, left) = found;
+        break;
     }
-    // The case is left at what was found.
     left = excesses(case, wanted, &places)?;
     let missed = wanted.iter().zip(&left).find(|(_, left)| !(left.abs() <= MET));
     missed.map_or(Ok(()), |(own, _)| Err(not_reached(case, own)))
@@ -116,43 +104,42 @@ fn largest(excesses: &[f64]) -> f64 {
     excesses.iter().fold(0.0, |m, own| m.max(own.abs()))
 }
 
-/// Pushes contacts in alike until the sum of their forces is that wanted.
-fn solve(case: &mut Case, wanted: &Wanted) -> Result<(), CaseErrors> {
-    let first = interference_of(case, wanted.contacts[0]);
-    let start = excess(case, wanted, first)?;
-    if start.abs() <= TOLERANCE {
-        return Ok(());
-    }
+/// Pushes contacts in alike, from a first place on, until the sum of their forces is that wanted; how far.
+fn press_alike(case: &mut Case, wanted: &[Wanted], first: f64) -> Result<f64, CaseErrors> {
+    let total: f64 = wanted.iter().map(|own| own.force).sum();
+    let excess = |case: &mut Case, place: f64| {
+        let all = excesses(case, wanted, &vec![place; wanted.len()])?;
+        let sum: f64 = all.iter().zip(wanted).map(|(excess, own)| excess * own.force).sum();
+        Ok(sum / total)
+    };
+    let start = excess(case, first)?;
     // Bounds on either side; without any interference a contact without overlap has no force.
     let (mut low, mut high) = ((0.0, -1.0), (first, start));
     let mut steps = 0..MOST_STEPS;
-    while high.1 < 0.0 && steps.next().is_some() {
+    while high.1 < -TOLERANCE && steps.next().is_some() {
         (low, high.0) = (high, STEP * high.0);
-        high.1 = excess(case, wanted, high.0)?;
+        high.1 = excess(case, high.0)?;
     }
     // The secant meets straight pieces at once; the bound that stays has its weight halved, after the Illinois rule.
-    let (mut side, mut left) = (None, high.1);
-    for _ in 0..MOST_ROUNDS {
+    let (mut side, mut own, mut rounds) = (None, high, 0..MOST_ROUNDS);
+    while own.1.abs() > TOLERANCE && rounds.next().is_some() {
         if high.1 < 0.0 || high.0 - low.0 <= f64::EPSILON * high.0 {
             break;
         }
-        let next = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-        left = excess(case, wanted, next)?;
-        if left.abs() <= TOLERANCE {
-            return Ok(());
-        }
-        let (moved, other) = match left < 0.0 {
+        own.0 = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+        own.1 = excess(case, own.0)?;
+        let (moved, other) = match own.1 < 0.0 {
             true => (&mut low, &mut high),
             false => (&mut high, &mut low),
         };
-        *moved = (next, left);
-        other.1 *= if side == Some(left < 0.0) { 0.5 } else { 1.0 };
-        side = Some(left < 0.0);
+        *moved = own;
+        other.1 *= if side == Some(own.1 < 0.0) { 0.5 } else { 1.0 };
+        side = Some(own.1 < 0.0);
     }
     // On soft springs the force has no root beyond its rounding: between close bounds it is met.
     let is_rounded = high.1 >= 0.0 && high.0 - low.0 <= ROUNDED * high.0;
-    let is_met = left.abs() <= 1e3 * TOLERANCE || is_rounded && left.abs() <= MET;
-    if is_met { Ok(()) } else { Err(not_reached(case, wanted)) }
+    let is_met = own.1.abs() <= 1e3 * TOLERANCE || is_rounded && own.1.abs() <= MET;
+    if is_met { Ok(own.0) } else { Err(not_reached(case, &wanted[0])) }
 }
 
 fn not_reached(case: &Case, wanted: &Wanted) -> CaseErrors {
@@ -161,23 +148,12 @@ fn not_reached(case: &Case, wanted: &Wanted) -> CaseErrors {
         "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way")
 }
 
-/// The force of contacts pushed in alike, less that wanted, over that.
-fn excess(case: &mut Case, wanted: &Wanted, interference: f64) -> Result<f64, CaseErrors> {
-    wanted.contacts.iter().for_each(|&own| set_interference(case, own, interference));
-    let forces = case.normal_forces();
-    let forces = forces.map_err(|why| case.error_at(&wanted.key, why, "no base state", None))?;
-    let own = wanted.contacts.iter().filter_map(|&contact| forces.get(contact));
-    Ok(own.sum::<f64>() / wanted.force - 1.0)
-}
-
-/// The same of several, each pushed in as far as its place says.
+/// The normal forces of contacts, each pushed in as far as its place says, less those wanted, over these.
 fn excesses(case: &mut Case, wanted: &[Wanted], places: &[f64]) -> Result<Vec<f64>, CaseErrors> {
-    for (own, &place) in wanted.iter().zip(places) {
-        set_interference(case, own.contacts[0], place);
-    }
+    wanted.iter().zip(places).for_each(|(own, &place)| set_interference(case, own.contact, place));
     let forces = case.normal_forces();
     let forces = forces.map_err(|why| case.error_at(&wanted[0].key, why, "no base state", None))?;
-    Ok(wanted.iter().map(|own| forces[own.contacts[0]] / own.force - 1.0).collect())
+    Ok(wanted.iter().map(|own| forces[own.contact] / own.force - 1.0).collect())
 }
 
 fn interference_of(case: &Case, contact: usize) -> f64 {

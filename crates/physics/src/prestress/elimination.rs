@@ -162,8 +162,10 @@ impl Elimination {
     fn transposed_product(&self, matrix: &Triplets) -> Triplets {
         let mut product = Triplets { entries: Vec::with_capacity(matrix.entries.len()) };
         for &(row, column, value) in &matrix.entries {
+            // Zeros stay: nonzeros are the same for all values of a parameter.
             if self.is_combined[column] {
-                product.push_product(value, &self.combined[&column], &[(row, 1.0)]);
+                let own = self.combined[&column].iter();
+                own.for_each(|&(dof, share)| product.push(dof, row, share * value));
             } else {
                 product.push(column, row, value);
             }
