@@ -17,8 +17,9 @@ const MOST_CHANGED: f64 = 0.1;
 const MOST_TANGENTS: usize = 60;
 const SETTLED: f64 = 1e-11;
 
-/// Residual of the penetrations, over those without friction.
-const TOLERANCE: f64 = 1e-14;
+/// Residual of the penetrations, over those without friction: as small as rounding lets it become, for polynomials over a short range of
+/// friction magnify it by up to a million.
+const TOLERANCE: f64 = 1e-16;
 
 /// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
 /// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1.
