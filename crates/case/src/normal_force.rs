@@ -6,9 +6,9 @@
 use super::{BodyKind, Case, CaseErrors, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
 use frictionsim_physics::fem::MassKind;
+use frictionsim_physics::linalg::{Bracket, newton_root};
 use frictionsim_physics::mesh::{SolidSector, Strip};
 use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
-use nalgebra::{DMatrix, DVector};
 
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
@@ -16,15 +16,11 @@ const STEP: f64 = 4.0;
 const MOST_STEPS: usize = 15;
 /// Relative difference of forces below which the root is found.
 const TOLERANCE: f64 = 1e-12;
-/// Relative distance of two bounds between which the force of a body on soft springs is rounded.
-const ROUNDED: f64 = 1e-6;
-/// Relative difference of forces that such bodies may leave.
+/// The same that is said, and that rounding may leave of a body on soft springs.
+const FOUND: f64 = 1e-9;
 const MET: f64 = 1e-4;
-/// Evaluations between two bounds, and steps of Newton's method.
+/// Evaluations between two bounds.
 const MOST_ROUNDS: usize = 60;
-/// Step of an interference for slopes, relative to it, and the change of a force, relative to it, that a step may make.
-const SMALL_STEP: f64 = 1e-4;
-const LITTLE: f64 = 0.1;
 
 /// A contact that is pressed with a force.
 struct Wanted {
@@ -34,7 +30,7 @@ struct Wanted {
     force: f64,
 }
 
-/// Pushes every counterface in whose contact has a force, and says how far.
+/// Pushes every counterface in whose contact has a force.
 pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
     let sections = case.contact_sections().into_iter().enumerate();
     let found = sections.filter_map(|(contact, (section, _))| {
@@ -42,110 +38,58 @@ pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
         Some(Wanted { force: case.number(&key)?, key, contact })
     });
     let wanted: Vec<Wanted> = found.collect();
-    let places: Vec<f64> = wanted.iter().map(|own| interference_of(case, own.contact)).collect();
-    if wanted.len() > 1 && largest(&excesses(case, &wanted, &places)?) > TOLERANCE {
-        let alike = press_alike(case, &wanted, places[0])?;
-        press_each(case, &wanted, vec![alike; wanted.len()])?;
-    } else if wanted.len() == 1 {
-        press_alike(case, &wanted, places[0])?;
+    if wanted.is_empty() { Ok(()) } else { solve(case, &wanted) }
+}
+
+/// Pushes contacts in alike until the sum of their forces is reached, then each by Newton's method, and says how far:
+/// they lean on each other, and forces have straight pieces or rise ever faster.
+fn solve(case: &mut Case, wanted: &[Wanted]) -> Result<(), CaseErrors> {
+    let own = |own: &Wanted| interference_of(case, own.contact);
+    let mut places: Vec<f64> = wanted.iter().map(own).collect();
+    let is_met = |left: &[f64]| left.iter().all(|own| own.abs() <= TOLERANCE);
+    if !is_met(&excesses(case, wanted, &places)?) {
+        let near = if wanted.len() == 1 { TOLERANCE } else { MET };
+        let total: f64 = wanted.iter().map(|own| own.force).sum();
+        let mut alike = |place: f64| -> Result<f64, CaseErrors> {
+            let left = excesses(case, wanted, &vec![place; wanted.len()])?;
+            Ok(left.iter().zip(wanted).map(|(left, own)| left * own.force).sum::<f64>() / total)
+        };
+        // Without any interference contacts without overlap have no force.
+        let (mut low, mut own) = ((0.0, -1.0), (places[0], alike(places[0])?));
+        let mut growths = 0..MOST_STEPS;
+        while own.1 < -near && growths.next().is_some() {
+            (low, own.0) = (own, STEP * own.0);
+            own.1 = alike(own.0)?;
+        }
+        let is_within = own.1 >= -near;
+        let (mut bracket, mut rounds) = (Bracket::new([low, own]), 0..MOST_ROUNDS);
+        let is_open =
+            |own: (f64, f64), width: f64| own.1.abs() > near && width > f64::EPSILON * own.0;
+        while is_within && is_open(own, bracket.width()) && rounds.next().is_some() {
+            own = bracket.narrow(&mut alike)?;
+        }
+        places.fill(own.0);
+        if is_within {
+            let each = |places: &[f64]| excesses(case, wanted, places);
+            places = newton_root(places, [TOLERANCE, MET], each)?;
+        }
     }
-    for own in &wanted {
-        let pushed = interference_of(case, own.contact);
+    let left = excesses(case, wanted, &places)?;
+    for ((own, left), pushed) in wanted.iter().zip(&left).zip(&places) {
+        if !(left.abs() <= MET) {
+            return Err(refusal!(case, &own.key,
+                "{} = {}: no interference presses with this force", own.key, own.force; "not reached";
+                "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way"));
+        }
         let told = format!("{} = {}: the counterface is pushed in", own.key, own.force);
-        case.taken.notes.push(format!("{told} by {pushed:.6e} m"));
+        // On soft springs a force is rounded.
+        let rounded = match left.abs() > FOUND {
+            true => format!("; rounding moves the force by {:.0e} of it", left.abs()),
+            false => String::new(),
+        };
+        case.taken.notes.push(format!("{told} by {pushed:.6e} m{rounded}"));
     }
     Ok(())
-}
-
-/// Presses contacts that lean on each other, from where all touch, by Newton's method: forces have straight pieces.
-fn press_each(case: &mut Case, wanted: &[Wanted], mut places: Vec<f64>) -> Result<(), CaseErrors> {
-    let (count, mut left) = (wanted.len(), excesses(case, wanted, &places)?);
-    'steps: for _ in 0..MOST_ROUNDS {
-        // Slopes of all forces over each interference, by a step at which no contact opens.
-        let mut slopes = DMatrix::zeros(count, count);
-        for j in 0..count {
-            let mut step = SMALL_STEP * places[j];
-            let mut reach = f64::INFINITY;
-            while reach > LITTLE {
-                let mut moved = places.clone();
-                moved[j] += step;
-                let beside = excesses(case, wanted, &moved)?;
-                let change = DVector::from_fn(count, |i, _| beside[i] - left[i]);
-                slopes.set_column(j, &(&change / step));
-                reach = change.amax();
-                step *= 0.5 * LITTLE / reach;
-            }
-        }
-        let Some(change) = slopes.lu().solve(&DVector::from_column_slice(&left)) else { break };
-        // As much of Newton's step as comes nearer.
-        for halvings in 0..MOST_STEPS as i32 {
-            let to = |(place, change): (&f64, &f64)| {
-                (place - 0.5_f64.powi(halvings) * change).max(0.1 * place)
-            };
-            let next: Vec<f64> = places.iter().zip(change.iter()).map(to).collect();
-            let found = excesses(case, wanted, &next)?;
-            if largest(&found) < largest(&left) {
-                (places, left) = (next, found);
-                if largest(&left) <= TOLERANCE {
-                    return Ok(());
-                }
-                continue 'steps;
-            }
-        }
-        break;
-    }
-    left = excesses(case, wanted, &places)?;
-    let missed = wanted.iter().zip(&left).find(|(_, left)| !(left.abs() <= MET));
-    missed.map_or(Ok(()), |(own, _)| Err(not_reached(case, own)))
-}
-
-/// The largest of some excesses.
-fn largest(excesses: &[f64]) -> f64 {
-    excesses.iter().fold(0.0, |m, own| m.max(own.abs()))
-}
-
-/// Pushes contacts in alike, from a first place on, until the sum of their forces is that wanted; how far.
-fn press_alike(case: &mut Case, wanted: &[Wanted], first: f64) -> Result<f64, CaseErrors> {
-    let total: f64 = wanted.iter().map(|own| own.force).sum();
-    let excess = |case: &mut Case, place: f64| {
-        let all = excesses(case, wanted, &vec![place; wanted.len()])?;
-        let sum: f64 = all.iter().zip(wanted).map(|(excess, own)| excess * own.force).sum();
-        Ok(sum / total)
-    };
-    let start = excess(case, first)?;
-    // Bounds on either side; without any interference a contact without overlap has no force.
-    let (mut low, mut high) = ((0.0, -1.0), (first, start));
-    let mut steps = 0..MOST_STEPS;
-    while high.1 < -TOLERANCE && steps.next().is_some() {
-        (low, high.0) = (high, STEP * high.0);
-        high.1 = excess(case, high.0)?;
-    }
-    // The secant meets straight pieces at once; the bound that stays has its weight halved, after the Illinois rule.
-    let (mut side, mut own, mut rounds) = (None, high, 0..MOST_ROUNDS);
-    while own.1.abs() > TOLERANCE && rounds.next().is_some() {
-        if high.1 < 0.0 || high.0 - low.0 <= f64::EPSILON * high.0 {
-            break;
-        }
-        own.0 = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-        own.1 = excess(case, own.0)?;
-        let (moved, other) = match own.1 < 0.0 {
-            true => (&mut low, &mut high),
-            false => (&mut high, &mut low),
-        };
-        *moved = own;
-        other.1 *= if side == Some(own.1 < 0.0) { 0.5 } else { 1.0 };
-        side = Some(own.1 < 0.0);
-    }
-    // On soft springs the force has no root beyond its rounding: between close bounds it is met.
-    let is_rounded = high.1 >= 0.0 && high.0 - low.0 <= ROUNDED * high.0;
-    let is_met = own.1.abs() <= 1e3 * TOLERANCE || is_rounded && own.1.abs() <= MET;
-    if is_met { Ok(own.0) } else { Err(not_reached(case, &wanted[0])) }
-}
-
-fn not_reached(case: &Case, wanted: &Wanted) -> CaseErrors {
-    refusal!(case, &wanted.key,
-        "{} = {}: no interference presses with this force", wanted.key, wanted.force; "not reached";
-        "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way")
 }
 
 /// The normal forces of contacts, each pushed in as far as its place says, less those wanted, over these.

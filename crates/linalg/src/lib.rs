@@ -3,6 +3,7 @@
 //! The only crate that calls faer: its algorithms are compiled here once, for every crate above.
 
 pub mod banded;
+mod bracket;
 mod contour;
 pub mod dense;
 pub mod dense_eigen;
@@ -15,6 +16,7 @@ pub mod gram;
 pub mod interruption;
 mod krylov_schur;
 mod linear_family;
+mod newton;
 mod pattern;
 mod polynomial;
 mod real_factors;
@@ -28,6 +30,7 @@ pub mod vectors;
 pub use faer::traits::ComplexField;
 pub use faer::{Mat, MatMut, MatRef, Scale, c64};
 
+pub use bracket::Bracket;
 pub use contour::{Uncounted, ZeroCount, count_zeros};
 pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use distribution::Distribution;
@@ -35,6 +38,7 @@ pub use error::LinalgError;
 pub use gaussian_noise::GaussianNoise;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_schur};
 pub use linear_family::LinearFamily;
+pub use newton::newton_root;
 pub use pattern::SparsityPattern;
 pub use polynomial::{FrictionWeights, MatrixPolynomial};
 pub use real_factors::RealFactors;

@@ -3,6 +3,7 @@
 use super::PrestressError;
 use super::pressed_range::{CHANGE_WIDTH, PressedRange};
 use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, polynomial_state};
+use crate::linalg::Bracket;
 
 /// Sets of pressed points that are tried at one friction coefficient before the state is called missing.
 const MAX_SETS: usize = 200;
@@ -148,42 +149,24 @@ fn bound(state: &ContactState) -> f64 {
 }
 
 /// The friction coefficient up to which the set at `inside` holds on the way to `outside`, which may be smaller: the root of the largest
-/// violation, by regula falsi in the Illinois form (Dowell and Jarratt 1971) with a bisection at every third step, as the violation has
-/// kinks; `outside` where it holds all the way.
+/// violation; `outside` where it holds all the way.
 fn end_between(
     bodies: &mut impl PressedBodies,
     set: &[bool],
-    [mut inside, mut outside]: [f64; 2],
+    [inside, outside]: [f64; 2],
 ) -> Result<f64, PrestressError> {
     let mut violation = |friction: f64| -> Result<f64, PrestressError> {
         let state = bodies.state_of(friction, set)?;
         let largest = excesses(bodies, &state, set).into_iter().fold(f64::NEG_INFINITY, f64::max);
         Ok(largest - bound(&state))
     };
-    let (mut at_inside, mut at_outside) = (violation(inside)?, violation(outside)?);
+    let [at_inside, at_outside] = [violation(inside)?, violation(outside)?];
     if at_outside <= 0.0 {
         return Ok(outside);
     }
-    let mut was_inside = None;
-    for step in 1.. {
-        if (outside - inside).abs() <= CHANGE_WIDTH {
-            break;
-        }
-        let secant = (inside * at_outside - outside * at_inside) / (at_outside - at_inside);
-        let is_between = (secant - inside) * (secant - outside) < 0.0;
-        let middle = if is_between && step % 3 != 0 { secant } else { 0.5 * (inside + outside) };
-        let at_middle = violation(middle)?;
-        let holds = at_middle <= 0.0;
-        // An end that stays twice counts half.
-        let stays = if was_inside == Some(holds) { 0.5 } else { 1.0 };
-        if holds {
-            (inside, at_inside) = (middle, at_middle);
-            at_outside *= stays;
-        } else {
-            (outside, at_outside) = (middle, at_middle);
-            at_inside *= stays;
-        }
-        was_inside = Some(holds);
+    let mut bracket = Bracket::new([(inside, at_inside), (outside, at_outside)]);
+    while bracket.width() > CHANGE_WIDTH {
+        bracket.narrow(&mut violation)?;
     }
-    Ok(0.5 * (inside + outside))
+    Ok(bracket.middle())
 }

@@ -1,5 +1,6 @@
 //! Where along a parameter steady sliding loses its stability.
 
+use frictionsim_physics::linalg::Bracket;
 use frictionsim_results::sorted;
 
 /// Share of the interval that an onset is known to.
@@ -29,30 +30,15 @@ pub(super) fn critical(
     mut growth: impl FnMut(f64) -> Option<f64>,
     [stable, growing]: [f64; 2],
 ) -> Option<f64> {
-    let (mut low, mut high) = ((stable, growth(stable)?), (growing, growth(growing)?));
-    if low.1 > 0.0 || high.1 <= 0.0 {
+    let [decay, rise] = [growth(stable)?, growth(growing)?];
+    if decay > 0.0 || rise <= 0.0 {
         return None;
     }
-    let width = (growing - stable).abs();
-    let (mut was_stable, mut turn) = (None, 0);
-    while (high.0 - low.0).abs() > NEAR * width {
-        turn += 1;
-        // Where growth has a kink the secant stays at one end: every third turn halves.
-        let share = match turn % 3 {
-            0 => 0.5,
-            _ => (low.1 / (low.1 - high.1)).clamp(0.001, 0.999),
-        };
-        let next = low.0 + (high.0 - low.0) * share;
-        let rate = growth(next)?;
-        // Illinois: the end that stays gives way.
-        let is_stable = rate <= 0.0;
-        let (moved, kept) = if is_stable { (&mut low, &mut high) } else { (&mut high, &mut low) };
-        *moved = (next, rate);
-        if was_stable.replace(is_stable) == Some(is_stable) {
-            kept.1 *= 0.5;
-        }
+    let mut bracket = Bracket::new([(stable, decay), (growing, rise)]);
+    while bracket.width() > NEAR * (growing - stable).abs() {
+        bracket.narrow(|value| growth(value).ok_or(())).ok()?;
     }
-    Some(0.5 * (low.0 + high.0))
+    Some(bracket.middle())
 }
 
 #[cfg(test)]

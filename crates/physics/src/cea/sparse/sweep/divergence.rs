@@ -5,7 +5,7 @@ use crate::cea::sparse::SETTLED;
 use crate::cea::sparse::branches::{BranchEnd, TrackedBranch};
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::{CeaError, UnstableInterval};
-use crate::linalg::c64;
+use crate::linalg::{Bracket, c64};
 
 impl SparseSweep<'_> {
     /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
@@ -57,12 +57,11 @@ impl SparseSweep<'_> {
         self.sign_change((low, self.ln_static(low)?), places)
     }
 
-    /// Where `det K` changes its sign between a friction coefficient, of known `ln det K`, and the first place of another sign: by false
-    /// position with the Illinois rule.
+    /// Where `det K` changes its sign between a friction coefficient, of known `ln det K`, and the first place of another sign.
     fn sign_change(&self, from: (f64, c64), places: &[f64]) -> Result<Option<f64>, CeaError> {
         let ((mut low, ln), mut places) = (from, places.iter());
         let (size, mut before) = (ln.re, ln.im.cos());
-        let (mut high, mut after) = loop {
+        let (high, after) = loop {
             let Some(&high) = places.next() else { return Ok(None) };
             let after = self.static_determinant(high, size)?;
             if before * after < 0.0 {
@@ -70,18 +69,11 @@ impl SparseSweep<'_> {
             }
             (low, before) = (high, after);
         };
-        while high - low > SETTLED * (1.0 + high) {
-            // Values far apart in size would keep the secant at one end.
-            let t = (before / (before - after)).clamp(0.05, 0.95);
-            let middle = low + t * (high - low);
-            let value = self.static_determinant(middle, size)?;
-            if value * before > 0.0 {
-                (low, before, after) = (middle, value, 0.5 * after);
-            } else {
-                (high, after, before) = (middle, value, 0.5 * before);
-            }
+        let mut bracket = Bracket::new([(low, before), (high, after)]);
+        while bracket.width() > SETTLED * (1.0 + high) {
+            bracket.narrow(|mu| self.static_determinant(mu, size))?;
         }
-        Ok(Some(0.5 * (low + high)))
+        Ok(Some(bracket.middle()))
     }
 
     /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
