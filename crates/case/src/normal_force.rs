@@ -79,7 +79,7 @@ fn solve(case: &mut Case, wanted: &[Wanted]) -> Result<(), CaseErrors> {
         if !(left.abs() <= MET) {
             return Err(refusal!(case, &own.key,
                 "{} = {}: no interference presses with this force", own.key, own.force; "not reached";
-                "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way"));
+                "a surface that overlaps the counterface in the mesh presses already, one that nothing holds moves"));
         }
         let told = format!("{} = {}: the counterface is pushed in", own.key, own.force);
         // On soft springs a force is rounded.
