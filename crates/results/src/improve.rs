@@ -1,10 +1,9 @@
 //! Results of `improve`: where a modification silences unstable modes, what it is predicted to do, and what it does.
 
 use crate::charts::{Disc, SolidView};
-use crate::drawing::{Declaration, declared};
+use crate::drawing::Declaration;
 use crate::keys::keys;
-use crate::vtu::{EncodedMesh, Field, write_vtu};
-use crate::{Extent, FolderError, OutputFolder, sorted};
+use crate::{EncodedMesh, Extent, Field, FolderError, OutputFolder, declared, sorted, write_vtu};
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Marker, Points, Side};
 use frictionsim_output::{Column, Document, Format, Section, Table, columns, parted, significant};
 use frictionsim_physics::mesh::Mesh;

@@ -1,15 +1,5 @@
 //! Search of a case for the basin boundary of two waves, or of two modes of a body without symmetry.
-//!
-//! ```no_run
-//! use frictionsim::case::Case;
-//! use frictionsim::fem::operator::SimdLevel;
-//! use frictionsim::study::basin::boundary;
-//!
-//! let case = Case::parse("disc", &std::fs::read("cases/basin.toml")?, &[])?;
-//! let found = boundary(&case, SimdLevel::detect())?;
-//! println!("the second wave wins above {:?}, the first below {:?}", found.high, found.low);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! `cargo run --example studies` runs one.
 
 use super::StudyError;
 use super::cycle::{boundary_of_modes, disc_model, operating_point};

@@ -12,7 +12,6 @@ mod prestress;
 mod reading;
 mod sensitivity;
 mod shape;
-mod solid;
 mod summary;
 mod tables;
 

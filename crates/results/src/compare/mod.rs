@@ -5,8 +5,8 @@ mod figures;
 pub use figures::overlaid;
 
 use super::sweep::{cell, join};
-use super::{Manifest, Page, distinct, sorted};
 use crate::keys::keys;
+use crate::{Manifest, Page, distinct, sorted};
 use frictionsim_output::{Cell, Document, Format, Section, Table, columns, unit_of};
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
 
 use super::record::CycleMotion;
-use crate::extent::Extent;
+use crate::Extent;
 use crate::keys::keys;
 use crate::summary::MeanPowers;
 use frictionsim_chart::extremes;

@@ -5,7 +5,7 @@ use super::name::{CycleName, ModeSummary, OnsetSummary};
 use super::record::{CycleMotion, Exponent, ShownCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
-use crate::extent::Extent;
+use crate::Extent;
 use crate::keys::keys;
 use crate::summary::CriticalValue;
 use frictionsim_output::Described;

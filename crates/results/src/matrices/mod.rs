@@ -8,7 +8,7 @@ use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
 use super::keys::keys;
 use super::npz::NpzArchive;
-use super::summary::{Head, object};
+use super::{Head, object};
 use frictionsim_output::{Described, Entry, columns, significant, write_rows};
 use frictionsim_physics::linalg::MarketMatrix;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! The picture of an operating matrix: the frequency of every unstable mode over the operating conditions.
 
 use super::PointRecord;
-use super::matrix::{Condition, OperatingMatrix};
+use super::report::{Condition, OperatingMatrix};
 use super::swept::{printed, swept_text};
 use crate::distinct;
 use crate::parameter::{in_unit, parameter_name, shared_unit};

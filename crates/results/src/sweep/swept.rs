@@ -6,6 +6,10 @@ use crate::grouped;
 use frictionsim_output::{Format, Table, rounded};
 use serde_json::{Map, Value};
 
+/// Keys over which figures are drawn first.
+pub(crate) const SPEED: &str = "contact.rotation_speed_rpm";
+pub(crate) const FRICTION: &str = "contact.friction_coefficient";
+
 /// A value as people read it: numbers to five significant digits.
 pub(crate) fn printed(value: &Value) -> String {
     match value.as_f64() {

@@ -1,7 +1,7 @@
 //! `summary.json` of a transient.
 
 use super::RecordedRun;
-use crate::extent::Extent;
+use crate::Extent;
 use crate::keys::keys;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;

@@ -5,10 +5,9 @@ mod faces;
 mod steady;
 
 use super::super::transient::SteppedMesh;
-use super::super::{StudyError, extent_of};
-use super::critical::{candidates, critical};
-use super::families::continuation;
+use super::families::{candidates, continuation, critical};
 use super::operating_point;
+use crate::{StudyError, extent_of};
 pub use basin::boundary_of_modes;
 use frictionsim_case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use frictionsim_physics::cea::{ComplexMode, PartWatch, SweepWatch};

@@ -1,8 +1,7 @@
 //! What there is to improve: the unstable modes of a case with their left and right vectors.
 
-use super::super::StudyError;
 use crate::eigenvalues::WholeMesh;
-use crate::tangent_options;
+use crate::{StudyError, tangent_options};
 use frictionsim_case::{Case, CaseErrors, Cea, refusal};
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
 use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, Unwatched};

@@ -17,7 +17,6 @@ mod base;
 mod confirm;
 mod fields;
 mod modal;
-mod places;
 mod shown;
 mod trial;
 
@@ -35,11 +34,10 @@ use frictionsim_results::improve::{Candidate, ImproveSummary, Improvement, Sizes
 use frictionsim_results::sorted;
 use modal::{Change, ModalModel};
 use nalgebra::DMatrix;
-use places::Places;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use trial::{Search, Target, Trial};
+use trial::{Places, Search, Target, Trial};
 
 /// Removals that are looked at closely, for each one that is listed.
 const SHORTLISTED: usize = 2;
