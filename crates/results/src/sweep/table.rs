@@ -256,8 +256,7 @@ fn long<S: DeserializeOwned, T>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
-    use serde_json::{Map, Value, json};
+    use serde_json::{Map, json};
 
     fn record(point: usize, summary: Value) -> PointRecord {
         let object = |value: Value| value.as_object().cloned().unwrap_or_default();
@@ -339,7 +338,7 @@ mod tests {
         );
     }
 
-    fn record(point: usize, radius: f64, analysis: &str, summary: Value) -> PointRecord {
+    fn long_record(point: usize, radius: f64, analysis: &str, summary: Value) -> PointRecord {
         PointRecord {
             point,
             swept: Map::from_iter([("geometry.inner_radius".to_owned(), json!(radius))]),
@@ -364,7 +363,7 @@ mod tests {
         };
         let first = json!({ "critical_frictions": [onset(1, 1, 0.12), onset(2, 0, 0.14)] });
         let second = json!({ "critical_frictions": [onset(2, 0, 0.11)] });
-        let records = [record(1, 0.02, "cea", first), record(2, 0.03, "cea", second)];
+        let records = [long_record(1, 0.02, "cea", first), long_record(2, 0.03, "cea", second)];
         assert_eq!(
             written("stability.csv", &records),
             "geometry.inner_radius,harmonic,branch,direction,critical_friction,frequency_hz,\
@@ -395,7 +394,7 @@ mod tests {
             branch: Some(branch.clone()),
         };
         let summary = json!({ "curves": [family(2, 1, None), family(0, 0, Some(4))] });
-        let text = written("branches.csv", &[record(1, 0.02, "cycle", summary)]);
+        let text = written("branches.csv", &[long_record(1, 0.02, "cycle", summary)]);
         let rows: Vec<&str> = text.lines().skip(1).collect();
         let key = "contact.rotation_speed_rpm";
         assert_eq!(
