@@ -98,8 +98,7 @@ keys! {
         position_m: [f64; 3] = "where it is, m; the way of the hole for an offset";
         direction: Option<[f64; 3]> = "direction of a spring or dashpot";
         added_mass_kg: f64 = "mass that it adds, kg; negative where material is taken away";
-        first_order_growth_rate_per_s: Option<f64>
-            = "largest growth rate of the targets to first order, 1/s";
+        first_order_growth_rate_per_s: Option<f64> = "largest growth rate of the targets to first order, 1/s";
         predicted: State = "what is predicted from all listed modes together";
         confirmed: Option<State> = "what the modified case does";
         verdict: String = "what that comes to, in words";

@@ -32,7 +32,7 @@ mod universal;
 mod vtu;
 
 use distinct::{distinct, grouped};
-use store::{folder, framed, manifest, record, reopening, whole_file};
+use store::{folder, framed, manifest, record, reopening};
 
 pub use distinct::{number_ranges, sorted};
 pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, declared};

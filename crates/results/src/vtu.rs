@@ -1,5 +1,5 @@
-//! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed, and collections of them by
-//! time.
+//! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed, and collections of them
+//! by time.
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;

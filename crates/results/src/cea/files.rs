@@ -1,7 +1,6 @@
 //! Fields of the base state, of the feed and of mode shapes.
 
-use super::shape::ModeShape;
-use super::shape::size;
+use super::shape::{ModeShape, size};
 use super::{BaseField, CeaReport, feed};
 use crate::folder::{FolderError, OutputFolder};
 use crate::{

@@ -12,8 +12,7 @@ keys! {
         frequency_hz: f64 = "frequency of the mode";
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
         branch: usize = "rank within the harmonic, else among all, from 1";
-        direction: Option<i8>
-            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        direction: Option<i8> = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
     }
 }
 

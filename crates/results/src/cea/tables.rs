@@ -2,8 +2,10 @@
 
 use super::branches::{branch_of, sentences};
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
-use super::{BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution};
-use super::{direction_name, feed};
+use super::{
+    BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution, direction_name,
+    feed,
+};
 use frictionsim_output::{Document, Format, Section, Table, columns, fixed};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
 use std::f64::consts::TAU;

@@ -25,8 +25,7 @@ pub struct ComparedRun {
 keys! {
     /// A number that every run has.
     SharedQuantity {
-        path: String
-            = "dotted path in the summaries; entries of lists are named by what they are of";
+        path: String = "dotted path in the summaries; entries of lists are named by what they are of";
         values: Vec<Value> = "its value in each run: a number, or whether something is so";
     }
 

@@ -3,8 +3,9 @@
 use super::branch::{
     BranchRow, BranchSummary, ModeOfChange, MotionBranch, StabilityChangeSummary, WaveBranch,
 };
-use super::name::{CycleName, ModeOfCycle, WaveOfCycle};
-use super::record::{ContactNode, CycleMotion, Exponent, SteppedMotion};
+use super::record::{
+    ContactNode, CycleMotion, CycleName, Exponent, ModeOfCycle, SteppedMotion, WaveOfCycle,
+};
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
 use crate::ShownBody;

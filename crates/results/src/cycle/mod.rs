@@ -5,7 +5,6 @@ mod branches;
 mod fields;
 mod figures;
 mod found;
-mod name;
 mod record;
 mod summary;
 mod tables;
@@ -19,8 +18,9 @@ pub use branch::{
 };
 pub use branches::draw_branches;
 pub use found::{Absence, CycleResult, FoundCycle, FoundWave, MotionBody, PeriodicResult};
-pub use name::*;
-pub use record::{CycleMotion, SteppedMotion};
+pub use record::{
+    CycleMotion, CycleName, ModeOfCycle, ModeSummary, OnsetSummary, SteppedMotion, WaveOfCycle,
+};
 pub use summary::*;
 pub use two_waves::{TwoWaveRow, TwoWaveSummary};
 pub use verdicts::*;

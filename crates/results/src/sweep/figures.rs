@@ -3,7 +3,7 @@
 use super::matrix_figure::operating_matrix;
 use super::record::{PointRecord, listed};
 use super::report::{TWO_FREQUENCY, UNSETTLED};
-use super::swept::{FRICTION, SPEED, by_other_keys, printed};
+use super::table::{FRICTION, SPEED, by_other_keys, printed};
 use crate::basin::basin_map;
 use crate::cea::{CriticalFriction, arrow};
 use crate::charts::ModeLine;

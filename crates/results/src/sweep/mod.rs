@@ -5,15 +5,12 @@ mod folder;
 mod matrix_figure;
 mod record;
 mod report;
-mod swept;
 mod table;
 
 pub use figures::draw_sweep;
 pub use folder::{Claim, Found, Start, SweepFolder};
 pub use record::{PointClock, PointRecord};
 pub use report::{FailedPoint, SweepReport, SweepSummary, document};
-pub use swept::swept_text;
-pub use table::tables;
+pub use table::{swept_text, tables};
 
-pub(super) use swept::{FRICTION, SPEED, by_other_keys};
-pub(super) use table::{BRANCHES, cell, join};
+pub(super) use table::{BRANCHES, FRICTION, SPEED, by_other_keys, cell, join};

@@ -2,8 +2,7 @@
 //! which conditions.
 
 use super::record::{PointRecord, listed};
-use super::swept::{heads, of_points, swept_text};
-use super::table::cell;
+use super::table::{cell, heads, of_points, swept_text};
 use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
 use crate::keys::keys;
 use crate::{grouped, number_ranges};
@@ -187,7 +186,7 @@ fn ending_in(records: &[PointRecord], end: &str) -> Vec<usize> {
 /// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.
 pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
     let SweepReport { records, summary, .. } = report;
-    let matrix = OperatingMatrix::of(records);
+    let conditions = conditions(records);
     let errors = summary.errors();
     let errors =
         errors.iter().map(|(error, points)| format!("failed: {}: {error}", number_ranges(points)));
@@ -198,12 +197,12 @@ pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
     let rate = rate.map(|rate| ("points per core-hour", format!("{rate:.0}")));
     let results = Section::new("Results")
         .text([format!("{} at each point.", summary.analyses.join(" and "))])
-        .text(matrix.sentence())
+        .text(squeal_sentence(&conditions))
         .text(errors)
         .text(missing)
         .facts(ranges(report))
         .facts(rate);
-    let modes = Some(matrix.table(&summary.swept)).filter(|_| is_page);
+    let modes = Some(modes_table(&conditions, &summary.swept)).filter(|_| is_page);
     let points = Some(points_table(report)).filter(|_| is_page || records.len() <= MOST_ROWS);
     Document::new("Study")
         .titled(report.title)
@@ -263,74 +262,62 @@ pub struct Condition<'a> {
     pub unstable: Vec<UnstableMode>,
 }
 
-/// Every condition of a study.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OperatingMatrix<'a> {
-    /// In the order of the points, friction rising within each.
-    pub conditions: Vec<Condition<'a>>,
+/// The conditions of the points that have an eigenvalue analysis, in their order, friction rising within each.
+pub(super) fn conditions<'a>(records: &'a [PointRecord]) -> Vec<Condition<'a>> {
+    let of_point = |(record, summary): (&'a PointRecord, &Value)| {
+        let modes = listed::<UnstableMode>(summary.get("unstable_modes"));
+        let counts = listed::<UnstableCount>(summary.get("unstable_counts")).into_iter();
+        counts.map(move |UnstableCount { friction_coefficient, .. }| {
+            let own = modes.iter().filter(|m| m.friction_coefficient == friction_coefficient);
+            let (unstable, swept) = (own.copied().collect(), &record.swept);
+            Condition { point: record.point, swept, friction_coefficient, unstable }
+        })
+    };
+    let solved = records.iter().filter_map(|own| Some((own, own.summaries.get("cea")?)));
+    solved.flat_map(of_point).collect()
 }
 
-impl<'a> OperatingMatrix<'a> {
-    /// The conditions of the points that have an eigenvalue analysis.
-    pub fn of(records: &'a [PointRecord]) -> Self {
-        let of_point = |(record, summary): (&'a PointRecord, &Value)| {
-            let modes = listed::<UnstableMode>(summary.get("unstable_modes"));
-            let counts = listed::<UnstableCount>(summary.get("unstable_counts")).into_iter();
-            counts.map(move |UnstableCount { friction_coefficient, .. }| {
-                let own = modes.iter().filter(|m| m.friction_coefficient == friction_coefficient);
-                let (unstable, swept) = (own.copied().collect(), &record.swept);
-                Condition { point: record.point, swept, friction_coefficient, unstable }
-            })
-        };
-        let solved = records.iter().filter_map(|own| Some((own, own.summaries.get("cea")?)));
-        Self { conditions: solved.flat_map(of_point).collect() }
-    }
+/// Every unstable mode with its condition.
+pub(super) fn unstable<'a>(
+    conditions: &'a [Condition<'_>],
+) -> impl Iterator<Item = (&'a Condition<'a>, &'a UnstableMode)> {
+    conditions.iter().flat_map(|own| own.unstable.iter().map(move |mode| (own, mode)))
+}
 
-    /// How many conditions squeal, and the one whose mode grows fastest; nothing without a condition.
-    pub fn sentence(&self) -> Option<String> {
-        if self.conditions.is_empty() {
-            return None;
-        }
-        let squealing = self.conditions.iter().filter(|c| !c.unstable.is_empty());
-        let points: BTreeSet<usize> = self.conditions.iter().map(|c| c.point).collect();
-        let mut text = format!(
-            "{} of {} operating conditions ({} points) have unstable modes",
-            squealing.count(),
-            self.conditions.len(),
-            points.len(),
+/// How many conditions squeal, and the one whose mode grows fastest; nothing without a condition.
+fn squeal_sentence(conditions: &[Condition<'_>]) -> Option<String> {
+    let squealing = conditions.iter().filter(|c| !c.unstable.is_empty()).count();
+    let points: BTreeSet<usize> = conditions.iter().map(|c| c.point).collect();
+    let mut text = format!(
+        "{squealing} of {} operating conditions ({} points) have unstable modes",
+        conditions.len(),
+        points.len(),
+    );
+    let rate = |own: &(&Condition<'_>, &UnstableMode)| own.1.growth_rate_per_s;
+    let fastest = unstable(conditions).max_by(|a, b| rate(a).total_cmp(&rate(b)));
+    if let Some((condition, mode)) = fastest {
+        text += &format!(
+            "; the fastest, {} Hz, grows by {} 1/s at friction {} of the eigenvalue analysis, point {} ({})",
+            fixed(mode.frequency_hz, 1),
+            fixed(mode.growth_rate_per_s, 1),
+            condition.friction_coefficient,
+            condition.point,
+            swept_text(condition.swept),
         );
-        let modes = self.modes();
-        let fastest = modes.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
-        if let Some((condition, mode)) = fastest {
-            text += &format!(
-                "; the fastest, {} Hz, grows by {} 1/s at friction {} of the eigenvalue analysis, point {} ({})",
-                fixed(mode.frequency_hz, 1),
-                fixed(mode.growth_rate_per_s, 1),
-                condition.friction_coefficient,
-                condition.point,
-                swept_text(condition.swept),
-            );
-        }
-        Some(text)
     }
+    (!conditions.is_empty()).then_some(text)
+}
 
-    /// Every unstable mode with its condition.
-    fn modes(&self) -> impl Iterator<Item = (&Condition<'a>, &UnstableMode)> {
-        self.conditions.iter().flat_map(|own| own.unstable.iter().map(move |mode| (own, mode)))
-    }
-
-    /// The unstable modes as a table.
-    fn table(&self, keys: &[String]) -> Table {
-        let count = self.modes().count();
-        let caption = if count > MOST_MODES {
-            format!("The first {MOST_MODES} of {count} unstable modes (all: unstable_modes.csv)")
-        } else {
-            "Unstable modes under every operating condition (unstable_modes.csv)".to_owned()
-        };
-        let shown: Vec<_> = self.modes().take(MOST_MODES).collect();
-        let points = shown.iter().map(|own| (own.0.point, own.0.swept));
-        of_points(caption, keys, points).columns(UNSTABLE, shown.iter().map(|own| own.1))
-    }
+/// The unstable modes as a table.
+fn modes_table(conditions: &[Condition<'_>], keys: &[String]) -> Table {
+    let all = unstable(conditions).count();
+    let caption = match all > MOST_MODES {
+        true => format!("The first {MOST_MODES} of {all} unstable modes (all: unstable_modes.csv)"),
+        false => "Unstable modes under every operating condition (unstable_modes.csv)".to_owned(),
+    };
+    let shown: Vec<_> = unstable(conditions).take(MOST_MODES).collect();
+    let points = shown.iter().map(|own| (own.0.point, own.0.swept));
+    of_points(caption, keys, points).columns(UNSTABLE, shown.iter().map(|own| own.1))
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! Limit cycles that a case asks for, the parameter over which they are followed, and where along it steady sliding loses
-//! its stability.
+//! Limit cycles that a case asks for, the parameter over which they are followed, and where along it steady sliding
+//! loses its stability.
 
 use super::operating_point;
 use crate::StudyError;

@@ -6,7 +6,8 @@ mod periodic;
 mod two_waves;
 
 pub use families::disc_model;
-pub use periodic::{PeriodicStudy, boundary_of_modes};
+pub use periodic::PeriodicStudy;
+pub(crate) use periodic::{Steady, longest_step};
 
 use crate::eigenvalues::asked_modes;
 use crate::{StudyError, extent_of};

@@ -18,7 +18,6 @@ mod estimate;
 mod free_part;
 mod levenberg_marquardt;
 mod matching;
-mod shapes;
 
 pub use case::{fit_case, refuse_too_few};
 pub use estimate::fit;

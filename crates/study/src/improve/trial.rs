@@ -1,12 +1,14 @@
-//! Candidates: where a body may be modified, which is not at its contacts, nor where the case forbids it, nor where nothing
-//! moves; and where a modification of the size allowed helps most, to first order.
+//! Candidates: where a body may be modified, which is not at its contacts, nor where the case forbids it, nor where
+//! nothing moves; where a modification of the size allowed helps most, to first order; and the derivatives as fields
+//! over the mesh.
 
-use super::base::Base;
+use super::base::{Base, target_modes};
 use super::fields::Derivatives;
 use frictionsim_case::{CaseErrors, ModificationKind, refusal};
+use frictionsim_physics::fem::element::ElementGeometry;
 use frictionsim_physics::linalg::c64;
 use frictionsim_physics::mesh::{Counterface, Mesh};
-use frictionsim_results::improve::Sizes;
+use frictionsim_results::improve::{Sizes, TargetFields, TargetMode};
 use frictionsim_results::sorted;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use std::collections::BTreeSet;
@@ -292,4 +294,52 @@ fn steepest(form: &Matrix3<f64>, dimension: usize) -> Vector3<f64> {
     let vector: Vector3<f64> = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into();
     let first = vector.iter().find(|x| x.abs() > 0.1).copied();
     vector * first.unwrap_or(1.0).signum()
+}
+
+/// Mass of an element and its area or volume.
+fn element_size(search: &Search<'_>, element: usize) -> [f64; 2] {
+    let (base, mesh) = (search.base, &search.base.mesh);
+    let material = base.case.materials().of(mesh.region(element));
+    let mass: f64 = ElementGeometry::new(mesh, element).lumped_mass(material).iter().sum();
+    [mass, mass / material.density]
+}
+
+/// Mass that a modification adds, kg.
+pub(super) fn added_mass(search: &Search<'_>, trial: &Trial) -> f64 {
+    match (&trial.target, trial.kind) {
+        (_, ModificationKind::Mass) => search.sizes.mass_kg,
+        (Target::Patch(_, elements), ModificationKind::Removal) => {
+            let masses = elements.iter().map(|&e| element_size(search, e as usize)[0]);
+            -search.base.case.depth() * masses.sum::<f64>()
+        }
+        _ => 0.0,
+    }
+}
+
+/// The derivatives of all targets, for each unit of mass, stiffness and damping of the whole thickness.
+pub(super) fn target_fields(search: &Search<'_>) -> Vec<TargetFields> {
+    let modes = target_modes(search.base);
+    let sizes = (0..search.base.mesh.element_count()).map(|e| element_size(search, e)[1]);
+    let sizes: Vec<f64> = sizes.collect();
+    let of = |(own, mode): (&Derivatives, TargetMode)| {
+        let alpha = search.base.options.damping.mass_coefficient;
+        let extent = search.base.case.depth();
+        let nodes = || 0..own.nodes.len();
+        let least = |form: Matrix3<f64>| match search.base.mesh.dimension {
+            2 => {
+                let plane = form.fixed_view::<2, 2>(0, 0).into_owned();
+                SymmetricEigen::new(plane).eigenvalues.min() / extent
+            }
+            _ => SymmetricEigen::new(form).eigenvalues.min(),
+        };
+        TargetFields {
+            mode,
+            mass: nodes().map(|n| own.by_mass(n, alpha).re / extent).collect(),
+            spring: nodes().map(|n| least(own.by_spring(n))).collect(),
+            dashpot: nodes().map(|n| least(own.by_dashpot(n))).collect(),
+            removal: own.removal.iter().zip(&sizes).map(|(d, v)| d.re / v).collect(),
+            damping: own.damping.iter().zip(&sizes).map(|(d, v)| d.re / v).collect(),
+        }
+    };
+    search.derivatives.iter().zip(modes).map(of).collect()
 }
