@@ -49,12 +49,9 @@ columns! {
         = row.growth_rate;
     stability: "stable, unstable or undecided, where it was asked for"
         = row.verdict.map(Verdict::word);
-    residual: "what the motion misses its start by, of motions of the whole mesh"
-        = row.residual;
-    periods: "periods stepped to find it, of motions of the whole mesh"
-        = row.periods;
-    fold: "whether the branch turns back here, of motions of the whole mesh"
-        = row.is_fold;
+    residual: "what the motion misses its start by, of motions of the whole mesh" = row.residual;
+    periods: "periods stepped to find it, of motions of the whole mesh" = row.periods;
+    fold: "whether the branch turns back here, of motions of the whole mesh" = row.is_fold;
 }
 
 keys! {

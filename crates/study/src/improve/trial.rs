@@ -27,9 +27,6 @@ pub(super) struct Places {
 
 impl Places {
     /// The places of a base, patches of some radius.
-    ///
-    /// # Errors
-    /// A forbidden name that the mesh does not have.
     pub fn of(base: &Base<'_>, radius: f64) -> Result<Self, CaseErrors> {
         let mesh = &base.mesh;
         let forbidden = &base.case.improve.forbidden;
