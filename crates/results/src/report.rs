@@ -1,6 +1,5 @@
 //! What a command found: its document and figures become `report.html` and `figures.bin`, a page and the same as data.
 
-mod numbers;
 mod page;
 mod script;
 

@@ -1,7 +1,7 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
 use super::base::{ContactPlace, means_around, or_zero};
-use super::mode_name::{ModeName, NUMBERS};
+use super::branches::{ModeName, NUMBERS};
 use super::{BaseField, CeaReport};
 use crate::charts::SolidView;
 use crate::folder::{FolderError, OutputFolder};

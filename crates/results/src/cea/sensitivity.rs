@@ -1,6 +1,6 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
-use super::mode_name::travels;
+use super::branches::travels;
 use crate::keys::keys;
 use crate::sorted;
 use frictionsim_output::{Format, Table, columns, fixed};
