@@ -9,7 +9,7 @@ use frictionsim_physics::fem::{
 /// The constants of an isotropic material.
 const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];
 /// The constants of an orthotropic one.
-const ORTHOTROPIC: [&str; 3] = ["young_moduli", "poisson_ratios", "shear_moduli"];
+pub(super) const ORTHOTROPIC: [&str; 3] = ["young_moduli", "poisson_ratios", "shear_moduli"];
 
 /// About what the body is built, which decides where the axes of a material can lie.
 pub(super) struct Surroundings {
