@@ -106,12 +106,8 @@ fn orthotropy(section: &Section<'_>) -> Orthotropy {
         section.numbers(key).unwrap_or_default()
     });
     let (young_moduli, poisson_ratios, shear_moduli) = match (&*moduli, &*ratios, &*shears) {
-        (&[e, e3], &[nu, nu13], &[g]) => {
-            ([e, e, e3], [nu, nu13, nu13], [e / (2.0 * (1.0 + nu)), g, g])
-        }
-        (&[e1, e2, e3], &[nu12, nu13, nu23], &[g12, g13, g23]) => {
-            ([e1, e2, e3], [nu12, nu13, nu23], [g12, g13, g23])
-        }
+        (&[e, e3], &[nu, n3], &[g]) => ([e, e, e3], [nu, n3, n3], [e / (2.0 * (1.0 + nu)), g, g]),
+        (&[a, b, c], &[ab, ac, bc], &[d, e, f]) => ([a, b, c], [ab, ac, bc], [d, e, f]),
         // Told above.
         _ => ([1.0; 3], [0.0; 3], [1.0; 3]),
     };
