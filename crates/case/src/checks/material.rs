@@ -26,13 +26,13 @@ pub(crate) fn material_key(case: &Case, key: &str) -> String {
 }
 
 /// The key of the modulus of a material: of an orthotropic one the list, of whose values the mean is judged.
-fn modulus(own: &ElasticMaterial) -> &'static str {
+fn modulus_name(own: &ElasticMaterial) -> &'static str {
     if own.orthotropy.is_some() { "young_moduli" } else { "young_modulus" }
 }
 
 /// The key that sets the modulus of the material of the first region.
 pub(super) fn modulus_key(case: &Case) -> String {
-    material_key(case, modulus(&case.material))
+    material_key(case, modulus_name(&case.material))
 }
 
 /// The material of each region with the section that gives it.
@@ -62,7 +62,7 @@ fn wave_speed_in(case: &Case, (section, own): (String, &ElasticMaterial)) -> Opt
     }
     // The one that no solid has; rigid ones are within a factor of ten.
     let [modulus_key, density_key] =
-        [modulus(own), "density"].map(|key| format!("{section}.{key}"));
+        [modulus_name(own), "density"].map(|key| format!("{section}.{key}"));
     let (key, label) = match DENSITIES.contains(&density) {
         true => (&modulus_key, "pascals?"),
         false => (&density_key, "kg/m3?"),
