@@ -43,10 +43,10 @@ fn one_number_of_a_list_is_set_by_its_place_counted_from_one() {
     assert_eq!(fit.parameters[0].parameter.key, "material.shear_moduli[1]");
 }
 
-/// Theory: a material alike in all directions across axis 3 has five constants, `G_12 = E_1 / (2 (1 + nu_12))`.
+/// Theory: a material that is isotropic across axis 3 has five constants, `G_12 = E_1 / (2 (1 + nu_12))`.
 #[test]
-fn five_constants_are_the_nine_of_a_material_alike_across_its_third_axis() {
-    let five = ["young_moduli=[8e9, 1.5e9]", "poisson_ratios=[0.25, 0.1]", "shear_moduli=1e9"];
+fn five_constants_are_the_nine_of_a_transversely_isotropic_material() {
+    let five = ["young_moduli=[8e9, 1.5e9]", "poisson_ratios=[0.25, 0.1]", "shear_moduli=[1e9]"];
     let nine = [
         "young_moduli=[8e9, 8e9, 1.5e9]",
         "poisson_ratios=[0.25, 0.1, 0.1]",

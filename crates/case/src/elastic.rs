@@ -89,12 +89,12 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
     }
 }
 
-/// The constants, nine along three axes or five of a material alike in every direction across axis 3, and the axes.
+/// The constants, nine or the five of a material that is isotropic across its axis 3, and the axes.
 /// Every strain must have a positive energy.
 fn orthotropy(section: &Section<'_>) -> Orthotropy {
-    let is_alike = section.list_length("young_moduli") == Some(2);
-    let (counts, label) = match is_alike {
-        true => ([2, 2, 1], "[E_1, E_3], [nu_12, nu_13] and G_13 of one alike across axis 3"),
+    let is_transverse = section.list_length("young_moduli") == Some(2);
+    let (counts, label) = match is_transverse {
+        true => ([2, 2, 1], "[E_1, E_3], [nu_12, nu_13], [G_13] are isotropic across axis 3"),
         false => ([3; 3], "one for each of three axes"),
     };
     let [moduli, ratios, shears] = [0, 1, 2].map(|k| {
