@@ -43,6 +43,24 @@ fn one_number_of_a_list_is_set_by_its_place_counted_from_one() {
     assert_eq!(fit.parameters[0].parameter.key, "material.shear_moduli[1]");
 }
 
+/// Theory: a material that is isotropic across axis 3 has five constants, `G_12 = E_1 / (2 (1 + nu_12))`.
+#[test]
+fn five_constants_are_the_nine_of_a_transversely_isotropic_material() {
+    let five = ["young_moduli=[8e9, 1.5e9]", "poisson_ratios=[0.25, 0.1]", "shear_moduli=[1e9]"];
+    let nine = [
+        "young_moduli=[8e9, 8e9, 1.5e9]",
+        "poisson_ratios=[0.25, 0.1, 0.1]",
+        "shear_moduli=[3.2e9, 1e9, 1e9]",
+    ];
+    let [five, nine] = [five, nine].map(|keys| {
+        let keys = keys.map(|key| format!("material.{key}"));
+        read(&keys.each_ref().map(String::as_str)).unwrap().material
+    });
+    assert_eq!(five, nine);
+    // A disc of revolution takes its axis 3 along z.
+    assert!(five.orthotropy.unwrap().is_invariant_about_z());
+}
+
 #[test]
 fn structural_damping_has_its_meaning_or_is_refused() {
     let run = "transient={ duration=1e-4, expansion_time=5e-5 }";

@@ -52,6 +52,16 @@ fn turned_renumbered_and_scaled_meshes_have_one_spectrum() {
     near_each(&eigenvalues(&other), &expected, 1e-9);
 }
 
+/// A mesh whose elements run clockwise is turned over: the mirrored disc has the same spectrum under the opposite rotation.
+#[test]
+fn a_mesh_that_runs_clockwise_is_turned_over() {
+    let (options, mesh) = (options(Consistent, true), annulus(Quad8, 48, 8));
+    let mesh = AnnulusMesh::generate(&mesh).unwrap().mesh;
+    let mirrored = imported(&write_msh(&mesh, FORMS[3], &[], |[x, y]| [x, -y]), 1.0);
+    let eigenvalues = |mesh: &Mesh, rpm: f64| eigenvalues_of(&modes(mesh, &options, &contact(rpm)));
+    near_each(&eigenvalues(&mirrored, -610.0), &eigenvalues(&mesh, 610.0), 1e-9);
+}
+
 fn supported(stiffness: f64) -> BoundaryCondition {
     support([stiffness, stiffness, 0.0], [0.0, 0.0])
 }

@@ -9,7 +9,7 @@ use frictionsim_physics::fem::{
 /// The constants of an isotropic material.
 const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];
 /// The constants of an orthotropic one.
-const ORTHOTROPIC: [&str; 3] = ["young_moduli", "poisson_ratios", "shear_moduli"];
+pub(super) const ORTHOTROPIC: [&str; 3] = ["young_moduli", "poisson_ratios", "shear_moduli"];
 
 /// About what the body is built, which decides where the axes of a material can lie.
 pub(super) struct Surroundings {
@@ -89,29 +89,30 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
     }
 }
 
-/// The nine constants, which must give every strain a positive energy, and the axes.
+/// The constants, nine or the five of a material that is isotropic across its axis 3, and the axes.
+/// Every strain must have a positive energy.
 fn orthotropy(section: &Section<'_>) -> Orthotropy {
-    let triple = |key: &str| -> Option<[f64; 3]> {
+    let is_transverse = section.list_length("young_moduli") == Some(2);
+    let (counts, label) = match is_transverse {
+        true => ([2, 2, 1], "[E_1, E_3], [nu_12, nu_13], [G_13] are isotropic across axis 3"),
+        false => ([3; 3], "one for each of three axes"),
+    };
+    let [moduli, ratios, shears] = [0, 1, 2].map(|k| {
+        let (key, count) = (ORTHOTROPIC[k], counts[k]);
         section.needs(key);
-        let values = section.numbers(key)?;
         let given = section.list_length(key).unwrap_or(1);
-        refuse_if!(given != 3; section, key => "has {given} of three numbers";
-            "one for each of three axes");
-        values.try_into().ok()
+        refuse_if!(section.has(key) && given != count; section, key =>
+            "has {given} of {count} numbers"; "{label}");
+        section.numbers(key).unwrap_or_default()
+    });
+    let (young_moduli, poisson_ratios, shear_moduli) = match (&*moduli, &*ratios, &*shears) {
+        (&[e, e3], &[nu, n3], &[g]) => ([e, e, e3], [nu, n3, n3], [e / (2.0 * (1.0 + nu)), g, g]),
+        (&[a, b, c], &[ab, ac, bc], &[d, e, f]) => ([a, b, c], [ab, ac, bc], [d, e, f]),
+        // Told above.
+        _ => ([1.0; 3], [0.0; 3], [1.0; 3]),
     };
-    let moduli = triple("young_moduli");
-    let ratios = triple("poisson_ratios");
-    let shears = triple("shear_moduli");
-    let harmless = [1.0; 3];
-    let orthotropy = Orthotropy {
-        young_moduli: moduli.unwrap_or(harmless),
-        poisson_ratios: ratios.unwrap_or([0.0; 3]),
-        shear_moduli: shears.unwrap_or(harmless),
-        axes: axes(section),
-    };
-    if moduli.is_none() || ratios.is_none() || shears.is_none() {
-        return orthotropy;
-    }
+    let axes = axes(section);
+    let orthotropy = Orthotropy { young_moduli, poisson_ratios, shear_moduli, axes };
     if let Err(broken) = orthotropy.check() {
         let (name, [low, high]) = (RATIOS[broken.which], broken.bounds);
         let value = orthotropy.poisson_ratios[broken.which];
@@ -189,18 +190,13 @@ pub(super) fn place_axes(
             "give two vectors in the plane, or one in it and [0, 0, 1]",
         );
     } else if body.has_sectors && !orthotropy.is_invariant_about_z() {
-        let [e, nu] = [orthotropy.young_moduli[0], orthotropy.poisson_ratios[0]];
         reject(
             "fixed axes make the sectors of a body of revolution differ from one another, and its motions have no \
              circumferential harmonics then"
                 .to_owned(),
             "not the same at every angle",
-            &format!(
-                "use axes = \"cylindrical\", or describe the body by mesh.file, or give constants \
-                 that are the same across z. Such constants are E_1 = E_2, nu_13 = nu_23, G_13 = \
-                 G_23 and G_12 = E_1 / (2 (1 + nu_12)) = {:?}",
-                e / (2.0 * (1.0 + nu))
-            ),
+            "use axes = \"cylindrical\", or describe the body by mesh.file, or give constants that \
+             are the same across z: two young_moduli, two poisson_ratios and one of shear_moduli",
         );
     }
 }

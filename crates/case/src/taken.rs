@@ -5,6 +5,7 @@
 //! one there. The same holds for a contact or a tie whose surfaces it names, and for a motion whose axis it gives.
 //! Elastic constants are taken together, and so are the two coefficients of Rayleigh's damping.
 
+use super::elastic::ORTHOTROPIC;
 use super::file_sections::sections;
 use super::value::table_of;
 use super::words::choice_of;
@@ -143,7 +144,6 @@ fn has_sides(entry: &RawEntry, section: &FileSection) -> bool {
 fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
     let has = |names: &[&str]| names.iter().any(|name| own.contains_key(*name));
     let is = |name: &str, value: RawValue| own.get(name).is_some_and(|own| own.item.value == value);
-    let orthotropic = ["young_moduli", "poisson_ratios", "shear_moduli", "axes"];
     own.contains_key(key)
         || match (section, key) {
             ("boundaries", _) => has(&["condition"]),
@@ -156,10 +156,10 @@ fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
             ("motion", "frame") if is("rotation_terms", RawValue::Boolean(false)) => true,
             ("contacts" | "ties", _) => has(&["surface", "counter"]),
             ("motion", _) => has(&["axis"]),
-            ("materials", "young_modulus") => has(&orthotropic) || has(&["table"]),
-            ("materials", "poisson_ratio") => has(&orthotropic),
+            ("materials", "young_modulus") => has(&ORTHOTROPIC) || has(&["axes", "table"]),
+            ("materials", "poisson_ratio") => has(&ORTHOTROPIC) || has(&["axes"]),
             ("materials", "loss_factor") => has(&["table"]),
-            ("materials", key) if orthotropic.contains(&key) => {
+            ("materials", key) if key == "axes" || ORTHOTROPIC.contains(&key) => {
                 has(&["young_modulus", "poisson_ratio", "table"])
             }
             ("materials", "mass_coefficient" | "stiffness_coefficient") => {

@@ -161,10 +161,7 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
 
 /// Edges of a plane body as a physical curve.
 fn curve((name, faces): (String, Vec<SurfaceFace>)) -> (String, Vec<CurveEdge>) {
-    let edges = faces.into_iter().filter_map(|(kind, nodes)| match kind {
-        ElementKind::Line2 => Some((nodes[0], nodes[1], None)),
-        ElementKind::Line3 => Some((nodes[0], nodes[1], Some(nodes[2]))),
-        _ => None,
-    });
+    let edges = faces.into_iter();
+    let edges = edges.map(|(_, nodes)| (nodes[0], nodes[1], nodes.get(2).copied()));
     (name, edges.collect())
 }

@@ -147,6 +147,13 @@ impl ElementKind {
         (self.row().superconvergent)()
     }
 
+    /// Local mid-side nodes, each with the corners at the ends of its edge.
+    #[inline]
+    pub fn middles(self) -> impl Iterator<Item = (usize, [usize; 2])> {
+        let edges = self.edges().iter().filter(move |_| self.is_quadratic());
+        (self.corner_count()..).zip(edges.copied())
+    }
+
     /// Local nodes around the outline of a plane element, mid-side nodes between their corners.
     #[inline]
     pub fn outline(self) -> Vec<usize> {
@@ -162,12 +169,10 @@ impl ElementKind {
     #[inline]
     pub fn node_places(self) -> Vec<[f64; 3]> {
         let corners = self.row().corners;
-        let middle = |&[start, end]: &[usize; 2]| {
-            let (p, q) = (corners[start], corners[end]);
-            std::array::from_fn(|axis| 0.5 * (p[axis] + q[axis]))
+        let middle = |(_, [start, end]): (usize, [usize; 2])| {
+            [0, 1, 2].map(|axis| 0.5 * (corners[start][axis] + corners[end][axis]))
         };
-        let middles = self.edges().iter().filter(|_| self.is_quadratic());
-        corners.iter().copied().chain(middles.map(middle)).collect()
+        corners.iter().copied().chain(self.middles().map(middle)).collect()
     }
 }
 

@@ -25,12 +25,14 @@ pub(crate) fn material_key(case: &Case, key: &str) -> String {
     format!("{}.{key}", first.map_or_else(|| "material".to_owned(), |own| own.0))
 }
 
-/// The key that sets the modulus of that material: of an orthotropic one the list, of whose values the mean is judged.
+/// The key of the modulus of a material: of an orthotropic one the list, of whose values the mean is judged.
+fn modulus_name(own: &ElasticMaterial) -> &'static str {
+    if own.orthotropy.is_some() { "young_moduli" } else { "young_modulus" }
+}
+
+/// The key that sets the modulus of the material of the first region.
 pub(super) fn modulus_key(case: &Case) -> String {
-    match case.material.orthotropy {
-        Some(_) => material_key(case, "young_moduli"),
-        None => material_key(case, "young_modulus"),
-    }
+    material_key(case, modulus_name(&case.material))
 }
 
 /// The material of each region with the section that gives it.
@@ -59,8 +61,8 @@ fn wave_speed_in(case: &Case, (section, own): (String, &ElasticMaterial)) -> Opt
         return None;
     }
     // The one that no solid has; rigid ones are within a factor of ten.
-    let name = if own.orthotropy.is_some() { "young_moduli" } else { "young_modulus" };
-    let [modulus_key, density_key] = [name, "density"].map(|key| format!("{section}.{key}"));
+    let [modulus_key, density_key] =
+        [modulus_name(own), "density"].map(|key| format!("{section}.{key}"));
     let (key, label) = match DENSITIES.contains(&density) {
         true => (&modulus_key, "pascals?"),
         false => (&density_key, "kg/m3?"),

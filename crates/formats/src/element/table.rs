@@ -160,7 +160,7 @@ const LINE2: Row = Row {
     superconvergent: || vec![[0.0; 3]],
     name: "line2",
     vtk: 3,
-    gmsh: listed(&[]),
+    gmsh: listed(&[1]),
     universal: listed(&[]),
     nastran: listed(&[]),
     abaqus: &[],
@@ -172,6 +172,7 @@ const LINE3: Row = Row {
     superconvergent: || rule::places(rule::line(&rule::TWO)),
     name: "line3",
     vtk: 21,
+    gmsh: listed(&[8]),
     ..LINE2
 };
 const TRI3: Row = Row {

@@ -77,8 +77,8 @@ fn faces_point_outwards_and_close_around_every_element() {
             assert_eq!(face.node_count(), nodes.len());
             let points: Vec<[f64; 3]> = nodes.iter().map(|&node| places[node]).collect();
             // Mid-side nodes of a straight face lie at the middle of their edges.
-            for (edge, middle) in points[face.corner_count()..].iter().enumerate() {
-                let ends = [edge, (edge + 1) % face.corner_count()].map(|i| points[i]);
+            for (middle, ends) in face.middles().map(|(m, ends)| (points[m], ends)) {
+                let ends = ends.map(|end| points[end]);
                 for axis in 0..3 {
                     assert_eq!(middle[axis], 0.5 * (ends[0][axis] + ends[1][axis]));
                 }

@@ -183,10 +183,10 @@ impl Reader<'_> {
         Arc::clone(known)
     }
 
-    /// Takes one element in, of a dimension and kind as [`Self::shape_of`] has them; `groups` are its physical tags.
+    /// Takes one element in, or a point, which has no kind; `groups` are its physical tags.
     fn element(
         &mut self,
-        (dimension, kind): (i64, Option<ElementKind>),
+        kind: Option<ElementKind>,
         (label, entity): (usize, i64),
         groups: &[i64],
         labels: &[usize],
@@ -199,46 +199,40 @@ impl Reader<'_> {
             self.file.is_used[index as usize] = true;
             nodes.push(index);
         }
-        match (dimension, kind) {
-            (_, Some(kind)) => {
-                // A face of a solid belongs to every physical surface that names it, an element to its first group.
-                if kind.dimension() == 2 {
-                    for &tag in groups {
-                        let name = self.name(dimension, tag).to_string();
-                        self.surfaces.entry(name).or_default().push((kind, nodes.clone()));
-                    }
-                }
-                let region = self.name(dimension, groups.first().copied().unwrap_or(NO_GROUP));
-                let nodes = kind.row().gmsh.arranged(&nodes);
-                self.file.elements.push(FileElement { label, kind, region, entity, nodes });
-            }
-            (1, _) => {
-                let edge = (nodes[0], nodes[1], nodes.get(2).copied());
-                for &tag in groups {
-                    let name = self.name(dimension, tag).to_string();
+        let Some(kind) = kind else { return Ok(()) };
+        let dimension = kind.dimension() as i64;
+        // An edge, and a face of a solid, belong to every physical group that names them, an element to its first one.
+        for &tag in if dimension < 3 { groups } else { &[] } {
+            let name = self.name(dimension, tag).to_string();
+            match dimension {
+                1 => {
+                    let edge = (nodes[0], nodes[1], nodes.get(2).copied());
                     self.file.curves.entry(name).or_default().push(edge);
                 }
+                _ => self.surfaces.entry(name).or_default().push((kind, nodes.clone())),
             }
-            _ => {}
+        }
+        if dimension > 1 {
+            let region = self.name(dimension, groups.first().copied().unwrap_or(NO_GROUP));
+            let nodes = kind.row().gmsh.arranged(&nodes);
+            self.file.elements.push(FileElement { label, kind, region, entity, nodes });
         }
         Ok(())
     }
 
-    /// Dimension, node count and, for plane and solid elements, the kind of an element type that can be used.
+    /// Node count and, for all but points, the kind of an element type that can be used.
     fn shape_of(
         &self,
         number: i64,
         label: usize,
-    ) -> Result<(i64, usize, Option<ElementKind>), MeshFileError> {
+    ) -> Result<(usize, Option<ElementKind>), MeshFileError> {
         let known =
             ElementKind::listed(|row| row.gmsh.names.iter().any(|&kind| i64::from(kind) == number));
         if let Some(kind) = known {
-            return Ok((kind.dimension() as i64, kind.node_count(), Some(kind)));
+            return Ok((kind.node_count(), Some(kind)));
         }
         match number {
-            1 => Ok((1, 2, None)),
-            8 => Ok((1, 3, None)),
-            15 => Ok((0, 1, None)),
+            15 => Ok((1, None)),
             10 => Err(self.cursor.error(format!(
                 "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
                  Mesh.SecondOrderIncomplete = 1 for eight"

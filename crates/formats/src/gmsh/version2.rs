@@ -44,13 +44,13 @@ impl Reader<'_> {
     fn element_2(&mut self, kind: i64, label: usize, tags: i64) -> Result<(), MeshFileError> {
         let tags: Result<Vec<i64>, _> = (0..tags).map(|_| self.cursor.int("tag")).collect();
         let tags = tags?;
-        let (dimension, node_count, kind) = self.shape_of(kind, label)?;
+        let (node_count, kind) = self.shape_of(kind, label)?;
         let nodes: Result<Vec<usize>, _> = (0..node_count).map(|_| self.node_number()).collect();
         // The first tag is the physical group, 0 for none; the second the entity.
         let physical: Vec<i64> =
             tags.first().copied().filter(|&tag| tag != 0).into_iter().collect();
         let entity = tags.get(1).copied().unwrap_or(0);
-        self.element((dimension, kind), (label, entity), &physical, &nodes?)
+        self.element(kind, (label, entity), &physical, &nodes?)
     }
 
     fn node_number(&mut self) -> Result<usize, MeshFileError> {

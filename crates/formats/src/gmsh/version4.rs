@@ -73,10 +73,10 @@ impl Reader<'_> {
             let groups = self.physical.get(&(dimension, entity)).cloned().unwrap_or_default();
             for _ in 0..count {
                 let label = self.cursor.size("element number")?;
-                let (dimension, node_count, kind) = self.shape_of(kind, label)?;
+                let (node_count, kind) = self.shape_of(kind, label)?;
                 let nodes: Result<Vec<usize>, _> =
                     (0..node_count).map(|_| self.cursor.size("node number")).collect();
-                self.element((dimension, kind), (label, entity), &groups, &nodes?)?;
+                self.element(kind, (label, entity), &groups, &nodes?)?;
             }
         }
         Ok(())

@@ -15,10 +15,8 @@ impl Reader<'_, '_> {
                 refuse!(card; "CHACAB: acoustic elements are not supported");
             }
             let of_order = |is_quadratic: bool| {
-                let mut kinds = ElementKind::ALL.into_iter();
-                kinds.find(|kind| {
-                    let cards = kind.row().nastran.names;
-                    cards.contains(&&*card.name) && kind.is_quadratic() == is_quadratic
+                ElementKind::listed(|row| {
+                    row.is_quadratic == is_quadratic && row.nastran.names.contains(&&*card.name)
                 })
             };
             if let (Some(linear), Some(quadratic)) = (of_order(false), of_order(true)) {

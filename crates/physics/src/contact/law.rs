@@ -39,22 +39,25 @@ pub struct FrictionDecay {
 impl FrictionDecay {
     /// `mu(v) / mu`.
     pub fn share(&self, slip_speed: f64) -> f64 {
-        1.0 + self.excess(slip_speed)
-    }
-
-    /// Its derivative with respect to `|v|`, s/m: never positive.
-    pub fn slope(&self, slip_speed: f64) -> f64 {
-        -self.excess(slip_speed) / self.decay_speed
+        1.0 + self.excess(1.0, slip_speed)[0]
     }
 
     /// Largest fall of `mu(v) / mu` with `|v|`, s/m.
     pub fn steepest_fall(&self) -> f64 {
-        -self.slope(0.0)
+        -self.excess(1.0, 0.0)[1]
     }
 
-    /// `(q - 1) exp(-|v| / v_c)`.
-    fn excess(&self, slip_speed: f64) -> f64 {
-        (self.static_ratio - 1.0) * (-slip_speed.abs() / self.decay_speed).exp()
+    /// `c (mu(v) / mu - 1)` with its first two derivatives with respect to `|v|`: it falls, and is convex.
+    fn excess(&self, c: f64, slip_speed: f64) -> [f64; 3] {
+        let v_c = self.decay_speed;
+        let excess = c * ((self.static_ratio - 1.0) * (-slip_speed.abs() / v_c).exp());
+        [excess, -excess / v_c, excess / (v_c * v_c)]
+    }
+
+    /// The slip `w >= 0` at which `w + c mu(w) / mu` is least, m/s: zero where it rises everywhere.
+    fn least(&self, c: f64) -> f64 {
+        let fall = c * (self.static_ratio - 1.0) / self.decay_speed;
+        self.decay_speed * fall.max(1.0).ln()
     }
 }
 
@@ -65,6 +68,14 @@ pub struct SteadyFriction {
     pub drag: f64,
     /// `mu'(V) / mu`, s/m: with the normal force a dashpot on the body's velocity, negative where friction falls.
     pub slope: f64,
+}
+
+impl SteadyFriction {
+    /// That of a law at the speed `V`, `s = 1`.
+    pub fn at(law: Option<FrictionDecay>, speed: f64) -> Self {
+        let [excess, slope, _] = law.map_or([0.0; 3], |law| law.excess(1.0, speed));
+        Self { drag: 1.0 + excess, slope }
+    }
 }
 
 /// Coulomb's law `|T| <= mu(0) N` of a node that sticks, `T = mu(v) N` against the slip of one that slips at `v`.
@@ -134,7 +145,7 @@ impl CoulombFriction {
     /// `T v` is the law's), or of `w` and zero where the node stuck or the slip turns round: both are one at rest, so
     /// that rounding of a node that stuck does not choose the law.
     ///
-    /// `w* = free_slip`. With `c = N mu dt / m` slip solves `w + c (1 + (q - 1) e^{-v / v_c}) = |w*|`, convex in `w`:
+    /// `w* = free_slip`. With `c = N mu dt / m` slip solves `w + c mu(v) / mu = |w*|`, convex in `w` as the law is:
     /// monotone, with one root at most, where `N |mu'(0)| < m / dt`. Beyond that a node can obey the law in stick and
     /// in slip at once; it keeps to the side that it is on, and says so.
     pub fn resolve(&self, node: &Slipping<f64>, normal: f64) -> Friction<f64> {
@@ -145,11 +156,9 @@ impl CoulombFriction {
             return Friction { force, status, is_ambiguous: false };
         };
         let pull = self.cone(normal) / inertia;
-        let v_c = decay.decay_speed;
         let value = |slip: f64| slip + pull * decay.share(slip) - free;
-        // Where the function of slip is least: left of it no root is stable.
-        let fall = pull * (decay.static_ratio - 1.0) / v_c;
-        let least = v_c * fall.max(1.0).ln();
+        // Left of where the function of slip is least no root is stable.
+        let least = decay.least(pull);
         let may_stick = free <= pull * decay.static_ratio;
         let may_slip = !may_stick || (least > 0.0 && value(least) < 0.0);
         let is_slipping = node.slip_before * sense > least;
@@ -162,19 +171,20 @@ impl CoulombFriction {
         }
         // The mean velocity obeys the same equation with twice the inertia.
         let before = (node.slip_before * sense).max(0.0);
+        let is_monotone = least == 0.0;
         let (inertia, free) =
-            if fall < 1.0 { (2.0 * inertia, 0.5 * (free + before)) } else { (inertia, free) };
+            if is_monotone { (2.0 * inertia, 0.5 * (free + before)) } else { (inertia, free) };
         let pull = self.cone(normal) / inertia;
         let highest = free - pull;
         // From the last slip where the function is monotone, else from the right of its largest root.
-        let mut slip = if fall < 1.0 { before.min(highest).max(0.0) } else { highest };
+        let mut slip = if is_monotone { before.min(highest).max(0.0) } else { highest };
         for _ in 0..NEWTON_STEPS {
-            let excess = pull * decay.excess(slip);
-            let slope = 1.0 - excess / v_c;
+            let [excess, fall, curvature] = decay.excess(pull, slip);
+            let slope = 1.0 + fall;
             let step = (slip + pull + excess - free) / slope;
             slip = (slip - step).min(highest).max(least);
-            // What is left: the second derivative is excess / v_c^2.
-            if excess * step * step <= f64::EPSILON * free * slope * v_c * v_c {
+            // What is left is of second order.
+            if curvature * step * step <= f64::EPSILON * free * slope {
                 break;
             }
         }

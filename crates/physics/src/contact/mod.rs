@@ -66,12 +66,8 @@ impl SlidingContact {
 
     /// Friction of steady sliding at the surface speed `surface_speed` (m/s) of the counterface in the sense `direction`.
     pub fn steady_friction(&self, direction: f64, surface_speed: f64) -> SteadyFriction {
-        let at =
-            |of: fn(&FrictionDecay, f64) -> f64| self.decay.map(|decay| of(&decay, surface_speed));
-        SteadyFriction {
-            drag: direction * at(FrictionDecay::share).unwrap_or(1.0),
-            slope: at(FrictionDecay::slope).unwrap_or(0.0),
-        }
+        let own = SteadyFriction::at(self.decay, surface_speed);
+        SteadyFriction { drag: direction * own.drag, ..own }
     }
 
     /// Sense in which steady sliding drags the body, `s = sign(Omega)`; `+1` for a cylinder at rest,

@@ -101,9 +101,8 @@ fn corners_of_middles<'a>(
     faces: impl Iterator<Item = &'a BoundaryFace>,
 ) -> BTreeMap<u32, [u32; 2]> {
     let of_face = |face: &'a BoundaryFace| {
-        let count = face.kind.corner_count();
-        let middles = face.nodes[count..].iter().enumerate();
-        middles.map(move |(i, &middle)| (middle, [face.nodes[i], face.nodes[(i + 1) % count]]))
+        let middles = face.kind.middles();
+        middles.map(|(middle, ends)| (face.nodes[middle], ends.map(|end| face.nodes[end])))
     };
     faces.flat_map(of_face).collect()
 }
@@ -133,15 +132,10 @@ fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u
 /// Shape functions with positive integrals: each corner's with a share of those of its edges' middles.
 fn positive_basis(face: &BoundaryFace, point: &SurfacePoint) -> Vec<f64> {
     let mut basis: Vec<f64> = point.own.iter().map(|entry| entry.1).collect();
-    if !face.kind.is_quadratic() {
-        return basis;
-    }
-    let count = face.kind.corner_count();
-    for edge in 0..count {
-        let middle = point.own[count + edge].1;
-        basis[edge] += CORNER_SHARE * middle;
-        basis[(edge + 1) % count] += CORNER_SHARE * middle;
-        basis[count + edge] *= 1.0 - 2.0 * CORNER_SHARE;
+    for (middle, ends) in face.kind.middles() {
+        let value = point.own[middle].1;
+        ends.iter().for_each(|&end| basis[end] += CORNER_SHARE * value);
+        basis[middle] *= 1.0 - 2.0 * CORNER_SHARE;
     }
     basis
 }

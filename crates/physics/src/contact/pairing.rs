@@ -232,9 +232,7 @@ impl ContactSurface {
         lift: Row,
     ) {
         let (direction, speed) = direction_of(at.normal, velocity);
-        let law = friction.decay;
-        let share = law.map_or(1.0, |decay| decay.share(speed));
-        let slope = law.map_or(0.0, |decay| decay.slope(speed));
+        let own = SteadyFriction::at(friction.decay, speed);
         let across = Vector3::from(at.normal).cross(&Vector3::from(direction));
         let is_sliding = speed > 0.0;
         let along = |direction: [f64; 3]| {
@@ -249,8 +247,8 @@ impl ContactSurface {
             across: along(across.into()),
             speed,
             friction: SteadyFriction {
-                drag: friction.ratio * share,
-                slope: friction.ratio * slope,
+                drag: friction.ratio * own.drag,
+                slope: friction.ratio * own.slope,
             },
         });
         let SurfacePoint { position, normal, slopes, .. } = at.clone();

@@ -112,10 +112,9 @@ impl ElementGeometry {
 
     /// Whether mid-side nodes lie at the middle of their edges, to 1e-9 of their length.
     fn has_straight_edges(&self) -> bool {
-        let middles = self.points[self.kind.corner_count()..].iter();
-        self.kind.edges().iter().zip(middles).all(|(ends, middle)| {
+        self.kind.middles().all(|(middle, ends)| {
             let [p, q] = ends.map(|end| Vector3::from(self.points[end]));
-            let off = (p + q) * 0.5 - Vector3::from(*middle);
+            let off = (p + q) * 0.5 - Vector3::from(self.points[middle]);
             off.norm() <= 1e-9 * (p - q).norm()
         })
     }

@@ -67,10 +67,9 @@ impl Mesh {
         }
         let sense = facing.signum();
         let mut chords = Vec::new();
-        for face in faces.iter().filter(|face| face.kind.is_quadratic()) {
-            let count = face.kind.corner_count();
-            for (i, &middle) in face.nodes[count..].iter().enumerate() {
-                let ends = [face.nodes[i], face.nodes[(i + 1) % count]];
+        for face in faces {
+            for (middle, ends) in face.kind.middles() {
+                let (middle, ends) = (face.nodes[middle], ends.map(|end| face.nodes[end]));
                 let [a, b] = ends.map(at);
                 let [n_a, n_b] = ends.map(|end| normal(self.nodes[end as usize]) * sense);
                 let turning = (n_b - n_a).dot(&(b - a));

@@ -58,20 +58,18 @@ impl Splitting {
         for &corner in &own[..corners] {
             self.places.insert(vec![(corner, STEPS)], corner);
         }
-        for (middle, ends) in own[corners..].iter().zip(kind.edges()) {
+        for (middle, ends) in kind.middles() {
             let [p, q] = ends.map(|end| own[end]);
-            self.places.insert(between(p, STEPS / 2, q), *middle);
+            self.places.insert(between(p, STEPS / 2, q), own[middle]);
         }
         let parts = self.parts.entry(kind).or_insert_with(|| parts_of(kind)).clone();
         let parts = parts.into_iter().map(|mut at| {
             let child = kind.with_corners(at.len(), kind.is_quadratic());
-            if kind.is_quadratic() {
-                let ends = child.edges().iter().map(|ends| ends.map(|end| at[end]));
-                let middle =
-                    |[p, q]: [[f64; 3]; 2]| [0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis]));
-                let middles: Vec<_> = ends.map(middle).collect();
-                at.extend(middles);
-            }
+            let middle = |(_, [p, q]): (usize, [usize; 2])| {
+                [0, 1, 2].map(|axis| 0.5 * (at[p][axis] + at[q][axis]))
+            };
+            let middles: Vec<[f64; 3]> = child.middles().map(middle).collect();
+            at.extend(middles);
             let nodes = at.into_iter().map(|at| self.node(kind, own, at, &curved));
             Part { kind: child, nodes: nodes.collect() }
         });
