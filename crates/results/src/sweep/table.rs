@@ -1,5 +1,5 @@
 //! `points.csv`, one row for each finished point, and long tables: one row for each onset, mode or limit cycle of each
-//! point, named by what it is; and swept keys and their values as people read them.
+//! point, named by what it is. Swept keys and their values as people read them.
 
 use super::record::{PointRecord, listed};
 use crate::cea::{SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};

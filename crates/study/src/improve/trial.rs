@@ -1,5 +1,5 @@
 //! Candidates: where a body may be modified, which is not at its contacts, nor where the case forbids it, nor where
-//! nothing moves; where a modification of the size allowed helps most, to first order; and the derivatives as fields
+//! nothing moves. Where a modification of the size allowed helps most, to first order, and the derivatives as fields
 //! over the mesh.
 
 use super::base::{Base, target_modes};
