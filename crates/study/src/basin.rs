@@ -38,7 +38,7 @@ pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyEr
 
 /// The boundary between the basins of two modes that grow, or between that of one mode and steady sliding, and the
 /// numbers of the two rivals, 0 for steady sliding.
-fn boundary_of_modes(
+pub fn boundary_of_modes(
     case: &Case,
     request: &BasinRequest,
     simd: SimdLevel,
