@@ -1,7 +1,7 @@
 //! Stability along a branch of limit cycles.
 
 use frictionsim_physics::cycle::{
-    LimitCycle, MeshStepping, Parameter, StabilityChange, SteppedCycle, differing,
+    LimitCycle, MeshStepping, Parameter, StabilityChange, SteppedCycle, Verdict, differing,
 };
 
 /// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
@@ -49,8 +49,8 @@ pub fn changes(
     let known = settled.iter().flatten();
     let pairs = differing(known.map(|own| (own.stability.verdict().is_stable(), own)));
     let found: Vec<_> = frictionsim_physics::parallel::map(pairs, |[first, second]| {
-        let (stable, unstable) =
-            if first.stability.is_stable() { (first, second) } else { (second, first) };
+        let is_first = first.stability.verdict() == Verdict::Stable;
+        let (stable, unstable) = if is_first { (first, second) } else { (second, first) };
         stepping.stability_change(parameter, stable, unstable).ok()
     });
     found.into_iter().flatten().collect()
