@@ -57,7 +57,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/output", 794),
     ("crates/physics/src/cea", 10_255),
     ("crates/physics/src/contact", 2_673),
-    ("crates/physics/src/cycle", 7_680),
+    ("crates/physics/src/cycle", 7_678),
     ("crates/physics/src/fem", 4_401),
     ("crates/physics/src/frf", 1_303),
     ("crates/physics/src/lib.rs", 23),

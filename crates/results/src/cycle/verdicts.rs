@@ -110,7 +110,7 @@ impl KnownStability {
             is_stable: verdict.is_stable(),
             growing_harmonics: is_wave.then(|| found.growing_harmonics()),
             leading: leading.map(Perturbation::of),
-            shift: found.shift.filter(|_| !is_wave).map(|shift| shift.norm()),
+            shift: found.shift.filter(|_| !is_wave),
         }
     }
 }
