@@ -153,8 +153,8 @@ fn wave_rates(
         // From zero the range says what is little.
         let scale = if value == 0.0 { parameter.to - parameter.from } else { value.abs() };
         let moved = |offset: f64| case.with_parameters([(&parameter.parameter, value + offset)]);
-        let own = (&pairs[..], waves.tangent.pressed());
-        let rates = rates_of_waves((case, cea), own, STEP * scale, &moved);
+        let own = (&pairs[..], &waves.tangent.contact.is_pressed[..]);
+        let rates = rates_of_waves((case, cea), own, (STEP * scale, false), &moved);
         rates.unwrap_or_else(|_| vec![None; pairs.len()])
     });
     by_parameter.collect()
