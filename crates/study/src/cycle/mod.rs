@@ -16,7 +16,7 @@ use frictionsim_case::{Case, Cycle, StabilityChoice};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
     CycleError, CycleSolver, Family, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint,
-    Parameter, StabilityChange, SteppedCycle, differing,
+    Parameter, StabilityChange, SteppedCycle, Verdict, differing,
 };
 use frictionsim_physics::fem::lumped_masses;
 use frictionsim_physics::fem::operator::SimdLevel;
@@ -279,8 +279,8 @@ fn changes(
     let known = settled.iter().flatten();
     let pairs = differing(known.map(|own| (own.stability.verdict().is_stable(), own)));
     let found: Vec<_> = frictionsim_physics::parallel::map(pairs, |[first, second]| {
-        let (stable, unstable) =
-            if first.stability.is_stable() { (first, second) } else { (second, first) };
+        let is_first = first.stability.verdict() == Verdict::Stable;
+        let (stable, unstable) = if is_first { (first, second) } else { (second, first) };
         stepping.stability_change(parameter, stable, unstable).ok()
     });
     found.into_iter().flatten().collect()
