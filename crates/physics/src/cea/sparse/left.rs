@@ -2,13 +2,14 @@
 
 use super::full_problem::FullProblem;
 use super::linearization::Linearization;
-use super::packed::{PackedEntry, add_complex_multiple};
+use super::packed::{PackedEntry, PackedModes, add_complex_multiple};
 use super::projected::weighted_sum;
 use super::structure::StructureMatrices;
 use super::{BESIDE, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS};
 use crate::cea::ModeVectors;
-use crate::linalg::dense::{add_product, column, dot, product, transpose_product};
-use crate::linalg::{ComplexDenseLu, Mat, RealFactors, Scale, c64};
+use crate::linalg::dense::{add_product, product, transpose_product};
+use crate::linalg::vectors::{dot, length};
+use crate::linalg::{ComplexDenseLu, Mat, RealFactors, c64};
 use crate::prestress::{MotionMatrices, SlidingTangent};
 use std::ops::Deref;
 use std::sync::LazyLock;
@@ -49,44 +50,21 @@ pub fn correct_lefts(
     })
 }
 
-/// A vector: one column of a real one, real and imaginary part of a complex one.
-type Packed = Mat<f64>;
-
 /// A left vector, or a correction of one, and what the problem makes of it: `w`, `T(lambda)^T w` and `P^-1 T(lambda)^T w`.
-type Mapped = [Packed; 3];
+type Mapped = [Vec<c64>; 3];
 
-/// The left vector of a mode: real but for a factor, which it loses, where proportional damping leaves the right one real.
-fn packed(ModeVectors { right, left, .. }: &ModeVectors, linearization: Linearization) -> Packed {
+/// The left vector of a mode: real, but for a factor that it loses, where proportional damping leaves the right one real.
+fn started(
+    ModeVectors { right, left, .. }: &ModeVectors,
+    linearization: Linearization,
+) -> Vec<c64> {
     let is_reduced = matches!(linearization, Linearization::Reduced(..));
-    if is_reduced && right.iter().all(|x| x.im == 0.0) {
-        let largest = left.iter().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
-        let turn = largest.map_or(c64::ONE, |own| own.conj() / own.norm());
-        return Mat::from_fn(left.len(), 1, |i, _| (turn * left[i]).re);
+    if !is_reduced || right.iter().any(|x| x.im != 0.0) {
+        return left.clone();
     }
-    Mat::from_fn(left.len(), 2, |i, j| if j == 0 { left[i].re } else { left[i].im })
-}
-
-/// Some of them, with the inverse values of their modes.
-fn side_by_side<'v>(
-    vectors: impl Iterator<Item = (c64, &'v Packed)>,
-) -> (Mat<f64>, Vec<PackedEntry>) {
-    let (mut columns, mut entries) = (Vec::new(), Vec::new());
-    for (inverse_value, own) in vectors {
-        let first = columns.len();
-        columns.extend((0..own.ncols()).map(|j| column(own.as_ref(), j)));
-        entries.push(PackedEntry { inverse_value, columns: first..columns.len() });
-    }
-    let rows = columns.first().map_or(0, |own| own.len());
-    (Mat::from_fn(rows, columns.len(), |i, j| columns[j][i]), entries)
-}
-
-/// `a^* b`.
-fn inner(a: &Packed, b: &Packed) -> c64 {
-    let part = |i: usize, j: usize| dot(column(a.as_ref(), i), column(b.as_ref(), j));
-    match a.ncols() {
-        1 => part(0, 0).into(),
-        _ => c64::new(part(0, 0) + part(1, 1), part(0, 1) - part(1, 0)),
-    }
+    let largest = left.iter().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+    let turn = largest.map_or(c64::ONE, |own| own.conj() / own.norm());
+    left.iter().map(|own| (turn * own).re.into()).collect()
 }
 
 /// About twice the elastic energy of the left vector of a mode: `w^T (2 lambda M + C) x` is 1.
@@ -106,10 +84,7 @@ struct AmongModes {
 impl AmongModes {
     fn of(matrices: &StructureMatrices<'_>, modes: Mat<f64>) -> Self {
         let images = matrices.images(modes.as_ref());
-        let small = images.map(|image| match image.nrows() {
-            0 => Mat::new(),
-            _ => transpose_product(modes.as_ref(), image.as_ref()),
-        });
+        let small = images.map(|image| transpose_product(modes.as_ref(), image.as_ref()));
         Self { modes, images, small }
     }
 
@@ -153,23 +128,23 @@ fn correct_group(
 ) {
     let inverse_values: Vec<c64> =
         pairs.iter().map(|pair| linearization.inverse_value(pair.eigenvalue)).collect();
-    let inverse_values = &inverse_values[..];
+    let together = |own: Vec<(usize, &Vec<c64>)>| {
+        let vectors = own.into_iter().map(|(k, vector)| (inverse_values[k], vector));
+        PackedModes::of_vectors(matrices.dimension(), vectors)
+    };
     // `[w, T(lambda)^T w, P^-1 T(lambda)^T w]` of each.
     let mapped = |entries: &[PackedEntry], vectors: Mat<f64>, images: Mat<f64>| -> Vec<Mapped> {
         let mut solved = images.clone();
         factors.solve(solved.as_mut(), false);
         let all = [vectors, images, solved];
-        let own = |entry: &PackedEntry| {
-            all.each_ref().map(|own| own.get(.., entry.columns.clone()).to_owned())
-        };
-        entries.iter().map(own).collect()
+        entries.iter().map(|entry| all.each_ref().map(|own| entry.joined(own))).collect()
     };
     let goals: Vec<f64> = pairs.iter().map(left_energy).collect();
-    let starts: Vec<Packed> = pairs.iter().map(|pair| packed(pair, linearization)).collect();
-    let (starts, entries) = side_by_side(inverse_values.iter().copied().zip(&starts));
-    let (images, _) = matrices.residuals_and_momenta(&entries, starts.as_ref());
-    let mut lefts = mapped(&entries, starts, images);
-    let energy = |[_, residual, correction]: &Mapped| inner(correction, residual).re.abs();
+    let starts: Vec<Vec<c64>> = pairs.iter().map(|pair| started(pair, linearization)).collect();
+    let PackedModes { coordinates, entries } = together(starts.iter().enumerate().collect());
+    let (images, _) = matrices.residuals_and_momenta(&entries, coordinates.as_ref());
+    let mut lefts = mapped(&entries, coordinates, images);
+    let energy = |[_, residual, correction]: &Mapped| dot(correction, residual).re.abs();
     let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
     let mut among: Vec<ComplexDenseLu> = Vec::new();
     let mut open: Vec<usize> = (0..pairs.len()).collect();
@@ -185,32 +160,27 @@ fn correct_group(
                 inverse_values.iter().map(|own| ComplexDenseLu::factorize(small(own))).collect();
         }
         // Static corrections, and what these stir up of the modes.
-        let [residuals, statics] = [1, 2]
-            .map(|part| side_by_side(open.iter().map(|&k| (inverse_values[k], &lefts[k][part]))));
-        let (mut vectors, entries) = statics;
+        let [left, statics] =
+            [1, 2].map(|part| together(open.iter().map(|&k| (k, &lefts[k][part])).collect()));
+        let PackedModes { coordinates: mut vectors, entries } = statics;
         let (mut images, _) = matrices.residuals_and_momenta(&entries, vectors.as_ref());
         let own: Vec<&ComplexDenseLu> = open.iter().map(|&k| &among[k]).collect();
-        let left = (residuals.0 - &images, linearization);
+        let left = (left.coordinates - &images, linearization);
         modes.complete((&entries, &own), left, [&mut vectors, &mut images]);
         // The least residual over all directions so far.
         for (&k, mut own) in open.iter().zip(mapped(&entries, vectors, images)) {
             for other in &directions[k] {
-                let share = inner(&other[2], &own[2]);
+                let share = dot(&other[2], &own[2]);
                 subtract(&mut own, share, other);
             }
-            let length = own[2].norm_l2();
-            own.iter_mut().for_each(|part| *part *= Scale(length.recip()));
-            let share = inner(&own[2], &lefts[k][2]);
+            let length = length(&own[2]);
+            own.iter_mut().flatten().for_each(|v| *v /= length);
+            let share = dot(&own[2], &lefts[k][2]);
             subtract(&mut lefts[k], share, &own);
             directions[k].push(own);
         }
     }
-    for (pair, [left, ..]) in pairs.iter_mut().zip(&lefts) {
-        let entry = |i: usize| match left.ncols() {
-            1 => left[(i, 0)].into(),
-            _ => c64::new(left[(i, 0)], left[(i, 1)]),
-        };
-        let left: Vec<c64> = (0..pair.left.len()).map(entry).collect();
+    for (pair, [left, ..]) in pairs.iter_mut().zip(lefts) {
         if left.iter().all(|v| v.is_finite()) {
             pair.left = left;
         }
@@ -220,7 +190,7 @@ fn correct_group(
 /// `from -= share other`.
 fn subtract(from: &mut Mapped, share: c64, other: &Mapped) {
     for (own, other) in from.iter_mut().zip(other) {
-        add_complex_multiple(own, -share, other, &(0..other.ncols()));
+        own.iter_mut().zip(other).for_each(|(v, o)| *v -= share * o);
     }
 }
 
@@ -254,7 +224,7 @@ mod tests {
         correct_lefts((&tangent, linearization), (&rest.factors, rest.vectors), mu[0], &mut pairs);
         for (own, other) in pairs.iter().zip(&exact) {
             let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
-            let cosine = dot(w, exact).norm() / (dot(w, w) * dot(exact, exact)).norm().sqrt();
+            let cosine = dot(w, exact).norm() / (length(w) * length(exact));
             assert!(1.0 - cosine * cosine < 1e-6, "{}: {}", own.eigenvalue, 1.0 - cosine * cosine);
         }
     }

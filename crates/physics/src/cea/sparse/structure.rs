@@ -71,7 +71,7 @@ impl<'a> StructureMatrices<'a> {
         }
         let MotionMatrices { stiffness, damping, mass, losses } = &self.values;
         let ([stiffness, mass], damping) = if damping.is_empty() {
-            (all(self, [stiffness, mass], x), Mat::new())
+            (all(self, [stiffness, mass], x), Mat::zeros(x.nrows(), 0))
         } else {
             let [stiffness, damping, mass] = all(self, [stiffness, damping, mass], x);
             ([stiffness, mass], damping)
