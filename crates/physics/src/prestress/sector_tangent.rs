@@ -1,5 +1,6 @@
 //! The small motions of a body of equal sectors around its steady sliding.
 
+use super::elimination::Elimination;
 use super::tangent::ContactPart;
 use super::terms::{Kind, Part, Terms};
 use super::wave_tangent::WaveContact;
@@ -7,7 +8,7 @@ use super::{PrestressError, SectorSliding, SolidSliding, TangentOptions, WaveTan
 use crate::contact::{
     ContactInterface, Point, PressedState, SlidingContact, Turning, scaled, turned,
 };
-use crate::fem::{MaterialField, Triplets};
+use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping, Triplets};
 use crate::mesh::{SolidSector, Strip};
 
 /// The matrices of one sector before they are those of waves.
@@ -21,7 +22,64 @@ pub struct SectorTangent {
     pub(super) sliding_direction: f64,
 }
 
+impl WaveTangent {
+    /// A body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots
+    /// of its supports.
+    pub fn of_free(
+        strip: &Strip,
+        material: &dyn MaterialField,
+        mass: MassKind,
+        damping: RayleighDamping,
+        is_held: bool,
+    ) -> Self {
+        let (options, contact) = (TangentOptions::of_free(mass, damping), WaveContact::default());
+        let terms = Terms::of_mesh((&strip.mesh, material), !is_held, &options);
+        let strip = if is_held { strip.clone() } else { strip.unheld() };
+        SectorTangent { strip, terms, contact, options, sliding_direction: 1.0 }.waves()
+    }
+}
+
 impl SectorTangent {
+    /// That of waves around the body.
+    pub fn waves(self) -> WaveTangent {
+        let Self { strip, terms, mut contact, options, sliding_direction } = self;
+        // A node of the other body takes part in the motion of its pair, in the sectors beside as well.
+        let mut dofs = strip.wave_dofs();
+        dofs.half_bandwidth += 2 * contact.distances.len();
+        let total = dofs.unknown_of.len();
+        let mut basis = Elimination::holding(3 * total, []);
+        for sector in 0..3 {
+            for row in &contact.distances {
+                let own = row.iter().map(|&(dof, along)| (dof + sector * total, along));
+                basis.take(&own.collect());
+            }
+        }
+        let place = |dof: usize| dofs.unknown_of[dof];
+        let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
+        let moving = strip.free_dofs().filter(|&dof| !is_still(dof));
+        let unknowns = DofMap::of(total, moving.collect());
+        // Constraints by the places of free dofs.
+        contact.rigid = contact
+            .rigid
+            .iter()
+            .filter_map(|(normal, drags)| {
+                let drags = drags.iter().filter_map(|&(dof, factor)| Some((place(dof)?, factor)));
+                Some((place(*normal)?, drags.collect()))
+            })
+            .collect();
+        WaveTangent {
+            moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
+            options,
+            unknowns,
+            components: strip.mesh.dimension,
+            halves: strip.halves.clone(),
+            terms: terms.map(|_, own| strip.folded(&basis.congruent(&own))),
+            dofs,
+            contact,
+            sliding_direction,
+        }
+    }
+
     /// `sum weight T` of tangents that differ in matrices alone, with weights that sum up to zero: a difference quotient. What they
     /// have alike leaves no round-off. `None` where they differ in more.
     pub fn quotient(sides: &[(f64, &Self)]) -> Option<WaveTangent> {

@@ -1,14 +1,12 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
-use super::elimination::Elimination;
 use super::terms::{Kind, Part, Term, Terms, of_kind};
-use super::{FrictionPolynomial, HarmonicTangent, SectorTangent, TabledGain, TangentOptions};
+use super::{FrictionPolynomial, HarmonicTangent, TabledGain, TangentOptions};
 use crate::contact::Row;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
+use crate::fem::{DofMap, ModulusTable};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
-use crate::mesh::Strip;
 
 /// [`super::SlidingTangent`] of a body of equal sectors that are their own mirror images, from the matrices of one of them.
 ///
@@ -51,7 +49,7 @@ pub struct WaveTangent {
     /// Those of them that move, the unknowns of a harmonic: all but the normals in rigid contact.
     pub unknowns: DofMap,
     /// Their places among the former.
-    moving: Vec<usize>,
+    pub(super) moving: Vec<usize>,
 }
 
 /// The contact of one sector, by its dofs.
@@ -71,64 +69,7 @@ pub struct WaveContact {
     pub rigid: Vec<(usize, Row)>,
 }
 
-impl SectorTangent {
-    /// That of waves around the body.
-    pub fn waves(self) -> WaveTangent {
-        let Self { strip, terms, mut contact, options, sliding_direction } = self;
-        // A node of the other body takes part in the motion of its pair, in the sectors beside as well.
-        let mut dofs = strip.wave_dofs();
-        dofs.half_bandwidth += 2 * contact.distances.len();
-        let total = dofs.unknown_of.len();
-        let mut basis = Elimination::holding(3 * total, []);
-        for sector in 0..3 {
-            for row in &contact.distances {
-                let own = row.iter().map(|&(dof, along)| (dof + sector * total, along));
-                basis.take(&own.collect());
-            }
-        }
-        let place = |dof: usize| dofs.unknown_of[dof];
-        let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
-        let moving = strip.free_dofs().filter(|&dof| !is_still(dof));
-        let unknowns = DofMap::of(total, moving.collect());
-        // Constraints by the places of free dofs.
-        contact.rigid = contact
-            .rigid
-            .iter()
-            .filter_map(|(normal, drags)| {
-                let drags = drags.iter().filter_map(|&(dof, factor)| Some((place(dof)?, factor)));
-                Some((place(*normal)?, drags.collect()))
-            })
-            .collect();
-        WaveTangent {
-            moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
-            options,
-            unknowns,
-            components: strip.mesh.dimension,
-            halves: strip.halves.clone(),
-            terms: terms.map(|_, own| strip.folded(&basis.congruent(&own))),
-            dofs,
-            contact,
-            sliding_direction,
-        }
-    }
-}
-
 impl WaveTangent {
-    /// A body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots
-    /// of its supports.
-    pub fn of_free(
-        strip: &Strip,
-        material: &dyn MaterialField,
-        mass: MassKind,
-        damping: RayleighDamping,
-        is_held: bool,
-    ) -> Self {
-        let (options, contact) = (TangentOptions::of_free(mass, damping), WaveContact::default());
-        let terms = Terms::of_mesh((&strip.mesh, material), !is_held, &options);
-        let strip = if is_held { strip.clone() } else { strip.unheld() };
-        SectorTangent { strip, terms, contact, options, sliding_direction: 1.0 }.waves()
-    }
-
     /// The largest harmonic, half the number of sectors.
     pub fn largest_harmonic(&self) -> usize {
         self.dofs.sectors / 2
