@@ -25,8 +25,9 @@ fn options() -> TangentOptions {
 fn cyclic_system(boundary: &str) -> CyclicSystem {
     let sector = Strip::of_annulus(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
-        let tangent = WaveTangent::of_annulus(&sector, &POLYCARBONATE, &options(), &contact(610.0));
-        return CyclicSystem::sliding(&tangent.expect("contact stays closed"), 0.3);
+        let tangent =
+            SectorTangent::of_annulus(&sector, &POLYCARBONATE, &options(), &contact(610.0));
+        return CyclicSystem::sliding(&tangent.expect("contact stays closed").waves(), 0.3);
     }
     CyclicSystem::body(&sector, &POLYCARBONATE, Consistent, DAMPING, boundary == "clamped")
 }

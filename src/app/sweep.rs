@@ -11,9 +11,9 @@ use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::chart::Figure;
-use crate::results::sweep::{FailedPoint, Found, SweepFolder, SweepReport, SweepSummary};
-use crate::results::sweep::{document, tables};
-use crate::results::sweep_figures::draw_sweep;
+use crate::results::sweep::{
+    FailedPoint, Found, SweepFolder, SweepReport, SweepSummary, document, draw_sweep, tables,
+};
 use crate::results::{
     DrawingOptions, Head, Manifest, summary_of, write_page, write_summary, write_table,
 };

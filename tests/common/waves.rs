@@ -16,35 +16,40 @@ pub type AnnulusModel<M = ElasticMaterial> = WaveModel<AnnulusSpecification, M>;
 
 /// What a body is made from by equal sectors.
 pub trait Sectors: Clone {
-    /// The small motions of a model.
-    fn tangent<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError>;
+    /// The small motions of one sector of a model.
+    fn sector<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<SectorTangent, CeaError>;
 }
 
 impl Sectors for AnnulusSpecification {
-    fn tangent<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError> {
+    fn sector<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<SectorTangent, CeaError> {
         let WaveModel { specification, material, options, contact } = model;
         let sector = Strip::of_annulus(specification)?;
-        Ok(WaveTangent::of_annulus(&sector, material, options, contact)?)
+        Ok(SectorTangent::of_annulus(&sector, material, options, contact)?)
     }
 }
 
 impl Sectors for SolidSpecification {
-    fn tangent<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError> {
+    fn sector<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<SectorTangent, CeaError> {
         let WaveModel { specification, material, options, contact } = model;
         let sector = SolidSector::generate(specification)?;
-        Ok(WaveTangent::of_revolution(&sector, material, options, contact)?)
+        Ok(SectorTangent::of_revolution(&sector, material, options, contact)?)
     }
 }
 
 impl<S: Sectors, M: MaterialField + Clone> WaveModel<S, M> {
+    /// The small motions of one sector of it.
+    pub fn sector(&self) -> SectorTangent {
+        S::sector(self).unwrap()
+    }
+
     /// Its small motions.
     pub fn tangent(&self) -> WaveTangent {
-        S::tangent(self).unwrap()
+        self.sector().waves()
     }
 
     /// Its eigenvalues over friction.
     pub fn sweep(&self, request: &SweepRequest<'_>) -> Result<WaveSweep, CeaError> {
-        wave_sweep(S::tangent(self)?, request, &[])
+        wave_sweep(S::sector(self)?.waves(), request, &[])
     }
 
     /// The modes of a limit at some friction coefficients.

@@ -195,8 +195,8 @@ pub(super) fn place_axes(
              circumferential harmonics then"
                 .to_owned(),
             "not the same at every angle",
-            "use axes = \"cylindrical\", or describe the body by mesh.file, or give constants that \
-             are the same across z: two young_moduli, two poisson_ratios and one of shear_moduli",
+            "use axes = \"cylindrical\", describe the body by mesh.file, or give constants that are \
+             the same across z: two young_moduli, two poisson_ratios and one of shear_moduli",
         );
     }
 }

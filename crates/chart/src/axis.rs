@@ -1,8 +1,7 @@
 //! Specification of an axis, before the data are known.
 
-use super::numbers::prefixed;
-use super::ruler::{Ruler, Tick};
-use super::scale::{Scale, extremes};
+use super::ruler::Tick;
+use super::{Ruler, Scale, extremes, prefixed};
 use serde::{Deserialize, Serialize};
 
 /// How the ends of an axis follow from the data.

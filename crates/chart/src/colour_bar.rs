@@ -1,13 +1,11 @@
 //! Ranges of values shown by colours, and the bars that tell which colour is which value.
 
-use super::axis::Axis;
-use super::colour::{ColourMap, INK};
-use super::frame::{LABEL_SIZE, TITLE_SIZE, on_sheet, vertical_count};
-use super::image::{IndexedImage, Palette};
-use super::ruler::{Ruler, widest};
-use super::scale::extremes;
-use super::svg::{Rect, Stroke, Svg};
-use super::text::{Anchor, TextStyle};
+use super::frame::{on_sheet, vertical_count};
+use super::ruler::widest;
+use super::{
+    Anchor, Axis, ColourMap, INK, IndexedImage, LABEL_SIZE, Palette, Rect, Ruler, Stroke, Svg,
+    TITLE_SIZE, TextStyle, extremes,
+};
 use serde::{Deserialize, Serialize};
 
 /// Room that a flat bar needs below its top, points.

@@ -132,7 +132,7 @@ mod tests {
         for column in 0..500 {
             let inside = |t: f64| (t * 500.0).floor() == f64::from(column);
             let range = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
-                super::super::scale::extremes(pairs.filter(|p| inside(p.0)).map(|p| p.1))
+                super::super::extremes(pairs.filter(|p| inside(p.0)).map(|p| p.1))
             };
             let full = range(&mut times.iter().copied().zip(values.iter().copied()));
             assert_eq!(full, range(&mut kept.iter().copied()));

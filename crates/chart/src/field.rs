@@ -1,18 +1,11 @@
 //! A nodal field over a (deformed) mesh as a small image with sharp outlines.
 
-use super::axis::Axis;
-use super::colour::{ColourMap, INK};
-use super::colour_bar::Colours;
-use super::data::{Series, SeriesKind};
 use super::decimation::{INVISIBLE, simplify};
-use super::frame::Frame;
-use super::image::{IndexedImage, Palette};
-use super::layer::Layer;
 use super::packed::{Levels, lists};
-use super::path::Path;
-use super::scale::extremes;
-use super::svg::{Stroke, Svg};
-use super::text::plain;
+use super::{
+    Axis, ColourMap, Colours, Frame, INK, IndexedImage, Layer, Palette, Path, Series, SeriesKind,
+    Stroke, Svg, extremes, plain,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -1,15 +1,8 @@
 //! A figure: panels in a grid, in reading order.
 
-use super::ChartError;
-use super::axis::Axis;
-use super::colour::ColourMap;
-use super::colour_bar::Colours;
-use super::data::{PanelData, Steps};
 use super::layout::{Grid, Layout, letter};
-use super::motion::Motion;
-use super::panel::Panel;
-use super::svg::{POINTS_PER_MM, Svg};
-use super::text::plain;
+use super::svg::POINTS_PER_MM;
+use super::{Axis, ChartError, ColourMap, Colours, Motion, Panel, PanelData, Steps, Svg, plain};
 use serde::{Deserialize, Serialize};
 
 /// Width across two columns of a journal page, mm.

@@ -1,10 +1,7 @@
 //! Frame of a panel: the area of the data and the axes around it.
 
-use super::colour::{GRID, INK};
-use super::path::Path;
-use super::ruler::{Ruler, Tick};
-use super::svg::{Rect, Stroke, Svg};
-use super::text::{self, Anchor, TextStyle};
+use super::ruler::Tick;
+use super::{Anchor, GRID, INK, Path, Rect, Ruler, Stroke, Svg, TextStyle, text};
 
 /// Size of axis titles, points.
 pub const TITLE_SIZE: f64 = 7.5;

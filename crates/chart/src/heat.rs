@@ -1,13 +1,6 @@
 //! Heat maps, maps of states.
 
-use super::axis::Axis;
-use super::colour::ColourMap;
-use super::colour_bar::Colours;
-use super::frame::Frame;
-use super::image::{IndexedImage, Palette};
-use super::layer::Layer;
-use super::legend::Key;
-use super::svg::Svg;
+use super::{Axis, ColourMap, Colours, Frame, IndexedImage, Key, Layer, Palette, Svg};
 use serde::{Deserialize, Serialize};
 
 /// Values over a grid of equal cells, as colours.

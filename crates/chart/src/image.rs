@@ -1,8 +1,6 @@
 //! Small images inside drawings: palettes, and pixels in their colours.
 
-use super::colour::{Colour, ColourMap};
-use super::frame::Frame;
-use super::svg::{Rect, Svg};
+use super::{Colour, ColourMap, Frame, Rect, Svg};
 use serde::{Deserialize, Serialize};
 
 /// Colours of an image by index; one index more is transparent.

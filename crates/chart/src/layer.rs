@@ -1,11 +1,9 @@
 //! Layers drawn between two axes.
 
-use super::colour_bar::Colours;
-use super::data::Series;
-use super::frame::Frame;
-use super::legend::Key;
-use super::svg::Svg;
-use super::{Bars, Field, Fill, Heat, Label, Line, Points, Rule, Shapes, Surface};
+use super::{
+    Bars, Colours, Field, Fill, Frame, Heat, Key, Label, Line, Points, Rule, Series, Shapes,
+    Surface, Svg,
+};
 use serde::{Deserialize, Serialize};
 
 /// A side of a panel.

@@ -4,14 +4,10 @@ use serde::{Deserialize, Serialize};
 
 mod placed;
 
-use super::colour::MUTED;
-use super::colour_bar::{Colours, FLAT_BAR_HEIGHT};
-use super::frame::{Frame, TITLE_SIZE};
+use super::colour_bar::FLAT_BAR_HEIGHT;
 use super::legend::Legend;
-use super::panel::Panel;
-use super::ruler::Ruler;
-use super::svg::{POINTS_PER_MM, Rect, Svg};
-use super::text::{self, TextStyle};
+use super::svg::POINTS_PER_MM;
+use super::{Colours, Frame, MUTED, Panel, Rect, Ruler, Svg, TITLE_SIZE, TextStyle, text};
 
 /// Distance of everything from the rim, points.
 const RIM: f64 = 4.0;

@@ -1,11 +1,6 @@
 //! Legends.
 
-use super::colour::{Colour, INK};
-use super::frame::LABEL_SIZE;
-use super::marker::Marker;
-use super::path::Path;
-use super::svg::{Stroke, Svg};
-use super::text::{self, TextStyle};
+use super::{Colour, INK, LABEL_SIZE, Marker, Path, Stroke, Svg, TextStyle, text};
 use serde::{Deserialize, Serialize};
 
 /// What stands before the name of a legend entry: any of a line, a data point, a filled patch.

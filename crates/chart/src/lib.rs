@@ -25,7 +25,6 @@ mod data;
 mod decimation;
 mod field;
 mod figure;
-mod fill;
 mod frame;
 mod heat;
 mod image;
@@ -33,9 +32,7 @@ mod layer;
 mod layout;
 mod legend;
 mod line;
-mod marker;
 mod marks;
-mod motion;
 mod numbers;
 mod packed;
 mod panel;
@@ -43,7 +40,6 @@ mod path;
 mod pdf;
 mod raster;
 mod ruler;
-mod scale;
 mod shapes;
 mod surface;
 mod svg;
@@ -51,31 +47,33 @@ mod text;
 
 pub use axis::Axis;
 pub use colour::{Colour, ColourMap, GRID, INK, MUTED, SERIES};
-pub use data::{Mark, PanelData, Series, SeriesKind, Steps};
+pub use data::{Mark, Motion, MotionKind, MotionState, PanelData, Series, SeriesKind, Steps};
 pub use decimation::{WIDEST, keep_extremes};
 pub use field::{Field, Mesh};
 pub use figure::Figure;
-pub use fill::Fill;
 pub use frame::Frame;
 pub use heat::Heat;
 pub use image::Palette;
 pub use layer::{Drawn, Side};
 pub use legend::Key;
-pub use line::{Line, Points};
-pub use marker::{Marker, look};
+pub use line::{Line, Marker, Points, look};
 pub use marks::{Label, Rule};
-pub use motion::{Motion, MotionKind, MotionState};
-pub use numbers::{prefixed, signed, significant};
+pub use numbers::{Scale, extremes, prefixed, signed, significant};
 pub use packed::{common_length, levels, steps};
 pub use panel::Panel;
 pub use path::Path;
 pub use raster::Drawing;
 pub use ruler::Ruler;
-pub use scale::{Scale, extremes};
-pub use shapes::{Bars, Shapes};
+pub use shapes::{Bars, Fill, Shapes};
 pub use surface::{Surface, SurfaceMesh};
 pub use svg::{ID_PREFIX, Rect, Stroke, Svg, escape};
 pub use text::{Anchor, TextStyle, literal, plain};
+
+// What layers are made with.
+pub(crate) use colour_bar::Colours;
+pub(crate) use frame::{LABEL_SIZE, TITLE_SIZE};
+pub(crate) use image::IndexedImage;
+pub(crate) use layer::Layer;
 
 /// A figure that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

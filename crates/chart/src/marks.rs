@@ -1,11 +1,9 @@
 //! Rules and labels that data are compared with.
 
-use super::colour::{INK, MUTED};
-use super::frame::{Frame, LABEL_SIZE, on_sheet};
-use super::layer::{Layer, Side};
-use super::legend::Key;
-use super::svg::{Stroke, Svg};
-use super::text::{self, Anchor, TextStyle};
+use super::frame::on_sheet;
+use super::{
+    Anchor, Frame, INK, Key, LABEL_SIZE, Layer, MUTED, Side, Stroke, Svg, TextStyle, text,
+};
 use serde::{Deserialize, Serialize};
 
 /// A line across the panel at one value.

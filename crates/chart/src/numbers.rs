@@ -1,4 +1,6 @@
-//! Numbers as text and units with prefixes.
+//! Numbers as text, units with prefixes, ranges and scales.
+
+use serde::{Deserialize, Serialize};
 
 /// A number with `decimals` decimals and a true minus sign.
 pub fn signed(value: f64, decimals: usize) -> String {
@@ -41,6 +43,34 @@ pub fn prefixed(reach: f64, unit: &str) -> (f64, String) {
         .into_iter()
         .find(|(size, _)| reach >= *size)
         .map_or((1.0, unit.into()), |(size, prefix)| (1.0 / size, format!("{prefix}{unit}")))
+}
+
+/// Linear or logarithmic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Scale {
+    /// Equal steps.
+    #[default]
+    Linear,
+    /// Equal ratios; values that are not positive have no place.
+    Logarithmic,
+}
+
+impl Scale {
+    /// Logarithmic for positive values over more than a factor.
+    pub fn for_values(values: impl IntoIterator<Item = f64>, factor: f64) -> Self {
+        match extremes(values) {
+            (low, high) if low > 0.0 && high > factor * low => Self::Logarithmic,
+            _ => Self::Linear,
+        }
+    }
+}
+
+/// Smallest and largest finite value; `(0, 1)` if there is none.
+pub fn extremes(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    let ends =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if ends.0 > ends.1 { (0.0, 1.0) } else { ends }
 }
 
 #[cfg(test)]

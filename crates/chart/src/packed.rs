@@ -1,7 +1,7 @@
 //! How what is only looked at is kept: values as levels, and whole numbers as deviations from the straight line through
 //! the two before, which are short where places and values vary smoothly.
 
-use super::scale::extremes;
+use super::extremes;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Values as levels between the smallest and the largest: their ends, and numbers up to `last`; one more is a gap.

@@ -1,18 +1,14 @@
 //! One plot: two axes and the layers between them.
 
-use super::axis::Axis;
-use super::colour::{Colour, INK, MUTED};
-use super::colour_bar::{Colours, FLAT_BAR_HEIGHT};
-use super::data::{PanelData, Series};
-use super::frame::{
-    Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
+use super::colour_bar::FLAT_BAR_HEIGHT;
+use super::frame::{TICK, draw_grid, draw_x_axis, draw_y_axis, vertical_count};
+use super::legend::Legend;
+use super::marks::{RIM_SIZE, draw_rim_labels};
+use super::ruler::{Tick, widest};
+use super::{
+    Anchor, Axis, Colour, Colours, Drawn, Frame, INK, Key, LABEL_SIZE, Label, MUTED, PanelData,
+    Ruler, Series, Side, Stroke, Svg, TITLE_SIZE, TextStyle, plain, text,
 };
-use super::layer::{Drawn, Side};
-use super::legend::{Key, Legend};
-use super::marks::{Label, RIM_SIZE, draw_rim_labels};
-use super::ruler::{Ruler, Tick, widest};
-use super::svg::{Stroke, Svg};
-use super::text::{self, Anchor, TextStyle, plain};
 use serde::{Deserialize, Serialize};
 
 /// A plot of a figure.

@@ -1,7 +1,6 @@
 //! Whole drawings as PDF: paths, clips and images as they are, letters as their outlines.
 
-use super::ChartError;
-use super::raster::Drawing;
+use super::{ChartError, Drawing};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};

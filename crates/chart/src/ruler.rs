@@ -1,8 +1,6 @@
 //! An axis whose range is known: places, round ticks, labels.
 
-use super::numbers::signed;
-use super::scale::Scale;
-use super::text;
+use super::{Scale, signed, text};
 use serde::{Deserialize, Serialize};
 
 /// One labelled tick.

@@ -1,15 +1,9 @@
 //! The surface of solid bodies, hidden parts hidden: shaded, or in the colours of values at its nodes.
 
-use super::axis::Axis;
-use super::colour::{Colour, ColourMap};
-use super::colour_bar::Colours;
-use super::frame::Frame;
-use super::image::{IndexedImage, Palette};
-use super::layer::Layer;
-use super::legend::Key;
 use super::packed::{Levels, whole};
-use super::scale::extremes;
-use super::svg::Svg;
+use super::{
+    Axis, Colour, ColourMap, Colours, Frame, IndexedImage, Key, Layer, Palette, Svg, extremes,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

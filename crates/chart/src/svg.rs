@@ -3,9 +3,8 @@
 //! One user unit is one typographic point (1/72 inch). Coordinates are written with two decimals,
 //! so equal input gives equal bytes.
 
-use super::colour::Colour;
-use super::path::Path;
-use super::text::{Anchor, FONT_FAMILY, SCRIPT_SIZE, TextStyle, parse, plain};
+use super::text::{FONT_FAMILY, SCRIPT_SIZE, parse};
+use super::{Anchor, Colour, Path, TextStyle, plain};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;

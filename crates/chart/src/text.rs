@@ -1,6 +1,6 @@
 //! Text: the embedded font, its widths, and a small mark-up for symbols and indices.
 
-use super::colour::{Colour, INK};
+use super::{Colour, INK};
 use serde::{Deserialize, Serialize};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};

@@ -9,6 +9,7 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use std::sync::{Arc, OnceLock};
 
 /// Entries of factors from which on nested dissection is tried. At ten million it saves what it takes, at two hundred a third of them.
 const LARGE: usize = 2_000_000;
@@ -25,6 +26,8 @@ pub struct SparsityPattern {
     /// Index among the nonzeros.
     row_positions: Vec<u32>,
     row_columns: Vec<u32>,
+    /// Structure of factors, made for the first ones.
+    factors: OnceLock<Result<Arc<SymbolicCholesky<usize>>, LinalgError>>,
 }
 
 impl SparsityPattern {
@@ -67,7 +70,8 @@ impl SparsityPattern {
             row_indices,
         );
         let (row_pointers, row_positions, row_columns) = by_rows(&symbolic);
-        Self { symbolic, row_pointers, row_positions, row_columns }
+        let factors = OnceLock::new();
+        Self { symbolic, row_pointers, row_positions, row_columns, factors }
     }
 
     /// Number of rows and of columns.
@@ -129,6 +133,15 @@ impl SparsityPattern {
         positions.map(|&position| values[position as usize]).collect()
     }
 
+    /// Whether every nonzero has one opposite.
+    pub(super) fn is_symmetric(&self) -> bool {
+        let is_alike = |i: usize| {
+            let row = self.row_columns[self.row_range(i)].iter();
+            row.map(|&j| j as usize).eq(self.column(i).map(|(_, row)| row))
+        };
+        (0..self.dimension()).all(is_alike)
+    }
+
     /// Index of `(row, column)` among the nonzeros, if it is one.
     #[inline]
     pub fn position(&self, row: usize, column: usize) -> Option<usize> {
@@ -141,7 +154,11 @@ impl SparsityPattern {
     ///
     /// # Errors
     /// If the analysis runs out of memory or index range.
-    pub(super) fn symbolic_cholesky(&self) -> Result<SymbolicCholesky<usize>, LinalgError> {
+    pub(super) fn symbolic_cholesky(&self) -> Result<Arc<SymbolicCholesky<usize>>, LinalgError> {
+        self.factors.get_or_init(|| self.analysed().map(Arc::new)).clone()
+    }
+
+    fn analysed(&self) -> Result<SymbolicCholesky<usize>, LinalgError> {
         let n = self.dimension();
         let analysed = |order: SymmetricOrdering<'_, usize>| {
             let parameters = CholeskySymbolicParams {

@@ -24,8 +24,7 @@ impl LdlAnalysis {
     /// # Errors
     /// If the analysis runs out of memory or index range.
     pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
-        let symbolic = Arc::new(pattern.symbolic_cholesky()?);
-        Ok(Self { pattern: Arc::clone(pattern), symbolic })
+        Ok(Self { pattern: Arc::clone(pattern), symbolic: pattern.symbolic_cholesky()? })
     }
 
     /// Entries of the factors.

@@ -69,8 +69,10 @@ impl Order {
         let n = pattern.dimension();
         let nonzeros = (0..n).flat_map(|j| pattern.column(j).map(move |(_, i)| (i, j)));
         let hull = nonzeros.flat_map(|(i, j)| [(i, j), (j, i)]);
-        let hull = SparsityPattern::from_positions(n, hull);
-        let symbolic = hull.symbolic_cholesky()?;
+        let symbolic = match pattern.is_symmetric() {
+            true => pattern.symbolic_cholesky()?,
+            false => SparsityPattern::from_positions(n, hull).symbolic_cholesky()?,
+        };
         let places = symbolic.perm().map(|perm| perm.arrays().1.to_vec());
         let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
             // A diagonal matrix, where nothing is to be eliminated.

@@ -5,7 +5,7 @@ use crate::drawing::Declaration;
 use crate::keys::keys;
 use crate::parameter::parameter_axis;
 use crate::summary::Bounds;
-use crate::sweep::{PointRecord, by_other_keys, swept_text};
+use crate::sweep::{FRICTION, PointRecord, SPEED, by_other_keys, swept_text};
 use frictionsim_chart::{
     Axis, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Scale, Stroke, literal, look,
 };
@@ -158,9 +158,6 @@ impl Finding for BasinSummary {
         vec![Box::new(|| Some(search(self)))]
     }
 }
-
-const SPEED: &str = "contact.rotation_speed_rpm";
-const FRICTION: &str = "contact.friction_coefficient";
 
 /// The boundary at one value of the key along the axis.
 struct Boundary {

@@ -84,11 +84,9 @@ keys! {
         measurement: String = "the table of measured modes";
         friction_coefficient: f64 = "friction coefficient at which modes are computed";
         parameters: BTreeMap<String, FittedParameter> = "the fitted parameters by their keys";
-        correlations: BTreeMap<String, BTreeMap<String, f64>>
-            = "correlation of the estimates, by key and key";
+        correlations: BTreeMap<String, BTreeMap<String, f64>> = "correlation of the estimates, by key and key";
         residuals: Vec<LineSummary> = "each measured line with its mode";
-        frequency_scatter: Option<f64>
-            = "root mean square of the differences of frequencies over the frequency";
+        frequency_scatter: Option<f64> = "root mean square of the differences of frequencies over the frequency";
         real_scatter: Option<f64> = "the same of real parts";
         worst_percent: f64 = "largest difference of a frequency, per cent";
         other_minima: Vec<BTreeMap<String, f64>>

@@ -1,10 +1,9 @@
 //! Results of `improve`: where a modification silences unstable modes, what it is predicted to do, and what it does.
 
 use crate::charts::{Disc, SolidView};
-use crate::drawing::{Declaration, declared};
+use crate::drawing::Declaration;
 use crate::keys::keys;
-use crate::vtu::{EncodedMesh, Field, write_vtu};
-use crate::{Extent, FolderError, OutputFolder, sorted};
+use crate::{EncodedMesh, Extent, Field, FolderError, OutputFolder, declared, sorted, write_vtu};
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Marker, Points, Side};
 use frictionsim_output::{Column, Document, Format, Section, Table, columns, parted, significant};
 use frictionsim_physics::mesh::Mesh;
@@ -99,8 +98,7 @@ keys! {
         position_m: [f64; 3] = "where it is, m; the way of the hole for an offset";
         direction: Option<[f64; 3]> = "direction of a spring or dashpot";
         added_mass_kg: f64 = "mass that it adds, kg; negative where material is taken away";
-        first_order_growth_rate_per_s: Option<f64>
-            = "largest growth rate of the targets to first order, 1/s";
+        first_order_growth_rate_per_s: Option<f64> = "largest growth rate of the targets to first order, 1/s";
         predicted: State = "what is predicted from all listed modes together";
         confirmed: Option<State> = "what the modified case does";
         verdict: String = "what that comes to, in words";

@@ -9,7 +9,6 @@ pub mod cycle;
 mod distinct;
 mod drawing;
 mod extent;
-mod finding;
 pub mod fit;
 pub mod identification;
 pub mod improve;
@@ -19,7 +18,6 @@ pub mod matrices;
 pub mod mesh;
 mod npz;
 mod parameter;
-mod pvd;
 pub mod reference;
 mod report;
 mod response;
@@ -28,21 +26,18 @@ pub mod signal;
 mod store;
 pub mod summary;
 pub mod sweep;
-pub mod sweep_figures;
 pub mod transient;
 pub mod uncertainty;
 mod universal;
 mod vtu;
 
 use distinct::{distinct, grouped};
-use store::{folder, framed, manifest, record, reopening, whole_file};
+use store::{folder, framed, manifest, record, reopening};
 
 pub use distinct::{number_ranges, sorted};
 pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, declared};
 pub use extent::Extent;
-pub use finding::{Finding, write_page, write_table, write_tables};
-pub use pvd::{PvdEntry, write_pvd};
-pub use report::Page;
+pub use report::{Finding, Page, write_page, write_table, write_tables};
 pub use response::{ResponseSummary, response_figure, write_response};
 pub use shown_body::{BodyStress, ShownBody};
 pub use store::{
@@ -51,4 +46,4 @@ pub use store::{
 };
 pub use summary::{Head, object, read_summary, summary_of, write_summary};
 pub use universal::{write_universal_mesh, write_universal_mode};
-pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};
+pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};

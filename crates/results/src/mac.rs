@@ -1,7 +1,7 @@
 //! Results of `mac`: modal assurance of measured shapes.
 
-use super::Finding;
 use super::drawing::Declaration;
+use crate::Finding;
 use crate::keys::keys;
 use frictionsim_chart::{Axis, ColourMap, Figure, Heat, INK, Marker, Panel, Points, Side};
 use frictionsim_output::{Document, Section, Table, columns};

@@ -1,5 +1,6 @@
 //! Every declared column of the tables and every key of `summary.json`, with unit and meaning.
 
+use super::ResponseSummary;
 use super::basin::{BasinSummary, RUNS};
 use super::cea::{self, CeaSummary};
 use super::compare::ComparisonSummary;
@@ -12,7 +13,6 @@ use super::mac::{self, MacSummary};
 use super::manifest::Manifest;
 use super::matrices::{self, MatricesSummary};
 use super::mesh::{MeshStatistics, MeshSummary, SolidMeshStatistics};
-use super::response::ResponseSummary;
 use super::signal::{self, SignalSummary};
 use super::summary::STATUS as FRACTIONS;
 use super::sweep::{self, SweepSummary};

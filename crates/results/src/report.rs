@@ -1,15 +1,14 @@
-//! `report.html` and `figures.bin`: figures, tables, case and manifest of one result, as a page and as data.
+//! What a command found: its document and figures become `report.html` and `figures.bin`, a page and the same as data.
 
-mod numbers;
 mod page;
 mod script;
 
-use super::drawing::{DrawingError, DrawingOptions, File, REPORT, files_of};
-use super::folder::OutputFolder;
+use super::drawing::{Declaration, File, REPORT, files_of};
 use super::manifest::Manifest;
-use super::record::Record;
+use super::record::{Record, read_record, write_record};
+use super::{DrawingError, DrawingOptions, FolderError, OutputFolder};
 use frictionsim_chart::{ChartError, Figure};
-use frictionsim_output::Document;
+use frictionsim_output::{Document, Table};
 use serde::{Deserialize, Serialize};
 
 /// A page as data, `figures.bin`: what was drawn, to be drawn again at any size.
@@ -58,6 +57,37 @@ impl Page {
         files.iter().flatten().try_for_each(|(name, bytes)| write(name, bytes))?;
         Ok(write(REPORT, self.to_html(&drawings).as_bytes())?)
     }
+}
+
+/// A summary that says everything: it is `summary.json`, and the tables, the page and the figures are made from it.
+pub trait Finding: Serialize {
+    /// Its tables and sentences.
+    fn document(&self) -> Document;
+
+    /// Its figures.
+    fn figures(&self) -> Vec<Declaration<'_>>;
+}
+
+/// Writes the tables of a document that are files.
+pub fn write_tables(folder: &OutputFolder, document: &Document) -> Result<(), FolderError> {
+    document.files().try_for_each(|table| write_table(folder, table))
+}
+
+/// Writes a table as its file.
+pub fn write_table(folder: &OutputFolder, table: &Table) -> Result<(), FolderError> {
+    folder.write(&table.file, |out| table.write_csv(out))
+}
+
+/// Writes the page of a document, its figures, and both as data.
+pub fn write_page(
+    folder: &OutputFolder,
+    document: Document,
+    figures: Vec<Figure>,
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    write_record(folder, &Page::new(document, figures, folder.manifest()))?;
+    // What is drawn is what was kept: drawn again, it is the same.
+    read_record::<Page>(folder.path())?.draw(folder, options)
 }
 
 #[cfg(test)]

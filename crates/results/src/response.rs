@@ -1,10 +1,9 @@
 //! Table, figure and report of a computed frequency response.
 
-use super::finding::write_table;
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
-use super::sorted;
 use crate::keys::keys;
+use crate::{sorted, write_table};
 use frictionsim_chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use frictionsim_output::{Document, Section, Table};
 use frictionsim_physics::linalg::c64;

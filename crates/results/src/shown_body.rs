@@ -1,6 +1,6 @@
 //! A body as results show it.
 
-use super::vtu::{EncodedMesh, Field};
+use super::{EncodedMesh, Field};
 use frictionsim_physics::fem::{
     MaterialField, NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
 };

@@ -89,8 +89,7 @@ keys! {
     #[derive(Copy, Default)]
     Bounds {
         low: Option<f64> = "largest ratio at which the first wave wins; without `high` it wins at every ratio tried";
-        high: Option<f64>
-            = "smallest ratio at which the second wins; without `low` it wins at every ratio tried";
+        high: Option<f64> = "smallest ratio at which the second wins; without `low` it wins at every ratio tried";
     }
 }
 

@@ -1,6 +1,8 @@
-//! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
+//! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed, and collections of them
+//! by time.
 
-use flate2::{Compression, write::ZlibEncoder};
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 use frictionsim_output::rounded;
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::fem::{NodalStress, SolidStress};
@@ -358,4 +360,34 @@ fn write_whole(out: &mut dyn Write, fields: &[Field]) -> io::Result<()> {
 /// Text inside an XML attribute.
 pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+/// One file of a collection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PvdEntry {
+    /// Time, or whatever the collection is ordered by.
+    pub time: f64,
+    /// Group that the file belongs to.
+    pub group: String,
+    /// File name relative to the collection.
+    pub file: String,
+}
+
+/// Writes a ParaView collection.
+pub fn write_pvd(out: &mut dyn Write, entries: &[PvdEntry]) -> io::Result<()> {
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        out,
+        "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>"
+    )?;
+    for entry in entries {
+        writeln!(
+            out,
+            "<DataSet timestep=\"{:?}\" group=\"{}\" part=\"0\" file=\"{}\"/>",
+            rounded(entry.time, 12),
+            escape(&entry.group),
+            escape(&entry.file)
+        )?;
+    }
+    writeln!(out, "</Collection>\n</VTKFile>")
 }

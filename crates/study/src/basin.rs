@@ -1,21 +1,14 @@
 //! Search of a case for the basin boundary of two waves, or of two modes of a body without symmetry.
-//!
-//! ```no_run
-//! use frictionsim::case::Case;
-//! use frictionsim::fem::operator::SimdLevel;
-//! use frictionsim::study::basin::boundary;
-//!
-//! let case = Case::parse("disc", &std::fs::read("cases/basin.toml")?, &[])?;
-//! let found = boundary(&case, SimdLevel::detect())?;
-//! println!("the second wave wins above {:?}, the first below {:?}", found.high, found.low);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! `cargo run --example studies` runs one.
 
 use super::StudyError;
-use super::cycle::{boundary_of_modes, disc_model, operating_point};
-use frictionsim_case::Case;
-use frictionsim_physics::cycle::BasinBoundary;
+use super::cycle::{Steady, disc_model, longest_step, operating_point};
+use super::transient::SteppedMesh;
+use frictionsim_case::{Case, refusal};
+use frictionsim_physics::cycle::periodic::{GrowingMode, ModeContest, PeriodMap};
+use frictionsim_physics::cycle::{BasinBoundary, BasinRequest};
 use frictionsim_physics::fem::operator::SimdLevel;
+use frictionsim_physics::transient::OperatorChoice;
 use frictionsim_results::Manifest;
 use frictionsim_results::basin::BasinSummary;
 
@@ -41,4 +34,43 @@ fn contest(case: &Case, simd: SimdLevel) -> Result<([usize; 2], BasinBoundary), 
 pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyError> {
     let (rivals, found) = contest(case, SimdLevel::choose(&manifest.simd)?)?;
     Ok(BasinSummary::new(rivals, !case.has_rotating_waves(), found))
+}
+
+/// The boundary between the basins of two modes that grow, or between that of one mode and steady sliding, and the
+/// numbers of the two rivals, 0 for steady sliding.
+pub fn boundary_of_modes(
+    case: &Case,
+    request: &BasinRequest,
+    simd: SimdLevel,
+) -> Result<([usize; 2], BasinBoundary), StudyError> {
+    let stepped = SteppedMesh::of(case)?;
+    let steady = Steady::of(case, &stepped)?;
+    let places = rivals(case, request, &steady)?;
+    let modes: Vec<(usize, GrowingMode<'_>)> =
+        places.into_iter().map(|place| (place + 1, steady.mode(place))).collect();
+    let body = stepped.body(case);
+    let operator = body.operator(OperatorChoice::Auto, simd)?;
+    let fastest = modes.iter().map(|(_, mode)| mode.eigenvalue.im).fold(0.0, f64::max);
+    let map = PeriodMap::new(body, operator.as_ref(), fastest, longest_step(case))?;
+    let mut contest = ModeContest::new(map, &modes, request);
+    let rivals = contest.rivals();
+    Ok((rivals, request.boundary(rivals, |ratio| Ok::<_, StudyError>(contest.run(ratio)))?))
+}
+
+/// Places of the modes that compete: those asked for, else the two that grow fastest, else the least stable one.
+fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<usize>, StudyError> {
+    let growing = steady.growing();
+    let Some(asked) = &request.modes else {
+        return Ok(match growing.len() {
+            0 => steady.least_stable().into_iter().collect(),
+            _ => growing.into_iter().take(2).collect(),
+        });
+    };
+    let count = steady.modes.len();
+    if let Some(beyond) = asked.iter().find(|&&mode| mode > count) {
+        return Err(StudyError::Case(refusal!(case, "basin.modes",
+            "basin.modes: there is no mode {beyond}, {count} are looked at"; "1 to {count}";
+            "raise cea.modes, or cea.max_frequency_hz")));
+    }
+    Ok(asked.iter().map(|mode| mode - 1).collect())
 }

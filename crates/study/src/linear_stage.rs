@@ -1,8 +1,8 @@
 //! The modes that a transient has in its linear stage.
 
-use super::StudyError;
-use super::eigenvalues::{asked_modes, modes_at_own_friction};
+use super::eigenvalues::asked_modes;
 use super::tangent::{MODES_IN_TIME, options_in_time};
+use super::{StudyError, modes_at_own_friction};
 use frictionsim_case::Case;
 use frictionsim_physics::cea::{CeaError, ComplexMode};
 use frictionsim_physics::prestress::DampingModel;

@@ -1,10 +1,9 @@
 //! Checks of a case without running it, through the code paths of the run.
 
 use super::eigenvalues::Solver;
-use super::plan::SweepPlan;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
-use super::{StudyError, eigenvalues, improve};
+use super::{StudyError, SweepPlan, eigenvalues, improve};
 use frictionsim_case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location};
 use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::SolidSector;

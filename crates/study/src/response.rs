@@ -11,7 +11,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::eigenvalues::{WholeMesh, wave_tangent};
+use super::eigenvalues::{WholeMesh, sector_tangent};
 use super::{StudyError, tangent_options};
 use frictionsim_case::{AssemblyBody, BodyKind, Case, CaseErrors, Frf, FrfMethod, refusal};
 use frictionsim_physics::frf::{
@@ -204,8 +204,8 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         }
         (_, FrfBoundary::Sliding) => {
             refuse_rest(case)?;
-            let waves = wave_tangent(case, &tangent_options(case, frf.mass))?;
-            let waves = waves.expect("a body of equal sectors has waves");
+            let sector = sector_tangent(case, &tangent_options(case, frf.mass))?;
+            let waves = sector.expect("a body of equal sectors").waves();
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
         (BodyKind::Annulus(own), _) => apart(case, frf, &Strip::of_annulus(own)?),

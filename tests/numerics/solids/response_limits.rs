@@ -14,8 +14,8 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
     let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
     let options = &model.options;
     let (flat, thick) = if is_sliding {
-        let tangent = WaveTangent::of_annulus(&plane, &material, options, &model.contact);
-        let flat = CyclicSystem::sliding(&tangent.unwrap(), 0.3);
+        let tangent = SectorTangent::of_annulus(&plane, &material, options, &model.contact);
+        let flat = CyclicSystem::sliding(&tangent.unwrap().waves(), 0.3);
         (flat, sliding(&model, 0.3))
     } else {
         let flat = CyclicSystem::body(&plane, &material, options.mass, options.damping, true);

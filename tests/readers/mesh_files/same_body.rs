@@ -171,6 +171,10 @@ fn a_body_is_the_same_to_the_bit_whatever_format_it_comes_in() {
         let expected = Mesh::from_solids(&file, 1.0, &[]).unwrap();
         assert_same("inp", &body("block.inp", &inp(&file)), &expected, SIDES);
         assert_same("bdf", &body("block.bdf", &bdf(&file)), &expected, ["PLOAD4_1", "PLOAD4_2"]);
+        // What is read is not told as left out.
+        let [_, _, card, ..] = kind_in_files(kind);
+        let left_out = read("block.bdf", &bdf(&file)).unwrap().model.left_out;
+        assert!(!left_out.iter().any(|own| own.to_string().contains(card)), "{left_out:?}");
         // Dataset 2412 has no pyramid.
         if kind.corner_count() != 5 {
             assert_same("unv", &body("block.unv", &unv(&file)), &expected, SIDES);

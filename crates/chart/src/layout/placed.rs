@@ -1,12 +1,9 @@
 //! What stands above the data area of a panel, and the room that it takes.
 
 use super::Placed;
-use crate::colour::Colour;
-use crate::frame::{LABEL_SIZE, on_sheet};
+use crate::frame::on_sheet;
 use crate::legend::LINE_HEIGHT;
-use crate::ruler::Ruler;
-use crate::svg::Svg;
-use crate::text::{self, Anchor, TextStyle};
+use crate::{Anchor, Colour, LABEL_SIZE, Ruler, Svg, TextStyle, text};
 
 /// Height of a line of caption, points.
 const CAPTION_STEP: f64 = 8.5;

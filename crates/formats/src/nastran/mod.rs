@@ -1,6 +1,6 @@
 //! Reader of Nastran bulk data.
 //!
-//! `CTETRA`, `CHEXA` and `CPENTA` with corner nodes alone or with every mid-side node. A region is
+//! `CTETRA`, `CHEXA`, `CPENTA` and `CPYRAM` with corners alone or with every mid-side node. A region is
 //! a property, called by its name in the comments of HyperMesh and ANSA, else `PSOLID_<number>`.
 //! Nastran has few named surfaces. Faces of `PLOAD4` (`PLOAD4_<set>`) and of `BSURFS`
 //! (`BSURFS_<number>`) become boundaries. So do shells that cover faces (`PSHELL_<number>`) and the
@@ -22,10 +22,10 @@ use coordinates::Coordinates;
 use std::collections::{BTreeSet, HashMap};
 
 /// Cards that are read here, and those that say nothing about the model.
-const KNOWN: [&str; 26] = [
+const KNOWN: [&str; 28] = [
     "GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "CTETRA",
     "CHEXA", "CPENTA", "CTRIA3", "CTRIA6", "CQUAD4", "CQUAD8", "PSOLID", "PSHELL", "MAT1", "MAT9",
-    "SPC", "SPC1", "SPCADD", "PLOAD4", "LOAD", "BSURFS", "INCLUDE",
+    "SPC", "SPC1", "SPCADD", "PLOAD4", "LOAD", "BSURFS", "INCLUDE", "CPYRAM", "CPYRA",
 ];
 
 /// Beginnings of cards that hold, load or join parts, and are not read.
@@ -71,7 +71,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     reader.read_nodes()?;
     reader.read_elements()?;
     if reader.collected.is_empty() {
-        refuse!(deck, deck.end(); "the file has no solid elements (CTETRA, CHEXA, CPENTA)");
+        refuse!(deck, deck.end(); "the file has no solid elements (CTETRA, CHEXA, CPENTA, CPYRAM)");
     }
     reader.read_properties()?;
     reader.read_skins()?;

@@ -222,8 +222,7 @@ impl<'a> Branch<'a> {
 
     /// Rates of gap and slip along a heading. Its tangential forces hold the friction coefficient's change already.
     fn wave_rates(&self, linear: &Linearization, heading: &Heading) -> [Vec<f64>; 2] {
-        let forces =
-            [heading.normal(), heading.tangential()].map(|force| self.wave.harmonics(force));
+        let forces = [heading.normal(), heading.tangential()].map(|own| self.wave.harmonics(own));
         let [frequency, _, parameter] = heading.scalars();
         let parameter = match self.parameter {
             Parameter::FrictionCoefficient => 0.0,

@@ -1,13 +1,11 @@
 //! Stability of rotating waves: leading multipliers, from the map of perturbations over one period, and where a branch changes it.
 
-use super::CycleError;
 use super::arnoldi::{MultiplierSearch, Ritz, unit};
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
-use super::stability::{
-    FloquetMultiplier, FloquetMultipliers, RidingMode, StabilityChange, crossing,
-};
+use super::stability::{FloquetMultiplier, FloquetMultipliers, StabilityChange, crossing};
 use super::stepping::{MeshStepping, Period};
+use super::{CycleError, RidingMode};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
@@ -147,7 +145,10 @@ fn leading_multipliers(
         modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im);
         multipliers.push(multiplier(period, ritz, &vector, neutral));
     }
-    Ok((FloquetMultipliers { multipliers, shift: found.shift, periods }, unit(modes)))
+    Ok((
+        FloquetMultipliers { multipliers, shift: found.shift.map(|own| own.norm()), periods },
+        unit(modes),
+    ))
 }
 
 /// A multiplier with the circumferential harmonic that moves the edge most and its frequency.
@@ -214,10 +215,9 @@ fn unknown_start(period: &Period<'_>) -> Vec<f64> {
             start[half + sector * per + dof] = (0..START_HARMONICS)
                 .map(|m| {
                     // Phases and shares without structure: multiples of irrational numbers.
-                    let phase =
-                        TAU * ((2 * m + component + 1) as f64 * 0.618_033_988_749_894_9).fract();
-                    let bend =
-                        1.0 + ((m + 3 * component + 1) as f64 * 0.754_877_666_246_692_7).fract();
+                    let [one, other] = [2 * m + component + 1, m + 3 * component + 1];
+                    let phase = TAU * (one as f64 * 0.618_033_988_749_894_9).fract();
+                    let bend = 1.0 + (other as f64 * 0.754_877_666_246_692_7).fract();
                     (m as f64 * angle + phase).cos()
                         * (0.5 * std::f64::consts::PI * bend * depth).cos()
                 })

@@ -13,8 +13,7 @@ const HARMONIC_COUNT: usize = 9;
 
 /// Mean powers of a cycle, W for each metre of thickness, of a body in three dimensions W.
 ///
-/// `external = stick + slide + contact_dissipated`, and
-/// `stick + slide + normal = material_damping + damping`.
+/// `external = stick + slide + contact_dissipated`, and `stick + slide + normal = material_damping + damping`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CyclePowers {
     /// Of the contact; of a wave `normal` is negative where landing nodes lose energy.
@@ -24,8 +23,7 @@ pub struct CyclePowers {
 }
 
 impl CyclePowers {
-    /// `|external + normal - dissipated - material damping - contact damping| / external`: what is left of the energy balance
-    /// of the cycle.
+    /// `|external + normal - dissipated - material damping - contact damping| / external`: what is left of the energy balance of the cycle.
     pub fn balance_residual(&self) -> f64 {
         let own = &self.contact;
         let out = own.contact_dissipated + self.material_damping + own.damping;
@@ -154,8 +152,7 @@ impl EdgeMotion {
     }
 
     pub fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {
-        let displacement =
-            [0, 1].map(|component| wave.values(self.displacement.iter().map(|u| u[component])));
+        let displacement = [0, 1].map(|c| wave.values(self.displacement.iter().map(|u| u[c])));
         let velocity = [0, 1].map(|component| {
             let rate = |k: usize| wave.contact_rate(k, state.frequencies());
             wave.values(self.displacement.iter().enumerate().map(|(k, u)| u[component] * rate(k)))

@@ -48,9 +48,8 @@ pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::{DiscModel, MODES, Onset};
 pub use parameter::{OperatingPoint, Parameter};
 pub use solver::{CycleBranch, CycleSolver};
-pub use stability::{
-    FloquetMultiplier, FloquetMultipliers, RidingMode, StabilityChange, Verdict, differing,
-};
+pub use stability::{FloquetMultiplier, FloquetMultipliers, RidingMode};
+pub use stability::{StabilityChange, Verdict, differing};
 pub use state::{PointState, WaveState};
 pub use stepping::{MeshStepping, Period};
 pub use two_waves::{Measured, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch, TwoWaves};

@@ -1,12 +1,14 @@
 //! Stability of limit cycles: growth of small perturbations that ride on the wave.
 
 use crate::linalg::c64;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// A small perturbation of a limit cycle, by what it is a period later.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FloquetMultiplier {
     /// `rho = e^{lambda T}`: the perturbation is `rho` times as large after a period.
+    #[serde(with = "Kept")]
     pub multiplier: c64,
     /// `Re lambda = ln |rho| / T`, 1/s.
     pub growth_rate: f64,
@@ -21,7 +23,7 @@ pub struct FloquetMultiplier {
 /// A mode that rides on a rotating wave, `e^{lambda t} e^{i p theta} W(r, n theta + omega t)`.
 ///
 /// It holds the circumferential harmonics `p + k n`, each with the frequency `Im lambda + k omega`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RidingMode {
     /// `Im lambda`, its frequency in the frame of the wave, rad/s.
     pub frequency: f64,
@@ -31,6 +33,14 @@ pub struct RidingMode {
     pub harmonic: usize,
     /// Frequency of that harmonic in the fixed frame, Hz.
     pub frequency_hz: f64,
+}
+
+/// A complex number as it is kept.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "c64")]
+struct Kept {
+    re: f64,
+    im: f64,
 }
 
 /// Whether small perturbations of a limit cycle decay.
@@ -61,13 +71,13 @@ impl Verdict {
 }
 
 /// The leading multipliers of a limit cycle: its stability to every perturbation that its mesh can carry.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FloquetMultipliers {
     /// By falling modulus, one of each conjugate pair, without the shift in phase, which neither grows nor decays.
     pub multipliers: Vec<FloquetMultiplier>,
-    /// That of the shift in phase, which is 1 but for the steps in which nodes change their status; none where no direction was
+    /// Modulus of that of the shift in phase, which is 1 but for the steps in which nodes change their status; none where no direction was
     /// told to be it.
-    pub shift: Option<c64>,
+    pub shift: Option<f64>,
     /// Periods spent.
     pub periods: usize,
 }
@@ -145,11 +155,6 @@ impl FloquetMultipliers {
         let has = |wanted: Verdict| self.multipliers.iter().any(|own| own.verdict() == wanted);
         let known = [Verdict::Unstable, Verdict::Undecided].into_iter().find(|&wanted| has(wanted));
         known.unwrap_or(Verdict::Stable)
-    }
-
-    /// Whether every perturbation decays for sure.
-    pub fn is_stable(&self) -> bool {
-        self.verdict() == Verdict::Stable
     }
 
     /// Circumferential harmonics of the modes that grow for sure, rising; of a rotating wave.

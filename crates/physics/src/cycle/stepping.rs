@@ -8,9 +8,8 @@ use super::state::PointState;
 use super::{CycleError, CycleSolver};
 use crate::contact::ContactStatus;
 use crate::fem::RayleighDamping;
-use crate::fem::operator::{
-    MotionFields, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
-};
+use crate::fem::operator::{MotionFields, SimdLevel, StepCoefficients};
+use crate::fem::operator::{StiffnessOperator, largest_frequency};
 use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
@@ -96,22 +95,18 @@ impl MeshStepping<'_> {
         let limit = stable_step_limit(self.largest_frequency, &point.damping);
         let steps = (duration / (SAFETY * limit)).ceil() as usize;
         let time_step = duration / steps as f64;
-        let model = TransientModel::of_annulus(
-            &self.annulus,
-            &self.solver.model.material,
-            point.damping,
-            point.contact,
-        );
-        let mut settings =
-            TransientSettings::sliding(duration, TimeStep::Seconds(time_step), duration);
+        let (annulus, material) = (&self.annulus, &self.solver.model.material);
+        let model = TransientModel::of_annulus(annulus, material, point.damping, point.contact);
+        let step = TimeStep::Seconds(time_step);
+        let mut settings = TransientSettings::sliding(duration, step, duration);
         if let Some((harmonic, velocity)) = seed {
             settings.perturbation = Perturbation::of(&[harmonic], velocity);
         }
         let [displacement, velocity] = start_of(field, time_step);
         let operator = self.operator.as_ref();
         let run =
-            CentralDifference::start_from(model, operator, &settings, &displacement, velocity)?;
-        Ok((run, steps))
+            CentralDifference::start_from(model, operator, &settings, &displacement, velocity);
+        Ok((run?, steps))
     }
 
     /// One period of the transient that starts on `cycle`, after a few others.

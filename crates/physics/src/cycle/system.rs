@@ -215,8 +215,7 @@ impl<'a> System<'a> {
                 self.equation_of(&[(last, 1.0)], missed / self.parameter_scale())
             }
             Closure::Amplitude(wave, value) => {
-                let Equation { row, residual } =
-                    self.first_harmonic(wave, |value| value.re, linear);
+                let Equation { row, residual } = self.first_harmonic(wave, |own| own.re, linear);
                 let scale = linear.scales[0] / self.force_scale;
                 Equation { row, residual: residual - scale * value }
             }

@@ -9,8 +9,8 @@ use nalgebra::DMatrix;
 
 /// Pairs of vectors whose strains are held at a time: the operators of an element are made once for them.
 const PAIRS_AT_A_TIME: usize = 32;
-/// Real rows of a pair: real and imaginary part of both.
-const PARTS: usize = 4;
+/// What a complex vector may have beside a multiple of a real one, relative to its largest entry, to count as one.
+const ROUNDED: f64 = 1e-13;
 
 /// Estimate of the elastic energy that the errors of two finite-element solutions have in common, by patch recovery of their strains
 /// (Zienkiewicz and Zhu 1992; goal-oriented as in Oden and Prudhomme 2001),
@@ -42,7 +42,11 @@ impl<'a> DiscretizationError<'a> {
     }
 
     fn forms_of(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
-        let columns = interleaved(pairs);
+        let mut rows = Vec::new();
+        let own: Vec<[Parts; 2]> =
+            pairs.iter().map(|pair| pair.map(|own| parts(own, &mut rows))).collect();
+        let dofs = rows.first().map_or(0, Vec::len);
+        let columns = DMatrix::from_fn(rows.len(), dofs, |row, dof| rows[row][dof]);
         // Strains at the samples of the recovery, a column each component, element by element.
         let elements = 0..self.mesh.element_count();
         let sampled: Vec<DMatrix<f64>> = crate::parallel::map(elements.clone(), |e| {
@@ -54,7 +58,7 @@ impl<'a> DiscretizationError<'a> {
         let recovered = self.recovered(&sampled);
         // The error of each element's strain at the points of its stiffness, and its energy.
         let energies: Vec<Vec<c64>> =
-            crate::parallel::map(elements, |e| self.element_energies(e, &columns, &recovered));
+            crate::parallel::map(elements, |e| self.energies((e, &own), &columns, &recovered));
         let regions = self.mesh.regions.len().max(1);
         let mut forms = vec![vec![c64::new(0.0, 0.0); regions]; pairs.len()];
         for (e, energy) in energies.iter().enumerate() {
@@ -96,9 +100,9 @@ impl<'a> DiscretizationError<'a> {
     }
 
     /// `int (R eps(w) - eps(w))^T D (R eps(x) - eps(x)) dV` over an element, of each pair.
-    fn element_energies(
+    fn energies(
         &self,
-        e: usize,
+        (e, pairs): (usize, &[[Parts; 2]]),
         columns: &DMatrix<f64>,
         recovered: &[Vec<(usize, DMatrix<f64>)>],
     ) -> Vec<c64> {
@@ -111,7 +115,7 @@ impl<'a> DiscretizationError<'a> {
         });
         let nodes: Vec<&[f64]> = nodes.flatten().collect();
         let (count, width) = (self.components(), columns.nrows());
-        let mut energies = vec![c64::new(0.0, 0.0); width / PARTS];
+        let mut energies = vec![c64::new(0.0, 0.0); pairs.len()];
         for (k, point) in points.iter().enumerate() {
             let terms = point.values.iter().copied().zip(nodes.iter().copied());
             let terms = std::iter::once((-1.0, at_point(&own, k, count))).chain(terms);
@@ -119,9 +123,11 @@ impl<'a> DiscretizationError<'a> {
             let stress =
                 &error * geometry.elasticity(self.materials.of(region), point) * point.measure;
             for (error, stress) in error.column_iter().zip(stress.column_iter()) {
-                let of_pairs = error.as_slice().chunks(PARTS).zip(stress.as_slice().chunks(PARTS));
-                for (energy, (w, x)) in energies.iter_mut().zip(of_pairs) {
-                    *energy += c64::new(w[0], w[1]) * c64::new(x[2], x[3]);
+                for (energy, [w, x]) in energies.iter_mut().zip(pairs) {
+                    let value = |parts: &Parts, own: &[f64]| -> c64 {
+                        parts.iter().map(|(factor, row)| factor * own[*row]).sum()
+                    };
+                    *energy += value(w, error.as_slice()) * value(x, stress.as_slice());
                 }
             }
         }
@@ -134,13 +140,23 @@ impl<'a> DiscretizationError<'a> {
     }
 }
 
-/// Real and imaginary parts of all pairs, four rows each, a column for each dof.
-fn interleaved(pairs: &[[&[c64]; 2]]) -> DMatrix<f64> {
-    let dofs = pairs.first().map_or(0, |[w, _]| w.len());
-    let parts = |dof: usize| {
-        pairs.iter().flatten().map(move |own| own[dof]).flat_map(|value| [value.re, value.im])
-    };
-    DMatrix::from_iterator(PARTS * pairs.len(), dofs, (0..dofs).flat_map(parts))
+/// A complex vector as factors of real ones, by their number.
+type Parts = Vec<(c64, usize)>;
+
+/// Adds to `rows` the real vector that a vector is a multiple of, or else its real and its imaginary part.
+fn parts(vector: &[c64], rows: &mut Vec<Vec<f64>>) -> Parts {
+    let largest = vector.iter().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+    let largest = largest.copied().unwrap_or_default();
+    let turn = if largest == c64::ZERO { c64::ONE } else { largest / largest.norm() };
+    let turned = || vector.iter().map(|own| own * turn.conj());
+    let first = rows.len();
+    if turned().all(|own| own.im.abs() <= ROUNDED * largest.norm()) {
+        rows.push(turned().map(|own| own.re).collect());
+        return vec![(turn, first)];
+    }
+    rows.push(vector.iter().map(|own| own.re).collect());
+    rows.push(vector.iter().map(|own| own.im).collect());
+    vec![(c64::ONE, first), (c64::I, first + 1)]
 }
 
 /// The columns of one of several points with `count` components each.

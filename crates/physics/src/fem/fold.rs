@@ -52,8 +52,10 @@ impl SectorMatrix {
         entries: impl IntoIterator<Item = (usize, usize, isize, f64)>,
     ) -> Self {
         // Columns are `STEPS` times those of the matrix, plus the difference of angles.
-        let mut terms = Triplets::default();
-        for (row, column, ahead, value) in entries.into_iter().filter(|entry| entry.3 != 0.0) {
+        let entries = entries.into_iter();
+        let mut terms =
+            Triplets { entries: Vec::with_capacity(entries.size_hint().1.unwrap_or(0)) };
+        for (row, column, ahead, value) in entries.filter(|entry| entry.3 != 0.0) {
             terms.push(row, STEPS * column + (REACH as isize + ahead) as usize, value);
         }
         if terms.entries.is_empty() {
@@ -71,27 +73,6 @@ impl SectorMatrix {
         }
         starts.push(entries.len());
         Self { components, starts, entries }
-    }
-
-    /// `(row, column, halves of a sector ahead, value)` of every entry.
-    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, isize, f64)> {
-        self.starts.windows(2).enumerate().flat_map(move |(row, ends)| {
-            self.entries[ends[0]..ends[1]].iter().map(move |e| {
-                (row, e.column as usize, e.turn as isize / 4 - REACH as isize, e.value)
-            })
-        })
-    }
-
-    /// The sum with a factor times another matrix of the same sector.
-    pub fn plus(&self, factor: f64, other: &Self) -> Self {
-        let others = other.entries().map(|(i, j, at, value)| (i, j, at, factor * value));
-        let components = self.components.max(other.components);
-        Self::of_entries(components, self.entries().chain(others))
-    }
-
-    /// Whether it has no entry.
-    pub fn is_empty(&self) -> bool {
-        self.entries.is_empty()
     }
 }
 

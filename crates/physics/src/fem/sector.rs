@@ -22,8 +22,9 @@ impl Strip {
             let (node, half) = self.place(dof / components);
             (components * node + dof % components, half)
         };
+        let places: Vec<(usize, isize)> = (0..3 * self.dof_count()).map(place).collect();
         let entries = matrix.entries.iter().map(|&(row, column, value)| {
-            let ((row, here), (column, there)) = (place(row), place(column));
+            let ((row, here), (column, there)) = (places[row], places[column]);
             (row, column, there - here, value)
         });
         SectorMatrix::of_entries(components, entries)

@@ -84,6 +84,21 @@ impl Triplets {
         Self { entries }
     }
 
+    /// `sum weight (A - A_0)`, `A_0` the first matrix: what all have alike leaves nothing.
+    pub fn quotient<'a>(sides: &[(f64, &'a Self)]) -> Self {
+        let (first, others) = (sides[0].1, &sides[1..]);
+        let places = |own: &'a Self| own.entries.iter().map(|entry| (entry.0, entry.1));
+        if !others.iter().all(|(_, own)| places(own).eq(places(first))) {
+            let all = others.iter().flat_map(|(w, own)| [own.scaled(*w), first.scaled(-w)]);
+            return Self { entries: all.flat_map(|own| own.entries).collect() };
+        }
+        let entries = first.entries.iter().enumerate().map(|(k, &(row, column, value))| {
+            let changes = others.iter().map(|(weight, own)| weight * (own.entries[k].2 - value));
+            (row, column, changes.sum())
+        });
+        Self { entries: entries.filter(|own| own.2 != 0.0).collect() }
+    }
+
     /// Multiplies every value.
     pub fn scaled(&self, factor: f64) -> Self {
         let scale = |&(row, column, value): &(usize, usize, f64)| (row, column, factor * value);

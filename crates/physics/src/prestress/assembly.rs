@@ -134,7 +134,7 @@ impl<'a> Assembly<'a> {
         let contacts = found?;
         let mut joined = Joined { contacts, rotation: None, elastic, supports, basis, base };
         let seams: Vec<usize> = ties.iter().flat_map(|t| [t.surface, t.counter]).collect();
-        let held = || joined.basis.congruent(&joined.stiffness());
+        let held = || joined.basis.congruent(&joined.stiffness()).into_owned();
         let rotation = Rotation::of(mesh, materials, motions, (&joined.basis, &seams), held)?;
         joined.rotation = rotation;
         Ok(Self::of(mesh, materials, Arc::new(joined)))
@@ -259,7 +259,7 @@ impl<'a> Assembly<'a> {
                 match &self.joined.rotation {
                     Some(own) if own.centrifugal == load => {
                         let body = (self.mesh, self.materials);
-                        factorized(&grounded(held, body, basis), &unknowns)
+                        factorized(&grounded(held.into_owned(), body, basis), &unknowns)
                     }
                     _ => Err(error),
                 }

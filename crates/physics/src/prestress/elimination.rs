@@ -4,6 +4,7 @@ use super::PrestressError;
 use crate::contact::{Row, scaled, summed};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::FrictionWeights;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Share of a row's largest coefficient that its first free dof must have to be the one that the row replaces.
@@ -151,10 +152,10 @@ impl Elimination {
     }
 
     /// `T^T A T` over `y`.
-    pub fn congruent(&self, matrix: &Triplets) -> Triplets {
+    pub fn congruent<'a>(&self, matrix: &'a Triplets) -> Cow<'a, Triplets> {
         match self.combined.is_empty() {
-            true => matrix.clone(),
-            false => self.transposed_product(&self.transposed_product(matrix)),
+            true => Cow::Borrowed(matrix),
+            false => Cow::Owned(self.transposed_product(&self.transposed_product(matrix))),
         }
     }
 
@@ -197,7 +198,7 @@ impl Elimination {
         let powers = weights.times_mu(power).filter(|_| !friction.is_empty());
         let last = powers.fold(power, |last, (at, _)| last.max(at));
         let mut projected = vec![Triplets::default(); last + 1];
-        for (row, column, value) in self.congruent(full).entries {
+        for &(row, column, value) in &self.congruent(full).entries {
             let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
             if let (Some(row), Some(column)) = (row, column) {
                 projected[power].push(row, column, value);

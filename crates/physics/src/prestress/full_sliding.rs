@@ -33,7 +33,7 @@ impl<'a> FullSliding<'a> {
     ) -> Result<Self, PrestressError> {
         let separations = points.iter().map(|point| basis.require(&point.normal, "contact"));
         let separations = separations.collect::<Result<Vec<usize>, PrestressError>>()?;
-        let stiffness = basis.congruent(stiffness);
+        let stiffness = basis.congruent(stiffness).into_owned();
         separations.iter().for_each(|&dof| basis.drop_unknown(dof));
         let unknowns = basis.unknowns();
         let solver = factorized(&stiffness, &unknowns)?;

@@ -35,7 +35,7 @@ impl<'a> JoinedPoints<'a> {
         Self {
             normals: normals.collect(),
             drags: drags.collect(),
-            stiffness: elimination.congruent(pressing.stiffness),
+            stiffness: elimination.congruent(pressing.stiffness).into_owned(),
             pressing,
             unknowns,
         }

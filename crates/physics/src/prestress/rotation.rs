@@ -81,7 +81,7 @@ pub(super) fn grounded(
     (mesh, materials): (&Mesh, &dyn MaterialField),
     basis: &Elimination,
 ) -> Triplets {
-    let mass = basis.congruent(&assemble_mass(mesh, materials, MassKind::Lumped));
+    let mass = basis.congruent(&assemble_mass(mesh, materials, MassKind::Lumped)).into_owned();
     let largest = |matrix: &Triplets| {
         let diagonal = matrix.entries.iter().filter(|entry| entry.0 == entry.1);
         diagonal.fold(0.0_f64, |largest, entry| largest.max(entry.2))

@@ -10,7 +10,29 @@ use crate::contact::{
 use crate::fem::{MaterialField, Triplets};
 use crate::mesh::{SolidSector, Strip};
 
-impl WaveTangent {
+/// The matrices of one sector before they are those of waves.
+#[derive(Clone, Debug)]
+pub struct SectorTangent {
+    pub(super) strip: Strip,
+    pub(super) terms: Terms<Triplets>,
+    /// The contact of the sector.
+    pub contact: WaveContact,
+    pub(super) options: TangentOptions,
+    pub(super) sliding_direction: f64,
+}
+
+impl SectorTangent {
+    /// `sum weight T` of tangents that differ in matrices alone, with weights that sum up to zero: a difference quotient. What they
+    /// have alike leaves no round-off. `None` where they differ in more.
+    pub fn quotient(sides: &[(f64, &Self)]) -> Option<WaveTangent> {
+        let first = sides.first()?.1;
+        let shape = |a: &Self| (a.sliding_direction, a.contact.clone(), a.strip.wave_dofs());
+        let is_alike = sides.iter().all(|(_, own)| shape(own) == shape(first));
+        let terms: Vec<_> = sides.iter().map(|(weight, own)| (*weight, &own.terms)).collect();
+        let terms = Terms::quotient(&terms).filter(|_| is_alike)?;
+        Some(Self { terms, ..first.clone() }.waves())
+    }
+
     /// Finds the steady sliding state of one sector of an annulus and linearises around it, for each metre of thickness.
     ///
     /// # Errors
@@ -96,7 +118,7 @@ impl Touching {
         (strip, material): (&Strip, &dyn MaterialField),
         mut terms: Terms<Triplets>,
         (options, contact): (&TangentOptions, &SlidingContact),
-    ) -> WaveTangent {
+    ) -> SectorTangent {
         let (points, state) = &self.law;
         let stiffness = options.contact;
         let part =
@@ -109,7 +131,8 @@ impl Touching {
             terms.add(Part::Contact(0), Kind::Prestress, turned);
         }
         let dofs = self.dofs(strip.mesh.dimension, options);
-        WaveTangent::new(strip, (terms, dofs), options, contact.sliding_direction())
+        let (strip, sliding_direction) = (strip.clone(), contact.sliding_direction());
+        SectorTangent { strip, terms, contact: dofs, options: *options, sliding_direction }
     }
 
     /// The dofs of the contact; those of a place are free to move along the normal.

@@ -2,10 +2,10 @@
 
 use super::elimination::Elimination;
 use super::terms::{Kind, Part, Term, Terms, of_kind};
-use super::{FrictionPolynomial, HarmonicTangent, TabledGain, TangentOptions};
+use super::{FrictionPolynomial, HarmonicTangent, SectorTangent, TabledGain, TangentOptions};
 use crate::contact::Row;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping, Triplets};
+use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
 use crate::mesh::Strip;
@@ -44,7 +44,8 @@ pub struct WaveTangent {
     pub options: TangentOptions,
     /// The matrices of one sector.
     pub terms: Terms<SectorMatrix>,
-    pub(super) contact: WaveContact,
+    /// The contact of one sector.
+    pub contact: WaveContact,
     /// Dofs that nothing holds.
     pub dofs: WaveDofs,
     /// Those of them that move, the unknowns of a harmonic: all but the normals in rigid contact.
@@ -55,7 +56,7 @@ pub struct WaveTangent {
 
 /// The contact of one sector, by its dofs.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct WaveContact {
+pub struct WaveContact {
     /// Component along the normal.
     pub normal: usize,
     /// Dofs of each contact node, or ring of them, the other body's behind its own.
@@ -70,32 +71,10 @@ pub(super) struct WaveContact {
     pub rigid: Vec<(usize, Row)>,
 }
 
-impl WaveTangent {
-    /// A body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots
-    /// of its supports.
-    pub fn of_free(
-        strip: &Strip,
-        material: &dyn MaterialField,
-        mass: MassKind,
-        damping: RayleighDamping,
-        is_held: bool,
-    ) -> Self {
-        let options = TangentOptions::of_free(mass, damping);
-        let terms = Terms::of_mesh((&strip.mesh, material), !is_held, &options);
-        let parts = (terms, WaveContact::default());
-        match is_held {
-            true => Self::new(strip, parts, &options, 1.0),
-            false => Self::new(&strip.unheld(), parts, &options, 1.0),
-        }
-    }
-
-    /// From the matrices over the dofs of the strip.
-    pub(super) fn new(
-        strip: &Strip,
-        (terms, mut contact): (Terms<Triplets>, WaveContact),
-        options: &TangentOptions,
-        sliding_direction: f64,
-    ) -> Self {
+impl SectorTangent {
+    /// That of waves around the body.
+    pub fn waves(self) -> WaveTangent {
+        let Self { strip, terms, mut contact, options, sliding_direction } = self;
         // A node of the other body takes part in the motion of its pair, in the sectors beside as well.
         let mut dofs = strip.wave_dofs();
         dofs.half_bandwidth += 2 * contact.distances.len();
@@ -120,9 +99,9 @@ impl WaveTangent {
                 Some((place(*normal)?, drags.collect()))
             })
             .collect();
-        Self {
+        WaveTangent {
             moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
-            options: *options,
+            options,
             unknowns,
             components: strip.mesh.dimension,
             halves: strip.halves.clone(),
@@ -132,18 +111,22 @@ impl WaveTangent {
             sliding_direction,
         }
     }
+}
 
-    /// `T - T'` of tangents that differ in matrices alone, before these are summed up: what both have alike leaves no round-off
-    /// in a difference quotient. `None` where they differ in more.
-    pub fn less(&self, other: &Self) -> Option<Self> {
-        let factors = |own: &Self| {
-            let TangentOptions { damping, damping_model, .. } = own.options;
-            (damping, damping_model, own.sliding_direction)
-        };
-        let is_alike = factors(self) == factors(other)
-            && (&self.contact, &self.dofs) == (&other.contact, &other.dofs);
-        let terms = self.terms.less(&other.terms).filter(|_| is_alike)?;
-        Some(Self { terms, ..self.clone() })
+impl WaveTangent {
+    /// A body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots
+    /// of its supports.
+    pub fn of_free(
+        strip: &Strip,
+        material: &dyn MaterialField,
+        mass: MassKind,
+        damping: RayleighDamping,
+        is_held: bool,
+    ) -> Self {
+        let (options, contact) = (TangentOptions::of_free(mass, damping), WaveContact::default());
+        let terms = Terms::of_mesh((&strip.mesh, material), !is_held, &options);
+        let strip = if is_held { strip.clone() } else { strip.unheld() };
+        SectorTangent { strip, terms, contact, options, sliding_direction: 1.0 }.waves()
     }
 
     /// The largest harmonic, half the number of sectors.
@@ -154,11 +137,6 @@ impl WaveTangent {
     /// Whether harmonic `n` stands: `+n` and `-n` are one and the same.
     pub fn is_standing(&self, n: usize) -> bool {
         n == 0 || 2 * n == self.dofs.sectors
-    }
-
-    /// Whether each node, or ring, of the contact is pressed.
-    pub fn pressed(&self) -> &[bool] {
-        &self.contact.is_pressed
     }
 
     /// Dofs of a sector at which a force can act and a displacement be observed: a distance between two bodies is no such place.
@@ -376,26 +354,6 @@ impl Term<SectorMatrix> {
             (0, _) | (_, Kind::FrictionDashpots) => MirrorParity::Even,
             _ => MirrorParity::Odd,
         }
-    }
-}
-
-impl Terms<SectorMatrix> {
-    /// [`WaveTangent::less`] of every matrix; `None` where factors differ.
-    fn less(&self, other: &Self) -> Option<Self> {
-        if !self.laws().eq(other.laws()) {
-            return None;
-        }
-        let mut own = self.clone();
-        for term in &other.all {
-            let name = |own: &Term<_>| (own.part, own.kind, own.power);
-            match own.all.iter_mut().find(|own| name(own) == name(term)) {
-                Some(own) if own.matrix == term.matrix => own.matrix = SectorMatrix::default(),
-                Some(own) => own.matrix = own.matrix.plus(-1.0, &term.matrix),
-                None => own.all.push(term.with(SectorMatrix::default().plus(-1.0, &term.matrix))),
-            }
-        }
-        own.all.retain(|term| !term.matrix.is_empty());
-        Some(own)
     }
 }
 

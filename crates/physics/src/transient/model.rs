@@ -107,7 +107,7 @@ impl<'a> TransientModel<'a> {
     fn bound(&self, matrix: Triplets) -> Triplets {
         let SteppedBody::Assembly { assembly, .. } = self.body else { return matrix };
         let (basis, unknowns) = (&assembly.joined.basis, assembly.joined.basis.unknowns());
-        let mut matrix = basis.congruent(&matrix);
+        let mut matrix = basis.congruent(&matrix).into_owned();
         let moves = |dof: usize| unknowns.unknown_of[dof].is_some();
         matrix.entries.retain(|&(row, column, _)| moves(row) && moves(column));
         matrix

@@ -1,9 +1,7 @@
 //! The steady sliding state that the eigenvalues belong to.
 
-use crate::extent::Extent;
 use crate::keys::keys;
-use crate::vtu::Field;
-use crate::{BodyStress, ShownBody, sorted};
+use crate::{BodyStress, Extent, Field, ShownBody, sorted};
 use frictionsim_output::{Table, columns, significant};
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::mesh::{Counterface, Mesh};

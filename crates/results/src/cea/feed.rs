@@ -1,12 +1,11 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
 use super::base::{ContactPlace, means_around, or_zero};
-use super::mode_name::{ModeName, NUMBERS};
+use super::branches::{ModeName, NUMBERS};
 use super::{BaseField, CeaReport};
 use crate::charts::SolidView;
 use crate::folder::{FolderError, OutputFolder};
-use crate::sorted;
-use crate::vtu::{EncodedMesh, Field, write_vtu};
+use crate::{EncodedMesh, Field, sorted, write_vtu};
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use frictionsim_output::{Table, columns, fixed};
 use frictionsim_physics::mesh::{Counterface, Mesh, SolidFace};

@@ -6,8 +6,8 @@ use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::{BaseField, CeaReport, direction_name, feed, prestress};
 use crate::charts::palette::{STABLE, UNSTABLE};
-use crate::distinct;
-use crate::drawing::{Declaration, declared};
+use crate::drawing::Declaration;
+use crate::{declared, distinct};
 use frictionsim_chart::{
     Axis, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, Stroke, signed,
 };

@@ -1,12 +1,11 @@
 //! Fields of the base state, of the feed and of mode shapes.
 
-use super::shape::ModeShape;
-use super::solid::size;
+use super::shape::{ModeShape, size};
 use super::{BaseField, CeaReport, feed};
 use crate::folder::{FolderError, OutputFolder};
-use crate::pvd::{PvdEntry, write_pvd};
-use crate::universal::{write_universal_mesh, write_universal_mode};
-use crate::vtu::{EncodedMesh, Field, write_vtu};
+use crate::{
+    EncodedMesh, Field, PvdEntry, write_pvd, write_universal_mesh, write_universal_mode, write_vtu,
+};
 use frictionsim_output::rounded;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;

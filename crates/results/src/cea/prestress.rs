@@ -2,7 +2,7 @@
 
 use super::CeaReport;
 use super::base::{BaseField, ContactState, closed_share};
-use super::solid::{Picture, size};
+use super::shape::{Picture, size};
 use crate::BodyStress;
 use crate::charts::{Disc, contact_surfaces};
 use frictionsim_chart::{Axis, ColourMap, Figure, Line, Marker, Panel, SERIES, Side};

@@ -1,7 +1,6 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
-use super::branches::Branch;
-use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
+use super::branches::{Branch, ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, ModeFeed};
 use crate::keys::keys;
 use crate::{distinct, grouped, sorted};

@@ -1,6 +1,6 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
-use super::mode_name::travels;
+use super::branches::travels;
 use crate::keys::keys;
 use crate::sorted;
 use frictionsim_output::{Format, Table, columns, fixed};
@@ -22,8 +22,7 @@ keys! {
         friction_coefficient: f64 = "friction coefficient";
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
         branch: usize = "rank within the harmonic, else among all, from 1";
-        direction: Option<i8>
-            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        direction: Option<i8> = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         /// Eigenvalue, rad/s.
         #[serde(skip)]
         eigenvalue: c64;

@@ -22,15 +22,12 @@ keys! {
         largest_residual: Option<f64> = "largest relative residual of any eigenpair";
         modes_at_friction: Option<Vec<ModeSummary>>
             = "the modes at the case's own friction coefficient, where it is one of those solved";
-        unstable_modes: Vec<UnstableMode>
-            = "the modes that grow at each friction value of the tables";
+        unstable_modes: Vec<UnstableMode> = "the modes that grow at each friction value of the tables";
         base_state: BaseState = "steady sliding at the case's own friction coefficient";
         notes: Vec<String> = "what the solver has to say";
-        contact_open_fraction?: f64
-            = "fraction of the contact nodes that are open, where some may be";
+        contact_open_fraction?: f64 = "fraction of the contact nodes that are open, where some may be";
         #[serde(skip_serializing_if = "Vec::is_empty")]
-        mode_counts: Vec<CountSummary>
-            = "counts of the modes by the argument principle, where they were asked for";
+        mode_counts: Vec<CountSummary> = "counts of the modes by the argument principle, where they were asked for";
     }
 
     /// The modes at one friction value, counted independently of the list.
@@ -42,8 +39,7 @@ keys! {
         known: usize = "modes known there";
         recovered: usize = "those of them that only a search found that the count gave rise to";
         is_complete: bool = "whether the two are the same";
-        missing_near: Option<[f64; 2]>
-            = "frequency and growth rate (Hz, 1/s) about which the missing ones lie";
+        missing_near: Option<[f64; 2]> = "frequency and growth rate (Hz, 1/s) about which the missing ones lie";
         failure: Option<String> = "why there is no count";
         determinants: usize = "determinants that were taken";
     }
@@ -82,8 +78,7 @@ keys! {
             IfAny "n" Count;
         branch: usize = "0 of a motion that grows without oscillating; rank within the harmonic, \
             else among all, from 1", Always "branch" Count;
-        direction: Option<i8>
-            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        direction: Option<i8> = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         critical_friction: Option<f64> = "friction coefficient above which the branch is unstable",
             Always "unstable above" Fixed(6);
         frequency_hz: Option<f64> = "frequency there", Always "frequency" Fixed(2);
@@ -108,14 +103,12 @@ keys! {
     ModeSummary, OWN_MODES {
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
         branch: usize = "rank within the harmonic, else among all, from 1";
-        direction: Option<i8>
-            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        direction: Option<i8> = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         real_hz: f64 = "real part of the eigenvalue over 2 pi";
         frequency_hz: f64 = "imaginary part over 2 pi";
         unstable: bool = "whether it grows";
         contact_share: Option<f64> = "share of the kinetic energy at the contact";
-        axial_share?: f64
-            = "share of the kinetic energy along the axis, of a body in three dimensions";
+        axial_share?: f64 = "share of the kinetic energy along the axis, of a body in three dimensions";
         mesh_error?: f64 = "estimate of the frequency less that on an ever finer mesh, Hz";
     }
 }
@@ -149,8 +142,7 @@ keys! {
         harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
             IfAny "n" Count;
         branch: usize = "rank within the harmonic, else among all, from 1";
-        direction: Option<i8>
-            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        direction: Option<i8> = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         frequency_hz: f64 = "frequency", Always "frequency" Fixed(2);
         growth_rate_per_s: f64 = "growth rate", Always "growth rate" Fixed(2);
         damping_factor: f64 = "damping factor, below 0";

@@ -2,8 +2,10 @@
 
 use super::branches::{branch_of, sentences};
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
-use super::{BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution};
-use super::{direction_name, feed};
+use super::{
+    BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution, direction_name,
+    feed,
+};
 use frictionsim_output::{Document, Format, Section, Table, columns, fixed};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
 use std::f64::consts::TAU;
@@ -22,9 +24,7 @@ pub(crate) struct ModeRow {
     friction: f64,
     number: usize,
     own: ModeSummary,
-    damping_factor: f64,
-    growth_rate: f64,
-    residual: f64,
+    mode: ComplexMode,
 }
 
 impl ModeRow {
@@ -35,9 +35,7 @@ impl ModeRow {
             friction,
             number,
             own: ModeSummary::of(mode, report.has_harmonics),
-            damping_factor: mode.damping_factor(),
-            growth_rate: mode.growth_rate(),
-            residual: mode.residual,
+            mode: mode.clone(),
         };
         (1..).zip(&point.modes).map(row).collect()
     }
@@ -57,14 +55,14 @@ columns! {
     frequency_hz: "imaginary part of the eigenvalue over 2 pi"
         = row.own.frequency_hz, Always "frequency" Fixed(2);
     damping_factor: "damping factor; negative where the mode grows"
-        = row.damping_factor, Always "damping factor" Scientific(3);
+        = row.mode.damping_factor(), Always "damping factor" Scientific(3);
     growth_rate_per_s: "real part of the eigenvalue"
-        = row.growth_rate, Always "growth rate" Fixed(2);
+        = row.mode.growth_rate(), Always "growth rate" Fixed(2);
     harmonic: HARMONIC = row.own.harmonic, IfAny "n" Count;
     branch: BRANCH = row.own.branch, Always "branch" Count;
     direction: DIRECTION = row.own.direction;
     unstable: "whether the mode grows" = row.own.unstable;
-    residual: "relative residual of the eigenpair" = row.residual;
+    residual: "relative residual of the eigenpair" = row.mode.residual;
     contact_share: "share of the kinetic energy at the contact" = row.own.contact_share;
     mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz"
         = row.own.mesh_error;

@@ -1,8 +1,8 @@
 //! The curves of several reports over each other.
 
 use super::ComparedRun;
-use crate::distinct;
-use crate::drawing::{Declaration, declared};
+use crate::drawing::Declaration;
+use crate::{declared, distinct};
 use frictionsim_chart::{
     Axis, Figure, INK, Line, Marker, Panel, PanelData, Points, Series, SeriesKind, Stroke, literal,
     look, plain,

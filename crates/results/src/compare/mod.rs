@@ -5,8 +5,8 @@ mod figures;
 pub use figures::overlaid;
 
 use super::sweep::{cell, join};
-use super::{Manifest, Page, distinct, sorted};
 use crate::keys::keys;
+use crate::{Manifest, Page, distinct, sorted};
 use frictionsim_output::{Cell, Document, Format, Section, Table, columns, unit_of};
 use serde_json::Value;
 
@@ -25,8 +25,7 @@ pub struct ComparedRun {
 keys! {
     /// A number that every run has.
     SharedQuantity {
-        path: String
-            = "dotted path in the summaries; entries of lists are named by what they are of";
+        path: String = "dotted path in the summaries; entries of lists are named by what they are of";
         values: Vec<Value> = "its value in each run: a number, or whether something is so";
     }
 

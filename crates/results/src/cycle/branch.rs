@@ -1,7 +1,7 @@
 //! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
 
 use super::record::CycleMotion;
-use crate::extent::Extent;
+use crate::Extent;
 use crate::keys::keys;
 use crate::summary::MeanPowers;
 use frictionsim_chart::extremes;
@@ -49,12 +49,9 @@ columns! {
         = row.growth_rate;
     stability: "stable, unstable or undecided, where it was asked for"
         = row.verdict.map(Verdict::word);
-    residual: "what the motion misses its start by, of motions of the whole mesh"
-        = row.residual;
-    periods: "periods stepped to find it, of motions of the whole mesh"
-        = row.periods;
-    fold: "whether the branch turns back here, of motions of the whole mesh"
-        = row.is_fold;
+    residual: "what the motion misses its start by, of motions of the whole mesh" = row.residual;
+    periods: "periods stepped to find it, of motions of the whole mesh" = row.periods;
+    fold: "whether the branch turns back here, of motions of the whole mesh" = row.is_fold;
 }
 
 keys! {
@@ -66,8 +63,7 @@ keys! {
         #[serde(default)]
         mode: Option<usize> = "the mode that leads to the cycles of a body without rotating waves";
         onsets: Vec<[f64; 2]> = "critical friction and frequency (Hz) of every onset";
-        cycle: Option<[f64; 2]>
-            = "frequency (Hz) and amplitude (m) of the cycle at the case's own operating point";
+        cycle: Option<[f64; 2]> = "frequency (Hz) and amplitude (m) of the cycle at the case's own operating point";
         branch: Option<BranchRecord> = "its branch";
     }
 
@@ -87,12 +83,10 @@ keys! {
         #[serde(default)]
         external: Vec<f64> = "power of the counterface, W or W/m";
         stable: Vec<Option<bool>> = "whether the cycle is stable, where that is known";
-        growth_rate: Vec<Option<f64>>
-            = "growth rate of its leading perturbation, 1/s, where it is known";
+        growth_rate: Vec<Option<f64>> = "growth rate of its leading perturbation, 1/s, where it is known";
         folds: Vec<f64> = "parameter values at which the branch turns back";
         #[serde(default)]
-        sliding_onsets: Vec<f64>
-            = "values at which steady sliding loses its stability, where these were looked for";
+        sliding_onsets: Vec<f64> = "values at which steady sliding loses its stability, where these were looked for";
         #[serde(default)]
         coexistence: Vec<[f64; 2]> = "where cycles live beside stable sliding";
         #[serde(default)]

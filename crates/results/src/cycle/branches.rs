@@ -2,10 +2,10 @@
 
 use super::branch::{BranchRecord, FamilyRecord};
 use super::two_waves::TwoWaveSummary;
+use crate::Extent;
 use crate::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
 };
-use crate::extent::Extent;
 use crate::parameter::parameter_axis;
 use frictionsim_chart::{
     Axis, Figure, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,

@@ -1,13 +1,10 @@
 //! Files of limit cycles: their tables, and whole fields for ParaView.
 
-use super::motions::encode_contact;
+use super::found::encode_contact;
 use super::summary::CycleSummary;
 use super::two_waves::TwoWaveSummary;
-use crate::ShownBody;
-use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
-use crate::pvd::{PvdEntry, write_pvd};
-use crate::vtu::{EncodedMesh, Field, write_vtu};
+use crate::{EncodedMesh, Field, PvdEntry, ShownBody, write_pvd, write_table, write_vtu};
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::MotionFrame;

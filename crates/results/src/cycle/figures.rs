@@ -3,13 +3,13 @@
 use super::branches::draw_branches;
 use super::record::ShownCycle;
 use super::summary::{CycleSummary, SoughtCycle};
-use crate::ShownBody;
 use crate::charts::palette::status_ground;
 use crate::charts::{
     ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
     shear_stress_figure, status_curves, status_map, velocity_figure,
 };
-use crate::drawing::{Declaration, declared};
+use crate::drawing::Declaration;
+use crate::{ShownBody, declared};
 use frictionsim_chart::{
     Axis, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel, Rule, SERIES,
     Stroke, plain,

@@ -4,14 +4,12 @@ mod branch;
 mod branches;
 mod fields;
 mod figures;
-mod motions;
-mod name;
+mod found;
 mod record;
 mod summary;
 mod tables;
 mod two_waves;
 mod verdicts;
-mod waves;
 mod words;
 
 pub use branch::{
@@ -19,13 +17,13 @@ pub use branch::{
     WaveBranch,
 };
 pub use branches::draw_branches;
-pub use motions::{FoundCycle, MotionBody, PeriodicResult};
-pub use name::*;
-pub use record::{CycleMotion, SteppedMotion};
+pub use found::{Absence, CycleResult, FoundCycle, FoundWave, MotionBody, PeriodicResult};
+pub use record::{
+    CycleMotion, CycleName, ModeOfCycle, ModeSummary, OnsetSummary, SteppedMotion, WaveOfCycle,
+};
 pub use summary::*;
 pub use two_waves::{TwoWaveRow, TwoWaveSummary};
 pub use verdicts::*;
-pub use waves::{Absence, CycleResult, FoundWave};
 
 pub(super) use branch::{ALONG, BRANCH};
 pub(super) use record::CONTACT_NODES;

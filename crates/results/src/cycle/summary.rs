@@ -1,11 +1,10 @@
 //! `summary.json` of a search for limit cycles.
 
 use super::branch::{BranchRecord, BranchSummary, FamilyRecord};
-use super::name::{CycleName, ModeSummary, OnsetSummary};
-use super::record::{CycleMotion, Exponent, ShownCycle};
+use super::record::{CycleMotion, CycleName, Exponent, ModeSummary, OnsetSummary, ShownCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
-use crate::extent::Extent;
+use crate::Extent;
 use crate::keys::keys;
 use crate::summary::CriticalValue;
 use frictionsim_output::Described;
@@ -22,13 +21,11 @@ keys! {
         critical_value?: CriticalValue = "where along the parameter of the case sliding \
             loses its stability, where it is stable at its own operating point";
         extent: Extent = "what powers are of, in the tables too";
-        cycles: Vec<SoughtCycle>
-            = "the cycles that were sought, each with its motion or why there is none";
+        cycles: Vec<SoughtCycle> = "the cycles that were sought, each with its motion or why there is none";
         #[serde(skip_serializing_if = "Vec::is_empty")]
         two_waves: Vec<TwoWaveSummary> = "motions of two waves that live together";
         notes: Vec<String> = "what there is to say";
-        curves?: Vec<FamilyRecord>
-            = "the branches, where no tables hold them: at a point of a study";
+        curves?: Vec<FamilyRecord> = "the branches, where no tables hold them: at a point of a study";
         #[serde(skip)]
         friction_coefficient: f64 = "friction coefficient of the case";
     }
@@ -116,12 +113,10 @@ keys! {
         name: CycleName = "what leads to it";
         wall_s: f64 = "wall time, s";
         #[serde(flatten)]
-        cycle: Option<CycleMotion>
-            = "the cycle, where there is one that no other has led to before";
+        cycle: Option<CycleMotion> = "the cycle, where there is one that no other has led to before";
         absent?: String = "that there is none because steady sliding is stable against the wave";
         error?: String = "why none was found";
-        confirmation: Option<ConfirmationSummary>
-            = "what a transient says of it, where one was asked for";
+        confirmation: Option<ConfirmationSummary> = "what a transient says of it, where one was asked for";
         stability: Option<StabilitySummary> = "its stability, where it was asked for";
         branch?: BranchSummary = "its branch over the case's parameter";
         #[serde(skip)]

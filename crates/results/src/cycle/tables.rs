@@ -1,7 +1,7 @@
 //! Columns of limit cycles, and the document of a search.
 
 use super::branch::{ALONG, BRANCH};
-use super::motions::contact_node;
+use super::found::contact_node;
 use super::record::{CONTACT_NODES, ContactNode, CycleMotion};
 use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};

@@ -18,11 +18,9 @@ keys! {
         points: Option<[usize; 2]> = "points along both phases";
         external_w: Option<f64> = "power of the rotor, W";
         balance_residual: Option<f64> = "residual of the energy balance, relative to it";
-        transient_frequencies_hz: Option<[f64; 2]>
-            = "frequencies of a transient that started on it, Hz";
+        transient_frequencies_hz: Option<[f64; 2]> = "frequencies of a transient that started on it, Hz";
         is_confirmed: Option<bool> = "whether these are its own within a thousandth";
-        births: Vec<f64>
-            = "values of the parameter at which the weaker wave vanishes, in units of its key";
+        births: Vec<f64> = "values of the parameter at which the weaker wave vanishes, in units of its key";
         ends: Option<[String; 2]> = "why the branch ends, at either end";
         error: Option<String> = "why there is none";
         #[serde(skip)]
@@ -30,8 +28,7 @@ keys! {
         #[serde(skip)]
         rows: Vec<TwoWaveRow> = "the motions of the branch in its order, or the motion alone";
         #[serde(skip)]
-        frames: Vec<MotionFrame>
-            = "the whole field over one period of the first wave; the second is elsewhere by then";
+        frames: Vec<MotionFrame> = "the whole field over one period of the first wave; the second is elsewhere by then";
     }
 }
 

@@ -110,7 +110,7 @@ impl KnownStability {
             is_stable: verdict.is_stable(),
             growing_harmonics: is_wave.then(|| found.growing_harmonics()),
             leading: leading.map(Perturbation::of),
-            shift: found.shift.filter(|_| !is_wave).map(|shift| shift.norm()),
+            shift: found.shift.filter(|_| !is_wave),
         }
     }
 }
@@ -124,8 +124,7 @@ keys! {
         wave_frequency_rad_per_s?: f64 = "frequency in the frame of the wave";
         harmonic?: usize = "circumferential harmonic at which it moves the edge most, of a wave";
         frequency_hz?: f64 = "frequency in the fixed frame, of a wave";
-        beat_hz?: f64
-            = "distance of its frequency from the nearest harmonic, of motions of the whole mesh";
+        beat_hz?: f64 = "distance of its frequency from the nearest harmonic, of motions of the whole mesh";
         modulus?: f64 = "modulus of its multiplier, of motions of the whole mesh";
         argument_rad?: f64 = "argument of its multiplier, of motions of the whole mesh";
         /// What it leads to where it grows.

@@ -1,7 +1,7 @@
 //! Limit cycles in words.
 
 use super::branch::{BranchSummary, StabilityChangeSummary};
-use super::name::{ModeSummary, OnsetSummary};
+use super::record::{ModeSummary, OnsetSummary};
 use super::summary::{CycleSummary, Origin, SoughtCycle};
 use super::verdicts::{ConfirmationSummary, StabilitySummary};
 use frictionsim_output::significant;

@@ -8,7 +8,7 @@ use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
 use super::keys::keys;
 use super::npz::NpzArchive;
-use super::summary::{Head, object};
+use super::{Head, object};
 use frictionsim_output::{Described, Entry, columns, significant, write_rows};
 use frictionsim_physics::linalg::MarketMatrix;
 use serde::Serialize;
@@ -147,8 +147,7 @@ keys! {
         columns: usize = "number of columns";
         entries: usize = "number of entries";
         matrix_market: String = "matrix Market file";
-        npz: Option<String>
-            = "file for `scipy.sparse.load_npz`; none of matrices at one friction coefficient";
+        npz: Option<String> = "file for `scipy.sparse.load_npz`; none of matrices at one friction coefficient";
     }
 
     /// `summary.json` of `frictionsim matrices`.
@@ -158,13 +157,10 @@ keys! {
         units: String = "what `lambda` is measured in, and what all of this is measured for";
         friction_coefficient: f64 = "friction coefficient about which the matrices are given";
         friction_range: [f64; 2] = "friction coefficients between which the matrices hold";
-        proportional_damping: Option<[f64; 2]>
-            = "`[alpha, beta]` where `C = alpha M + beta K` exactly";
+        proportional_damping: Option<[f64; 2]> = "`[alpha, beta]` where `C = alpha M + beta K` exactly";
         matrices: Vec<MatrixEntry> = "the files";
-        unknowns: Option<String>
-            = "table of the unknowns; none of matrices at one friction coefficient";
-        contact: Option<String>
-            = "table of the contact points; none of matrices at one friction coefficient";
+        unknowns: Option<String> = "table of the unknowns; none of matrices at one friction coefficient";
+        contact: Option<String> = "table of the contact points; none of matrices at one friction coefficient";
     }
 }
 

@@ -1,9 +1,8 @@
 //! The eigenvalues of a superelement: table, summary, print.
 
 use crate::cea::BRANCH;
-use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
-use crate::summary::{Head, write_summary};
+use crate::{Head, write_summary, write_table};
 use frictionsim_output::{Table, columns};
 use frictionsim_physics::cea::QuadraticMode;
 use serde::Serialize;

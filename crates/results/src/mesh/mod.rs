@@ -9,8 +9,8 @@ pub use solid::figure as solid_figure;
 pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
 
 use super::folder::{FolderError, OutputFolder};
-use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::keys::keys;
+use crate::{EncodedMesh, Field, write_vtu};
 use frictionsim_chart::literal;
 use frictionsim_output::{Described, Document, Format, Section, fixed, significant};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh, MeshQuality};

@@ -24,14 +24,12 @@ keys! {
             `1 + j (nodes_per_sector) + i`";
         #[serde(flatten)]
         shape: MeshQuality = "sizes and shapes of the elements";
-        unnamed_free_edges?: usize
-            = "edges of one element alone that belong to no named boundary, of a mesh file";
+        unnamed_free_edges?: usize = "edges of one element alone that belong to no named boundary, of a mesh file";
         area_m2: f64 = "area of the mesh, m2";
         area_error?: f64 = "its relative difference to the annulus";
         elements_per_wavelength?: f64 = "elements for each shear wavelength at the highest \
             frequency of the case, where it has one: the largest edge counts";
-        contact_nodes_per_wave?: f64
-            = "contact nodes for each such wave, where they are farthest apart on average";
+        contact_nodes_per_wave?: f64 = "contact nodes for each such wave, where they are farthest apart on average";
         regions: Vec<RegionStatistics> = "regions with their elements and areas";
         boundaries: Vec<BoundaryStatistics> = "boundaries with their nodes and lengths; faces of a \
             body of revolution with their areas";

@@ -13,8 +13,7 @@ keys! {
         source: String = "name of the table";
         sampling_rate_hz: f64 = "sampling rate, Hz";
         samples: usize = "samples of each channel";
-        friction_coefficient: Option<f64>
-            = "friction coefficient of the modes, where a case was given";
+        friction_coefficient: Option<f64> = "friction coefficient of the modes, where a case was given";
         mode_tolerance: f64 = "largest relative distance of a line from a mode named beside it";
         channels: Vec<ChannelSummary> = "the channels";
         notes: Vec<String> = "decisions of the reader";
@@ -31,16 +30,14 @@ keys! {
         growth: Option<ExponentialStage> = "the exponential stage, if there is one";
         no_growth: Option<String> = "why there is none";
         mode: Option<ModeSummary> = "the mode that the channel vibrates in: one that can squeal";
-        nearest_unstable_mode: Option<NearestMode>
-            = "the unstable mode nearest to the vibration, and its distance";
+        nearest_unstable_mode: Option<NearestMode> = "the unstable mode nearest to the vibration, and its distance";
     }
 
     /// A line of the spectrum, and the mode beside it.
     PeakSummary {
         #[serde(flatten)]
         line: SpectralLine = "the line";
-        nearest_mode: Option<ModeSummary>
-            = "mode within the tolerance: an unstable one before a stable one";
+        nearest_mode: Option<ModeSummary> = "mode within the tolerance: an unstable one before a stable one";
     }
 
     /// A mode of the case.
@@ -50,8 +47,7 @@ keys! {
         growth_rate_per_s: f64 = "growth rate, 1/s";
         harmonic?: usize = "circumferential harmonic; none on a body without symmetry";
         branch: usize = "branch of that harmonic, or of the body";
-        direction?: i8
-            = "+1 with the rotor, -1 against it, 0 standing; none on a body without symmetry";
+        direction?: i8 = "+1 with the rotor, -1 against it, 0 standing; none on a body without symmetry";
         unstable: bool = "whether it grows";
     }
 

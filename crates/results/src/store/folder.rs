@@ -1,11 +1,10 @@
 //! The output folder of a run: whose it is, who writes it, and whole files only.
 
 pub(crate) use super::error::FolderError;
-use super::framed::write_sealed;
+use super::framed::{Fill, create_folder, is_temporary, write_sealed, write_whole};
 use super::lock::{Company, LOCK, Lock, remove_remnants, try_lock};
 use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
-use super::whole_file::{Fill, create_folder, is_temporary, write_whole};
 use crate::drawing::{FIGURES, REPORT};
 use frictionsim_bounds::{RESULT, read_file, read_text};
 use std::collections::BTreeMap;

@@ -7,7 +7,6 @@ pub(crate) mod lock;
 pub(crate) mod manifest;
 pub(crate) mod record;
 pub(crate) mod reopening;
-pub(crate) mod whole_file;
 
 pub use error::FolderError;
 pub use folder::{MESH, OutputFolder, Replace};

@@ -3,11 +3,10 @@
 use super::super::folder::{
     FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_manifest,
 };
-use super::super::framed::{Defect, write_sealed};
+use super::super::framed::{Defect, create_folder, is_temporary, write_sealed};
 use super::super::manifest::Manifest;
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
 use super::super::store::lock::{Company, Lock, remove_remnants, share, try_lock};
-use super::super::whole_file::{create_folder, is_temporary};
 use super::{PointClock, PointRecord};
 use frictionsim_bounds::{RESULT, read_file};
 use std::collections::BTreeMap;

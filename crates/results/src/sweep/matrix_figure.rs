@@ -1,8 +1,8 @@
 //! The picture of an operating matrix: the frequency of every unstable mode over the operating conditions.
 
 use super::PointRecord;
-use super::matrix::{Condition, OperatingMatrix};
-use super::swept::{printed, swept_text};
+use super::report::{Condition, conditions, unstable};
+use super::table::{printed, swept_text};
 use crate::distinct;
 use crate::parameter::{in_unit, parameter_name, shared_unit};
 use frictionsim_chart::{Axis, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal};
@@ -45,9 +45,8 @@ enum Role {
 /// Frequency of the unstable modes over the operating conditions, marked by growth; one panel for each direction of
 /// rotation and each choice of what is left over.
 pub(crate) fn operating_matrix(records: &[PointRecord]) -> Option<Figure> {
-    let matrix = OperatingMatrix::of(records);
-    let conditions = &matrix.conditions;
-    let modes = || conditions.iter().flat_map(|own| &own.unstable);
+    let conditions = &conditions(records);
+    let modes = || unstable(conditions).map(|own| own.1);
     if conditions.len() < 2 || modes().next().is_none() {
         return None;
     }

@@ -1,13 +1,13 @@
-//! Summary and document of a sweep.
+//! Summary and document of a sweep, and the operating matrix of a study of eigenvalue analyses: which modes grow under
+//! which conditions.
 
-use super::PointRecord;
-use super::matrix::OperatingMatrix;
-use super::swept::{heads, of_points};
-use super::table::cell;
+use super::record::{PointRecord, listed};
+use super::table::{cell, heads, of_points, swept_text};
+use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
 use crate::keys::keys;
 use crate::{grouped, number_ranges};
 use frictionsim_chart::extremes;
-use frictionsim_output::{Cell, Document, Format, Section, Table, columns, significant};
+use frictionsim_output::{Cell, Document, Format, Section, Table, columns, fixed, significant};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
@@ -186,7 +186,7 @@ fn ending_in(records: &[PointRecord], end: &str) -> Vec<usize> {
 /// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.
 pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
     let SweepReport { records, summary, .. } = report;
-    let matrix = OperatingMatrix::of(records);
+    let conditions = conditions(records);
     let errors = summary.errors();
     let errors =
         errors.iter().map(|(error, points)| format!("failed: {}: {error}", number_ranges(points)));
@@ -197,12 +197,12 @@ pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
     let rate = rate.map(|rate| ("points per core-hour", format!("{rate:.0}")));
     let results = Section::new("Results")
         .text([format!("{} at each point.", summary.analyses.join(" and "))])
-        .text(matrix.sentence())
+        .text(squeal_sentence(&conditions))
         .text(errors)
         .text(missing)
         .facts(ranges(report))
         .facts(rate);
-    let modes = Some(matrix.table(&summary.swept)).filter(|_| is_page);
+    let modes = Some(modes_table(&conditions, &summary.swept)).filter(|_| is_page);
     let points = Some(points_table(report)).filter(|_| is_page || records.len() <= MOST_ROWS);
     Document::new("Study")
         .titled(report.title)
@@ -244,6 +244,80 @@ fn points_table(report: &SweepReport<'_>) -> Table {
         "outcome",
         records.iter().map(|record| record.error.as_ref().map(|_| "failed")),
     )
+}
+
+/// Longest list of unstable modes in a report; `unstable_modes.csv` has all.
+const MOST_MODES: usize = 400;
+
+/// One operating condition: a point of the study at one friction coefficient.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condition<'a> {
+    /// Number of the point.
+    pub point: usize,
+    /// Swept keys and their values.
+    pub swept: &'a Map<String, Value>,
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// The modes that grow.
+    pub unstable: Vec<UnstableMode>,
+}
+
+/// The conditions of the points that have an eigenvalue analysis, in their order, friction rising within each.
+pub(super) fn conditions<'a>(records: &'a [PointRecord]) -> Vec<Condition<'a>> {
+    let of_point = |(record, summary): (&'a PointRecord, &Value)| {
+        let modes = listed::<UnstableMode>(summary.get("unstable_modes"));
+        let counts = listed::<UnstableCount>(summary.get("unstable_counts")).into_iter();
+        counts.map(move |UnstableCount { friction_coefficient, .. }| {
+            let own = modes.iter().filter(|m| m.friction_coefficient == friction_coefficient);
+            let (unstable, swept) = (own.copied().collect(), &record.swept);
+            Condition { point: record.point, swept, friction_coefficient, unstable }
+        })
+    };
+    let solved = records.iter().filter_map(|own| Some((own, own.summaries.get("cea")?)));
+    solved.flat_map(of_point).collect()
+}
+
+/// Every unstable mode with its condition.
+pub(super) fn unstable<'a>(
+    conditions: &'a [Condition<'_>],
+) -> impl Iterator<Item = (&'a Condition<'a>, &'a UnstableMode)> {
+    conditions.iter().flat_map(|own| own.unstable.iter().map(move |mode| (own, mode)))
+}
+
+/// How many conditions squeal, and the one whose mode grows fastest; nothing without a condition.
+fn squeal_sentence(conditions: &[Condition<'_>]) -> Option<String> {
+    let squealing = conditions.iter().filter(|c| !c.unstable.is_empty()).count();
+    let points: BTreeSet<usize> = conditions.iter().map(|c| c.point).collect();
+    let mut text = format!(
+        "{squealing} of {} operating conditions ({} points) have unstable modes",
+        conditions.len(),
+        points.len(),
+    );
+    let rate = |own: &(&Condition<'_>, &UnstableMode)| own.1.growth_rate_per_s;
+    let fastest = unstable(conditions).max_by(|a, b| rate(a).total_cmp(&rate(b)));
+    if let Some((condition, mode)) = fastest {
+        text += &format!(
+            "; the fastest, {} Hz, grows by {} 1/s at friction {} of the eigenvalue analysis, point {} ({})",
+            fixed(mode.frequency_hz, 1),
+            fixed(mode.growth_rate_per_s, 1),
+            condition.friction_coefficient,
+            condition.point,
+            swept_text(condition.swept),
+        );
+    }
+    (!conditions.is_empty()).then_some(text)
+}
+
+/// The unstable modes as a table.
+fn modes_table(conditions: &[Condition<'_>], keys: &[String]) -> Table {
+    let all = unstable(conditions).count();
+    let caption = match all > MOST_MODES {
+        true => format!("The first {MOST_MODES} of {all} unstable modes (all: unstable_modes.csv)"),
+        false => "Unstable modes under every operating condition (unstable_modes.csv)".to_owned(),
+    };
+    let shown: Vec<_> = unstable(conditions).take(MOST_MODES).collect();
+    let points = shown.iter().map(|own| (own.0.point, own.0.swept));
+    of_points(caption, keys, points).columns(UNSTABLE, shown.iter().map(|own| own.1))
 }
 
 #[cfg(test)]

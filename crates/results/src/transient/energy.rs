@@ -1,12 +1,12 @@
 //! The energy figure of a transient: where the power of the drive goes.
 
 use super::run::RecordedRun;
+use crate::Extent;
 use crate::charts::palette::{
     CONTACT_DISSIPATION, EXTERNAL_POWER, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES,
     STICK_POWER,
 };
 use crate::charts::run_axis;
-use crate::extent::Extent;
 use frictionsim_chart::{
     Axis, Figure, Fill, INK, Label, Line, MUTED, Panel, Rule, SERIES, Stroke, TextStyle, extremes,
     prefixed, significant,

@@ -6,7 +6,8 @@ use crate::charts::{
     ContactInstant, ContactVelocity, contact_figure, shear_stress_figure, status_curves,
     velocity_figure,
 };
-use crate::drawing::{Declaration, declared};
+use crate::declared;
+use crate::drawing::Declaration;
 use frictionsim_chart::{Axis, Figure, Line, Panel, SERIES, extremes};
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::mesh::SolidFace;

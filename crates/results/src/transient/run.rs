@@ -1,10 +1,8 @@
 //! A recorded run as its files, its report and its figures see it.
 
 use super::SolvedTransient;
-use crate::ShownBody;
 use crate::charts::{ModeLine, Stage};
-use crate::extent::Extent;
-use crate::summary::Head;
+use crate::{Extent, Head, ShownBody};
 use frictionsim_chart::extremes;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::MaterialField;

@@ -1,7 +1,7 @@
 //! `summary.json` of a transient.
 
 use super::RecordedRun;
-use crate::extent::Extent;
+use crate::Extent;
 use crate::keys::keys;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;
@@ -28,17 +28,14 @@ keys! {
         settled: bool = "whether amplitude, frequency and status drift by less than 1 % over the last fifth of the run";
         settled_from_s: Option<f64> = "since when, s";
         end_state: String = "`limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, `separated` or `unsettled`";
-        frequencies_hz?: [f64; 2]
-            = "both frequencies of a motion of two, the stronger first, Hz; absent otherwise";
+        frequencies_hz?: [f64; 2] = "both frequencies of a motion of two, the stronger first, Hz; absent otherwise";
         envelope_ratio?: f64 = "largest over smallest envelope of a motion of two \
             frequencies over the last fifth; absent otherwise";
         unsettled_because: Option<String> = "why it is unsettled";
         drift: Option<Drift> = "drift over the last fifth";
-        main_frequency_hz: Option<f64>
-            = "main frequency over the last fifth, Hz; absent where nothing vibrates";
+        main_frequency_hz: Option<f64> = "main frequency over the last fifth, Hz; absent where nothing vibrates";
         main_harmonic: Option<usize> = "harmonic of that vibration";
-        main_amplitude_m: Option<f64>
-            = "its root mean square, tangential displacement of the contact edge, m";
+        main_amplitude_m: Option<f64> = "its root mean square, tangential displacement of the contact edge, m";
         status: StatusFractions = "fractions of contact nodes over the last fifth";
         power_w: MeanPowers = "mean powers over the last fifth";
         extent: Extent = "what powers, energies and forces are of, in the tables too";
@@ -54,10 +51,8 @@ keys! {
             have one; of a body without symmetry that of its strongest vibration";
         no_growth: BTreeMap<String, String>
             = "why the others have none, by `nN`; `strongest` for a body without symmetry";
-        first_nonlinearity_s: Option<f64>
-            = "when the first node sticks or opens after the linear stage, s";
-        probes: BTreeMap<String, ProbeSummary>
-            = "motion of the probes over the last fifth, by node";
+        first_nonlinearity_s: Option<f64> = "when the first node sticks or opens after the linear stage, s";
+        probes: BTreeMap<String, ProbeSummary> = "motion of the probes over the last fifth, by node";
         contact_interval_s: f64 = "time between the frames of `contact.npz`, s";
         notes: Vec<String> = "what to know before its numbers are used";
     }
@@ -109,8 +104,7 @@ keys! {
     #[derive(Copy)]
     ProbeSummary {
         place?: PlaceSummary = "where it is, if it was asked for by its place";
-        radial?: ProbeMotion
-            = "radially; absent on a plane counterface and of solid bodies of a mesh";
+        radial?: ProbeMotion = "radially; absent on a plane counterface and of solid bodies of a mesh";
         normal?: ProbeMotion = "along the normal of a plane counterface; absent of other bodies";
         tangential?: ProbeMotion = "tangentially; absent of solid bodies of a mesh";
         axial?: ProbeMotion = "along the axis; absent in the plane and of solid bodies of a mesh";

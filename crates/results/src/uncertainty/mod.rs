@@ -90,10 +90,8 @@ keys! {
         probability_unstable: Estimate = "probability that some mode is unstable, with Wilson's 95 \
             % interval: at the case's friction coefficient, or at a sample's own";
         critical_friction: CriticalFriction = "distribution of the lowest critical friction";
-        families: Vec<FamilySummary>
-            = "the modes that turn unstable in some sample, the most probable first";
-        sobol: BTreeMap<String, Index>
-            = "indices of the lowest critical friction after Sobol, by key";
+        families: Vec<FamilySummary> = "the modes that turn unstable in some sample, the most probable first";
+        sobol: BTreeMap<String, Index> = "indices of the lowest critical friction after Sobol, by key";
         decisive: Option<String> = "the parameter with the largest total index";
         probability_over_friction: Vec<[f64; 4]>
             = "friction coefficient, probability of squeal there, and its interval";
@@ -105,8 +103,7 @@ keys! {
     #[derive(Copy, Deserialize)]
     CriticalFriction {
         mean: Option<f64> = "mean of the samples that have an onset";
-        mean_low: Option<f64>
-            = "95 % interval of that mean, from its scatter between 16 parts of the sequence";
+        mean_low: Option<f64> = "95 % interval of that mean, from its scatter between 16 parts of the sequence";
         mean_high: Option<f64> = "upper end";
         median: Option<f64> = "median of all samples";
         p05: Option<f64> = "five in a hundred lie below";
@@ -119,13 +116,11 @@ keys! {
         harmonic: Option<usize> = "circumferential harmonic, of a body that has them";
         branch: usize = "branch within the harmonic, else among all";
         direction: i8 = "+1 with the rotor, -1 against it, 0 standing";
-        probability: f64
-            = "probability that it is unstable at the friction coefficient of the case";
+        probability: f64 = "probability that it is unstable at the friction coefficient of the case";
         probability_in_range: f64 = "probability that it turns unstable in the range";
         beyond_limit: f64 = "share of the samples in which it lies beyond the frequency limit, \
             where it is not followed";
-        critical_friction_median: f64
-            = "median of its critical friction, of the samples in which it has one";
+        critical_friction_median: f64 = "median of its critical friction, of the samples in which it has one";
         frequency_hz: f64 = "mean frequency at its onset, Hz";
         critical_friction_percentiles: Vec<Option<f64>> = "its critical friction at the quantiles \
             1, 2, ... 99 % of all samples, where it has one";

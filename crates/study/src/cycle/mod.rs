@@ -1,36 +1,22 @@
 //! Limit cycles of a case: found directly, followed over a parameter, with their stability.
-//!
-//! ```no_run
-//! use frictionsim::case::Case;
-//! use frictionsim::fem::operator::SimdLevel;
-//! use frictionsim::study::cycle::CycleStudy;
-//!
-//! let bytes = std::fs::read("cases/limit-cycle.toml")?;
-//! let case = Case::parse("disc", &bytes, &["cycle.stability=\"none\"".to_owned()])?;
-//! for result in CycleStudy::new(&case, SimdLevel::detect())?.run(0, &|| {}) {
-//!     println!("{}: {:?} Hz", result.name.family(), result.outcome.map(|own| own.cycle.frequency_hz()));
-//! }
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! `cargo run --example studies` runs one.
 
-mod along;
-mod critical;
 mod families;
 mod periodic;
 mod two_waves;
 
 pub use families::disc_model;
-pub use periodic::{PeriodicStudy, boundary_of_modes};
+pub use periodic::PeriodicStudy;
+pub(crate) use periodic::{Steady, longest_step};
 
-use super::{StudyError, extent_of};
 use crate::eigenvalues::asked_modes;
-use along::{along, changes};
+use crate::{StudyError, extent_of};
 use families::{Sought, continuation, critical_value, next_onset, solvers};
 use frictionsim_case::{Case, Cycle, StabilityChoice};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
     CycleError, CycleSolver, Family, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint,
-    Parameter,
+    Parameter, StabilityChange, SteppedCycle, Verdict, differing,
 };
 use frictionsim_physics::fem::lumped_masses;
 use frictionsim_physics::fem::operator::SimdLevel;
@@ -249,4 +235,53 @@ pub fn operating_point(case: &Case) -> OperatingPoint {
 fn frames(field: impl Fn(f64) -> [Vec<f64>; 2], period: f64, count: usize) -> Vec<MotionFrame> {
     let times = (0..count).map(|i| period * i as f64 / count as f64);
     times.map(|time| MotionFrame { time, fields: field(time), contact: None }).collect()
+}
+
+/// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
+const GROUP: usize = 8;
+
+/// Stability of every cycle of a branch, settled in the transient. Where a wave only scales from one cycle to the next,
+/// its stability is the same. The cycles stay what they are: their powers are those of the wave, whose balance is
+/// exact, while the few periods of a transient that settles still lose or gain some energy.
+fn along(stepping: &MeshStepping<'_>, cycles: &[LimitCycle]) -> Vec<Result<SteppedCycle, String>> {
+    let is_scaled = |a: &LimitCycle, b: &LimitCycle| {
+        let drift = a.state.frequency() / b.state.frequency() - 1.0;
+        a.state.contact == b.state.contact && drift.abs() < 1e-9
+    };
+    let settled: Vec<Vec<Result<SteppedCycle, String>>> =
+        frictionsim_physics::parallel::map(cycles.chunks(GROUP), |group| {
+            let mut done: Vec<Result<SteppedCycle, String>> = Vec::new();
+            let mut before: Option<(&LimitCycle, SteppedCycle)> = None;
+            for cycle in group {
+                let found = match &before {
+                    Some((own, settled)) if is_scaled(own, cycle) => Ok(settled.scaled_to(cycle)),
+                    _ => {
+                        let neighbour = before.as_ref().map(|(_, settled)| settled);
+                        stepping.settle(cycle, neighbour).map_err(|error| error.to_string())
+                    }
+                };
+                if let Ok(settled) = &found {
+                    before = Some((cycle, settled.clone()));
+                }
+                done.push(found);
+            }
+            done
+        });
+    settled.into_iter().flatten().collect()
+}
+
+/// Where neighbours along a branch differ in stability for sure.
+fn changes(
+    stepping: &MeshStepping<'_>,
+    parameter: Parameter,
+    settled: &[Result<SteppedCycle, String>],
+) -> Vec<StabilityChange> {
+    let known = settled.iter().flatten();
+    let pairs = differing(known.map(|own| (own.stability.verdict().is_stable(), own)));
+    let found: Vec<_> = frictionsim_physics::parallel::map(pairs, |[first, second]| {
+        let is_first = first.stability.verdict() == Verdict::Stable;
+        let (stable, unstable) = if is_first { (first, second) } else { (second, first) };
+        stepping.stability_change(parameter, stable, unstable).ok()
+    });
+    found.into_iter().flatten().collect()
 }

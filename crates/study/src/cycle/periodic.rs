@@ -1,15 +1,12 @@
 //! Limit cycles of bodies without symmetry: one for each mode that grows from steady sliding.
 
-mod basin;
 mod faces;
 mod steady;
 
 use super::super::transient::SteppedMesh;
-use super::super::{StudyError, extent_of};
-use super::critical::{candidates, critical};
-use super::families::continuation;
+use super::families::{candidates, continuation, critical};
 use super::operating_point;
-pub use basin::boundary_of_modes;
+use crate::{StudyError, extent_of};
 use frictionsim_case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use frictionsim_physics::cea::{ComplexMode, PartWatch, SweepWatch};
 use frictionsim_physics::cycle::periodic::{
@@ -26,8 +23,9 @@ use frictionsim_results::cycle::{
 use frictionsim_results::summary::CriticalValue;
 use std::time::Instant;
 
+pub(crate) use steady::Steady;
+
 use faces::faces_in_air;
-use steady::Steady;
 
 /// Instants of the contact over a period where the case names no number.
 const INSTANTS: usize = 180;
@@ -321,7 +319,7 @@ impl<'a> PeriodicStudy<'a> {
 }
 
 /// The step that the case gives its transient, s.
-fn longest_step(case: &Case) -> Option<f64> {
+pub(crate) fn longest_step(case: &Case) -> Option<f64> {
     match case.transient.as_ref()?.settings.time_step {
         TimeStep::Seconds(step) => Some(step),
         TimeStep::Auto => None,

@@ -7,7 +7,7 @@ use frictionsim_case::{BodyKind, Case, CaseErrors, Cea, CeaMethod, refusal};
 use frictionsim_physics::cea::cyclic::{self, WaveSweep};
 use frictionsim_physics::cea::{CeaError, ModeLimit, SweepRequest, Unwatched};
 use frictionsim_physics::mesh::{SolidSector, Strip};
-use frictionsim_physics::prestress::{TangentOptions, WaveTangent};
+use frictionsim_physics::prestress::{SectorTangent, TangentOptions};
 
 /// The eigenvalue solver that a body gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,7 +130,7 @@ impl Model {
     ) -> Result<(Solution, Option<WaveSweep>), CeaError> {
         match self {
             Self::Waves(options) => {
-                let tangent = wave_tangent(case, options)?.expect("a body of sectors has waves");
+                let tangent = sector_tangent(case, options)?.expect("a body of sectors").waves();
                 let mut found = cyclic::wave_sweep(tangent, request, waves_at)?;
                 let is_reduced = found.reduction_error > 0.0;
                 let notes = is_reduced.then(|| reduction_note(&found, request));
@@ -152,17 +152,17 @@ impl Model {
 ///
 /// # Errors
 /// A sector that cannot be built; no state of steady sliding.
-pub fn wave_tangent(
+pub fn sector_tangent(
     case: &Case,
     options: &TangentOptions,
-) -> Result<Option<WaveTangent>, CeaError> {
+) -> Result<Option<SectorTangent>, CeaError> {
     let (sliding, materials) = (&case.contact.sliding, &case.body.materials);
     Ok(Some(match &case.body.kind {
         BodyKind::Annulus(own) => {
-            WaveTangent::of_annulus(&Strip::of_annulus(own)?, materials, options, sliding)?
+            SectorTangent::of_annulus(&Strip::of_annulus(own)?, materials, options, sliding)?
         }
         BodyKind::Revolution(own) => {
-            WaveTangent::of_revolution(&SolidSector::generate(own)?, materials, options, sliding)?
+            SectorTangent::of_revolution(&SolidSector::generate(own)?, materials, options, sliding)?
         }
         BodyKind::Imported(_) | BodyKind::Assembly(_) => return Ok(None),
     }))

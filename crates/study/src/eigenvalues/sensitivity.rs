@@ -71,7 +71,7 @@ pub fn body_sensitivities(
         Some(waves) => {
             let all = branches.into_iter().flatten().zip(&targets);
             let wanted: Vec<_> = all.map(|(branch, target)| (branch, target.friction)).collect();
-            let pressed = waves.tangent.pressed().to_vec();
+            let pressed = waves.tangent.contact.is_pressed.clone();
             Pairs::Waves(wave_pairs(&waves.tangent, &wanted), pressed)
         }
         None => whole_pairs(case, cea, (modes.len(), &targets))?,

@@ -1,7 +1,6 @@
-//! The parameters that a case asks to be fitted.
+//! The parameters that a case asks to be fitted, and what a reader of their values must know.
 
 use super::free_part::{STEP, free_part, rates};
-use super::notes::notes;
 use super::{FitError, FitProblem, MeasuredMode, ModelMode, fit};
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
 use crate::mac::MeasuredShapes;
@@ -10,7 +9,7 @@ use frictionsim_case::{Case, Cea, Fit};
 use frictionsim_physics::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
 use frictionsim_physics::cea::{ComplexMode, ModeBranch};
 use frictionsim_physics::linalg::c64;
-use frictionsim_results::fit::FitSummary;
+use frictionsim_results::fit::{FitSummary, LineSummary, ModeSummary};
 
 /// Modes are computed up to this much above the highest line.
 const MARGIN: f64 = 1.15;
@@ -154,9 +153,69 @@ fn wave_rates(
         // From zero the range says what is little.
         let scale = if value == 0.0 { parameter.to - parameter.from } else { value.abs() };
         let moved = |offset: f64| case.with_parameters([(&parameter.parameter, value + offset)]);
-        let own = (&pairs[..], waves.tangent.pressed());
-        let rates = rates_of_waves((case, cea), own, STEP * scale, &moved);
+        let own = (&pairs[..], &waves.tangent.contact.is_pressed[..]);
+        let rates = rates_of_waves((case, cea), own, (STEP * scale, false), &moved);
         rates.unwrap_or_else(|_| vec![None; pairs.len()])
     });
     by_parameter.collect()
+}
+
+/// Share of its frequency within which an unmeasured mode is said to lie beside a line.
+const BESIDE: f64 = 0.05;
+
+/// What a reader of the numbers must know.
+pub fn notes(case: &Case, wanted: &Fit, found: &FitSummary) -> Vec<String> {
+    let mut notes = Vec::new();
+    let keys = wanted.parameters.iter().map(|own| &own.parameter.key);
+    let estimates = keys.filter_map(|key| Some((key, found.parameters.get(key)?)));
+    for (key, estimate) in estimates {
+        let [from, to] = estimate.bounds;
+        if estimate.at_bound.is_some() {
+            notes.push(format!(
+                "{key} is at its bound {:e}: the data favour a value outside; widen the bounds if that is plausible",
+                estimate.value
+            ));
+        }
+        let interval = estimate.low.zip(estimate.high);
+        if interval.is_some_and(|(low, high)| low <= from && high >= to) {
+            notes.push(format!(
+                "the data do not determine {key}: its 95 % interval holds all values between its bounds"
+            ));
+        }
+    }
+    if !found.other_minima.is_empty() {
+        notes.push(format!(
+            "{} at other values of the parameters fit the data as well: see other_minima",
+            match found.other_minima.len() {
+                1 => "another minimum".to_owned(),
+                count => format!("{count} other minima"),
+            }
+        ));
+    }
+    let has_harmonic = |line: &LineSummary| line.harmonic.is_some();
+    if !case.body.has_sectors() && found.residuals.iter().any(has_harmonic) {
+        notes.push("modes of an imported body have no harmonic: the column is not used".to_owned());
+    }
+    if found.residuals.iter().any(|line| line.unstable) {
+        let eigenvalue = |mode: &ModeSummary| (mode.real_hz, mode.frequency_hz);
+        let is_heard = |mode: &ModeSummary| {
+            found.residuals.iter().any(|line| eigenvalue(&line.mode) == eigenvalue(mode))
+        };
+        let unheard = found.modes.iter().filter(|mode| mode.is_unstable() && !is_heard(mode));
+        notes.extend(unheard.map(|mode| {
+            let is_beside = |line: &&LineSummary| {
+                (mode.frequency_hz - line.frequency_hz).abs() <= BESIDE * line.frequency_hz
+            };
+            let beside = found.residuals.iter().find(is_beside).map_or(String::new(), |line| {
+                format!(", beside the line at {:.0} Hz", line.frequency_hz)
+            });
+            format!(
+                "unstable but not measured: {} at {:.0} Hz, growth {:+.1} Hz{beside}",
+                mode.name(),
+                mode.frequency_hz,
+                mode.real_hz
+            )
+        }));
+    }
+    notes
 }

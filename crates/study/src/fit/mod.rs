@@ -16,11 +16,8 @@
 mod case;
 mod estimate;
 mod free_part;
-mod interval;
 mod levenberg_marquardt;
 mod matching;
-mod notes;
-mod shapes;
 
 pub use case::{fit_case, refuse_too_few};
 pub use estimate::fit;

@@ -1,8 +1,7 @@
 //! What there is to improve: the unstable modes of a case with their left and right vectors.
 
-use super::super::StudyError;
 use crate::eigenvalues::WholeMesh;
-use crate::tangent_options;
+use crate::{StudyError, tangent_options};
 use frictionsim_case::{Case, CaseErrors, Cea, refusal};
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
 use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, Unwatched};
@@ -119,9 +118,6 @@ pub(super) fn lowest_onset(sweep: &FrictionSweep, window: Window) -> Option<f64>
 
 impl<'a> Base<'a> {
     /// Solves the modes of a case over friction, and the vectors of those at its own.
-    ///
-    /// # Errors
-    /// A body that has no whole mesh; no unstable mode; those of the solver.
     pub fn solve(case: &'a Case, cea: &'a Cea) -> Result<Self, StudyError> {
         refuse_bodies(case)?;
         let friction = case.contact.sliding.friction_coefficient;

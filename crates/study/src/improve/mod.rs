@@ -17,8 +17,6 @@ mod base;
 mod confirm;
 mod fields;
 mod modal;
-mod places;
-mod shown;
 mod trial;
 
 use super::mac::whole_mesh_note;
@@ -35,11 +33,10 @@ use frictionsim_results::improve::{Candidate, ImproveSummary, Improvement, Sizes
 use frictionsim_results::sorted;
 use modal::{Change, ModalModel};
 use nalgebra::DMatrix;
-use places::Places;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use trial::{Search, Target, Trial};
+use trial::{Places, Search, Target, Trial, added_mass, target_fields};
 
 /// Removals that are looked at closely, for each one that is listed.
 const SHORTLISTED: usize = 2;
@@ -110,7 +107,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         candidates,
         notes,
     };
-    let fields = shown::fields(&search);
+    let fields = target_fields(&search);
     Ok(Improvement { summary, mesh: Arc::clone(&base.mesh), fields })
 }
 
@@ -285,7 +282,7 @@ fn candidate(search: &Search<'_>, trial: &Trial, predicted: State) -> Candidate 
         node,
         position_m: search.place(trial),
         direction,
-        added_mass_kg: shown::added_mass(search, trial),
+        added_mass_kg: added_mass(search, trial),
         first_order_growth_rate_per_s: trial.first_order,
         predicted,
         confirmed: None,

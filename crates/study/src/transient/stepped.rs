@@ -27,9 +27,6 @@ pub struct SteppedMesh<'a> {
 
 impl<'a> SteppedMesh<'a> {
     /// That of a case.
-    ///
-    /// # Errors
-    /// A mesh that cannot be built; surfaces that do not meet.
     pub fn of(case: &'a Case) -> Result<Self, StudyError> {
         let (mut annulus, mut sector, mut assembly) = (None, None, None);
         let mesh = match &case.body.kind {

@@ -9,7 +9,7 @@ use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;
 use crate::linalg::vectors::{ZERO, dot};
-use crate::prestress::{HarmonicTangent, MovingHarmonic, WaveTangent};
+use crate::prestress::{MovingHarmonic, SectorTangent, WaveTangent};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.
@@ -59,7 +59,7 @@ pub struct Beside {
     /// Weight in the quotient.
     pub weight: f64,
     /// Its linearisation.
-    pub tangent: WaveTangent,
+    pub tangent: SectorTangent,
     /// What its friction coefficient has more than that of the eigenpairs.
     pub friction_shift: f64,
 }
@@ -77,23 +77,21 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
     let place = |i: usize| (pairs[i].harmonic, pairs[i].friction_coefficient.to_bits());
     order.sort_by_key(|&i| place(i));
     let mut responses = vec![ZERO; pairs.len()];
-    // The weights sum up to zero: where matrices alone change, those of the first model are taken out.
-    let less = quotient.iter().map(|own| match own.friction_shift == 0.0 {
-        true => own.tangent.less(&quotient[0].tangent),
-        false => None,
-    });
-    let less: Option<Vec<WaveTangent>> = less.collect();
+    // Where matrices alone change, it is their quotient that has harmonics.
+    let sides: Vec<_> = quotient.iter().map(|own| (own.weight, &own.tangent)).collect();
+    let is_shifted = quotient.iter().any(|own| own.friction_shift != 0.0);
+    let side = |own: &Beside| (own.weight, own.tangent.clone().waves(), own.friction_shift);
+    let sides = match SectorTangent::quotient(&sides).filter(|_| !is_shifted) {
+        Some(sum) => vec![(1.0, sum, 0.0)],
+        None => quotient.iter().map(side).collect(),
+    };
     for of_harmonic in order.chunk_by(|a, b| pairs[*a].harmonic == pairs[*b].harmonic) {
         let n = pairs[of_harmonic[0]].harmonic;
-        let sides: Vec<HarmonicTangent> = match &less {
-            Some(own) => own.iter().map(|own| own.harmonic(n)).collect(),
-            None => quotient.iter().map(|own| own.tangent.harmonic(n)).collect(),
-        };
+        let harmonics: Vec<_> = sides.iter().map(|(_, side, _)| side.harmonic(n)).collect();
         for alike in of_harmonic.chunk_by(|a, b| place(*a) == place(*b)) {
             let friction = pairs[alike[0]].friction_coefficient;
-            let terms = quotient.iter().zip(&sides);
-            let terms =
-                terms.map(|(own, side)| (own.weight, side.at(friction + own.friction_shift)));
+            let terms = sides.iter().zip(&harmonics);
+            let terms = terms.map(|((weight, _, shift), own)| (*weight, own.at(friction + shift)));
             let change = combined(&terms.collect::<Vec<_>>())?;
             for &i in alike {
                 responses[i] = pairs[i].response(&change)?;

@@ -5,14 +5,14 @@ mod samples;
 use super::full_problem::SharedAnalysis;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
-use super::open_residuals::OpenResiduals;
-use super::packed::PackedModes;
+use super::packed::{PackedEntry, PackedModes};
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StructureMatrices};
 use super::{CHANGE_PLACES, CONVERGED, GROUP_WIDTH, HALF_THE_DIGITS, ROUND_OFF, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
-    column, column_mut, column_norms, columns_of, dot, from_columns, join_rows, random_columns,
+    column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
+    pick_columns, random_columns,
 };
 use crate::linalg::{
     BlockOperator, KrylovSchurSettings, LdlAnalysis, MatrixPolynomial, RealFactors, krylov_schur,
@@ -23,6 +23,8 @@ use std::borrow::Cow;
 
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
+/// Energy of a correction, relative to its mode, below which the mode is left as it is.
+const SMALLEST_ENERGY: f64 = 1e-24;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
 
@@ -128,17 +130,33 @@ impl<'a> BasisBuilder<'a> {
         found.into_iter().collect()
     }
 
-    /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.
+    /// `t = (K(0) - sigma M(0))^-1 r` of the residuals `r` of those of the modes' packed vectors that have not converged, if `t^T r` is any
+    /// energy beside theirs: a stiff contact has large forces in short displacements, so lengths do not tell.
     fn corrections(&self, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
         let packed = PackedModes::of(modes, self.model.dimension());
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let mut open = OpenResiduals::none(matrices.dimension(), packed.coordinates.ncols());
+        let mut open = Mat::zeros(matrices.dimension(), 0);
         for (coordinates, entries) in packed.groups(GROUP_WIDTH) {
-            open.gather(&matrices, &entries, &self.model.expand(coordinates));
+            let x = self.model.expand(coordinates);
+            let (residuals, momenta) = matrices.residuals_and_momenta(&entries, x.as_ref());
+            let mut corrections = residuals.clone();
+            self.factors.solve(corrections.as_mut(), false);
+            let is_open = |entry: &&PackedEntry| {
+                let size = |own| entry.vector(own).norm();
+                let energy = |a: &Mat<f64>, b: &Mat<f64>| -> f64 {
+                    let pair = |j| dot(column(a.as_ref(), j), column(b.as_ref(), j)).abs();
+                    entry.columns.clone().map(pair).sum()
+                };
+                let factor = matrices.inertia_factor(entry);
+                size(&residuals) > CONVERGED * factor * size(&momenta)
+                    && energy(&corrections, &residuals)
+                        > SMALLEST_ENERGY * factor * energy(&x, &momenta)
+            };
+            let own: Vec<usize> =
+                entries.iter().filter(is_open).flat_map(|entry| entry.columns.clone()).collect();
+            open = join_columns(open.as_ref(), pick_columns(&corrections, &own).as_ref());
         }
-        let mut corrections = open.columns.clone();
-        self.factors.solve(corrections.as_mut(), false);
-        open.with_energy(&corrections)
+        open
     }
 
     /// Adds the lowest modes at `mu` from an iteration of its own, independent of the basis so far, with the factors of `K(mu)`;

@@ -1,8 +1,7 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
-use super::packed::add_complex_multiple;
 use crate::linalg::{
-    ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial, SparsityPattern, c64,
+    ComplexSparseLu, LinalgError, LuAnalysis, MatrixPolynomial, SparsityPattern, c64,
 };
 use crate::prestress::{MotionMatrices, SlidingTangent};
 use std::sync::{Arc, OnceLock};
@@ -72,28 +71,6 @@ impl<'a> FullProblem<'a> {
     /// `ln det T(lambda)`, up to multiples of `2 pi i`; an error at an eigenvalue.
     pub fn ln_determinant(&self, lambda: c64) -> Result<c64, LinalgError> {
         self.analysis.of(self.pattern)?.ln_determinant(&self.values.at(lambda))
-    }
-
-    /// `P^T w` of each matrix.
-    pub fn transposed_images(&self, w: MatRef<'_, f64>) -> MotionMatrices<Mat<f64>> {
-        let MotionMatrices { stiffness, damping, mass, losses } = &self.values;
-        let image = |values: &[f64]| self.pattern.multiply_transpose(values, w);
-        let losses = losses.iter().map(|(gain, values)| (gain.clone(), image(values))).collect();
-        let [stiffness, damping, mass] =
-            self.pattern.multiply_transpose_each([stiffness, damping, mass], w);
-        MotionMatrices { stiffness, damping, mass, losses }
-    }
-
-    /// `T(lambda)^T w` of each of `values` with its two columns of `w`, real and imaginary part.
-    pub fn transposed_times(&self, values: &[c64], w: MatRef<'_, f64>) -> Mat<f64> {
-        let mut sum = Mat::zeros(w.nrows(), w.ncols());
-        let images = self.transposed_images(w);
-        for (k, own) in values.iter().enumerate() {
-            for (factor, image) in images.terms(*own) {
-                add_complex_multiple(&mut sum, factor, image, &(2 * k..2 * k + 2));
-            }
-        }
-        sum
     }
 
     /// `w^T T(lambda) x`.

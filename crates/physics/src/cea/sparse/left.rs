@@ -1,11 +1,13 @@
 //! Left vectors that a basis of right ones does not hold.
 
 use super::full_problem::FullProblem;
-use super::packed::{joined, side_by_side};
-use super::projected::ProjectedMatrices;
+use super::linearization::Linearization;
+use super::packed::{PackedEntry, PackedModes, add_complex_multiple};
+use super::projected::weighted_sum;
+use super::structure::StructureMatrices;
 use super::{BESIDE, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS};
 use crate::cea::ModeVectors;
-use crate::linalg::dense::{product, transpose_product};
+use crate::linalg::dense::{add_product, product, transpose_product};
 use crate::linalg::vectors::{dot, length};
 use crate::linalg::{ComplexDenseLu, Mat, RealFactors, c64};
 use crate::prestress::{MotionMatrices, SlidingTangent};
@@ -14,13 +16,6 @@ use std::sync::LazyLock;
 
 /// Modes that are corrected together: each is worked on by three vectors.
 const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
-
-/// About twice the elastic energy of the left vector of a mode: `w^T (2 lambda M + C) x` is 1.
-fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64 {
-    let square: f64 = left.iter().map(|v| v.norm_sqr()).sum();
-    let product: c64 = left.iter().zip(right).map(|(w, x)| w * x).sum();
-    0.5 * eigenvalue.norm() * square / product.norm()
-}
 
 /// Corrects left vectors of modes over the unknowns, by the stiffness without friction, `P`, and the modes without friction, `Z`: the
 /// least `P^-1 T(lambda)^T w` over
@@ -37,16 +32,17 @@ fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64
 /// Source: S. C. Eisenstat, H. C. Elman and M. H. Schultz, SIAM J. Numer. Anal. 20 (1983), the generalized conjugate residual method;
 /// R. A. Nicolaides, SIAM J. Numer. Anal. 24 (1987), deflation.
 pub fn correct_lefts(
-    tangent: &SlidingTangent,
+    (tangent, linearization): (&SlidingTangent, Linearization),
     (factors, modes): (&RealFactors, Mat<f64>),
     mu: f64,
     pairs: &mut [ModeVectors],
 ) {
+    let matrices = StructureMatrices::of_side(tangent, linearization, (mu, true));
     let problem = FullProblem::at(tangent, mu);
     // Only where a left vector is open: not those of symmetric matrices, nor those at crossings, which the basis holds.
-    let modes = LazyLock::new(|| AmongModes::of(&problem, modes));
+    let modes = LazyLock::new(|| AmongModes::of(&matrices, modes));
     crate::parallel::map(pairs.chunks_mut(PAIRS_AT_A_TIME), |group| {
-        correct_group(&problem, (factors, &modes), group);
+        correct_group((&matrices, linearization), (factors, &modes), group);
         for ModeVectors { eigenvalue, right, left, .. } in group {
             let scale = problem.slope(*eigenvalue, left, right);
             left.iter_mut().for_each(|w| *w /= scale);
@@ -54,102 +50,125 @@ pub fn correct_lefts(
     })
 }
 
+/// A left vector, or a correction of one, and what the problem makes of it: `w`, `T(lambda)^T w` and `P^-1 T(lambda)^T w`.
+type Mapped = [Vec<c64>; 3];
+
+/// The left vector of a mode: real, but for a factor that it loses, where proportional damping leaves the right one real.
+fn started(
+    ModeVectors { right, left, .. }: &ModeVectors,
+    linearization: Linearization,
+) -> Vec<c64> {
+    let is_reduced = matches!(linearization, Linearization::Reduced(..));
+    if !is_reduced || right.iter().any(|x| x.im != 0.0) {
+        return left.clone();
+    }
+    let largest = left.iter().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+    let turn = largest.map_or(c64::ONE, |own| own.conj() / own.norm());
+    left.iter().map(|own| (turn * own).re.into()).collect()
+}
+
+/// About twice the elastic energy of the left vector of a mode: `w^T (2 lambda M + C) x` is 1.
+fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64 {
+    let square: f64 = left.iter().map(|v| v.norm_sqr()).sum();
+    let product: c64 = left.iter().zip(right).map(|(w, x)| w * x).sum();
+    0.5 * eigenvalue.norm() * square / product.norm()
+}
+
 /// The problem among some motions `Z`: `P^T Z` and `Z^T P^T Z` of the matrices of `T(lambda)`.
 struct AmongModes {
     modes: Mat<f64>,
     images: MotionMatrices<Mat<f64>>,
-    small: ProjectedMatrices,
+    small: MotionMatrices<Mat<f64>>,
 }
 
 impl AmongModes {
-    fn of(problem: &FullProblem<'_>, modes: Mat<f64>) -> Self {
-        let images = problem.transposed_images(modes.as_ref());
+    fn of(matrices: &StructureMatrices<'_>, modes: Mat<f64>) -> Self {
+        let images = matrices.images(modes.as_ref());
         let small = images.map(|image| transpose_product(modes.as_ref(), image.as_ref()));
         Self { modes, images, small }
     }
 
-    /// Adds to each vector what leaves nothing along `Z` of its residual `r`, and its image to that of the vector, `[w, T(lambda)^T w]`.
-    fn complete(&self, open: &[(c64, &ComplexDenseLu, &[c64])], vectors: &mut [[Vec<c64>; 2]]) {
-        let left = open.iter().zip(&*vectors).map(|((_, _, residual), [_, image])| {
-            residual.iter().zip(image).map(|(r, own)| r - own).collect::<Vec<c64>>()
-        });
-        let left = side_by_side(self.modes.nrows(), &left.collect::<Vec<_>>());
+    /// Adds to vectors what leaves nothing along `Z` of the residuals `left`, by the factors of `E`, and its image to those of the vectors.
+    fn complete(
+        &self,
+        (entries, factors): (&[PackedEntry], &[&ComplexDenseLu]),
+        (left, linearization): (Mat<f64>, Linearization),
+        [vectors, images]: [&mut Mat<f64>; 2],
+    ) {
         let along = transpose_product(self.modes.as_ref(), left.as_ref());
-        let shares = open.iter().enumerate().map(|(k, (_, factors, _))| {
-            let own = joined(&along, k);
-            let mut shares = Mat::from_fn(own.len(), 1, |i, _| own[i]);
-            factors.solve_in_place(shares.as_mut());
-            shares.col(0).iter().copied().collect()
-        });
-        let shares: Vec<Vec<c64>> = shares.collect();
-        let mut add = |half: usize, columns: &Mat<f64>, factors: &dyn Fn(usize) -> c64| {
-            let scaled = shares
-                .iter()
-                .enumerate()
-                .map(|(k, own)| own.iter().map(|share| factors(k) * share).collect::<Vec<c64>>());
-            let scaled = side_by_side(columns.ncols(), &scaled.collect::<Vec<_>>());
-            let sums = product(columns.as_ref(), scaled.as_ref());
-            for (k, vector) in vectors.iter_mut().enumerate() {
-                vector[half].iter_mut().zip(joined(&sums, k)).for_each(|(to, own)| *to += own);
+        let mut shares = Mat::zeros(along.nrows(), along.ncols());
+        for (entry, factors) in entries.iter().zip(factors) {
+            let own = entry.vector(&along);
+            let mut share = Mat::from_fn(along.nrows(), 1, |i, _| own.at(i));
+            factors.solve_in_place(share.as_mut());
+            for (half, j) in entry.columns.clone().enumerate() {
+                let part = |own: &c64| if half == 0 { own.re } else { own.im };
+                let target = shares.col_mut(j).iter_mut().zip(share.col(0).iter());
+                target.for_each(|(to, own)| *to = part(own));
             }
-        };
-        add(0, &self.modes, &|_| c64::new(1.0, 0.0));
-        let terms: Vec<_> = open.iter().map(|(lambda, ..)| self.images.terms(*lambda)).collect();
+        }
+        add_product(vectors.as_mut(), 1.0, self.modes.as_ref(), shares.as_ref());
+        let value = |entry: &PackedEntry| linearization.value(entry.inverse_value);
+        let terms: Vec<_> =
+            entries.iter().map(|own| linearization.terms(&self.images, value(own))).collect();
         for (place, (_, columns)) in terms[0].iter().enumerate() {
-            add(1, columns, &|k| terms[k][place].0);
+            let sums = product(columns.as_ref(), shares.as_ref());
+            for (entry, own) in entries.iter().zip(&terms) {
+                add_complex_multiple(images, own[place].0, &sums, &entry.columns);
+            }
         }
     }
 }
 
-/// A left vector, or a correction of one, and what the problem makes of it: `w`, `T(lambda)^T w` and `P^-1 T(lambda)^T w`.
-type Mapped = [Vec<c64>; 3];
-
 /// Corrects some modes together.
 fn correct_group(
-    problem: &FullProblem<'_>,
+    (matrices, linearization): (&StructureMatrices<'_>, Linearization),
     (factors, modes): (&RealFactors, &impl Deref<Target = AmongModes>),
     pairs: &mut [ModeVectors],
 ) {
-    let eigenvalues: Vec<c64> = pairs.iter().map(|pair| pair.eigenvalue).collect();
-    let images = |of: &[usize], vectors: &[&[c64]]| -> Vec<Vec<c64>> {
-        let values: Vec<c64> = of.iter().map(|&k| eigenvalues[k]).collect();
-        let w = side_by_side(problem.dimension(), vectors);
-        let images = problem.transposed_times(&values, w.as_ref());
-        (0..of.len()).map(|k| joined(&images, k)).collect()
+    let inverse_values: Vec<c64> =
+        pairs.iter().map(|pair| linearization.inverse_value(pair.eigenvalue)).collect();
+    let together = |own: Vec<(usize, &Vec<c64>)>| {
+        let vectors = own.into_iter().map(|(k, vector)| (inverse_values[k], vector));
+        PackedModes::of_vectors(matrices.dimension(), vectors)
     };
-    let mapped = |vectors: Vec<[Vec<c64>; 2]>| -> Vec<Mapped> {
-        let images: Vec<&[c64]> = vectors.iter().map(|[_, image]| &image[..]).collect();
-        let mut solved = side_by_side(problem.dimension(), &images);
+    // `[w, T(lambda)^T w, P^-1 T(lambda)^T w]` of each.
+    let mapped = |entries: &[PackedEntry], vectors: Mat<f64>, images: Mat<f64>| -> Vec<Mapped> {
+        let mut solved = images.clone();
         factors.solve(solved.as_mut(), false);
-        let all = vectors.into_iter().enumerate();
-        all.map(|(k, [vector, image])| [vector, image, joined(&solved, k)]).collect()
+        let all = [vectors, images, solved];
+        entries.iter().map(|entry| all.each_ref().map(|own| entry.joined(own))).collect()
     };
     let goals: Vec<f64> = pairs.iter().map(left_energy).collect();
-    let mut open: Vec<usize> = (0..pairs.len()).collect();
-    let starts: Vec<&[c64]> = pairs.iter().map(|pair| &pair.left[..]).collect();
-    let starts = images(&open, &starts).into_iter().zip(starts);
-    let mut lefts = mapped(starts.map(|(image, own)| [own.to_vec(), image]).collect());
+    let starts: Vec<Vec<c64>> = pairs.iter().map(|pair| started(pair, linearization)).collect();
+    let PackedModes { coordinates, entries } = together(starts.iter().enumerate().collect());
+    let (images, _) = matrices.residuals_and_momenta(&entries, coordinates.as_ref());
+    let mut lefts = mapped(&entries, coordinates, images);
     let energy = |[_, residual, correction]: &Mapped| dot(correction, residual).re.abs();
     let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
     let mut among: Vec<ComplexDenseLu> = Vec::new();
+    let mut open: Vec<usize> = (0..pairs.len()).collect();
     for _ in 0..MOST_STEPS {
         open.retain(|&k| energy(&lefts[k]) > HALF_THE_DIGITS * goals[k]);
         if open.is_empty() {
             break;
         }
         if among.is_empty() {
-            let beside = eigenvalues.iter().map(|lambda| lambda * (1.0 + BESIDE));
-            among = beside.map(|own| ComplexDenseLu::factorize(modes.small.pencil(own))).collect();
+            let beside = |own: &c64| linearization.value(*own) * (1.0 + BESIDE);
+            let small = |own| weighted_sum(&linearization.terms(&modes.small, beside(own)));
+            among =
+                inverse_values.iter().map(|own| ComplexDenseLu::factorize(small(own))).collect();
         }
         // Static corrections, and what these stir up of the modes.
-        let statics: Vec<&[c64]> = open.iter().map(|&k| &lefts[k][2][..]).collect();
-        let corrections = images(&open, &statics).into_iter().zip(statics);
-        let mut corrections: Vec<[Vec<c64>; 2]> =
-            corrections.map(|(image, own)| [own.to_vec(), image]).collect();
-        let own = |&k: &usize| (eigenvalues[k], &among[k], &lefts[k][1][..]);
-        modes.complete(&open.iter().map(own).collect::<Vec<_>>(), &mut corrections);
+        let [left, statics] =
+            [1, 2].map(|part| together(open.iter().map(|&k| (k, &lefts[k][part])).collect()));
+        let PackedModes { coordinates: mut vectors, entries } = statics;
+        let (mut images, _) = matrices.residuals_and_momenta(&entries, vectors.as_ref());
+        let own: Vec<&ComplexDenseLu> = open.iter().map(|&k| &among[k]).collect();
+        let left = (left.coordinates - &images, linearization);
+        modes.complete((&entries, &own), left, [&mut vectors, &mut images]);
         // The least residual over all directions so far.
-        for (&k, mut own) in open.iter().zip(mapped(corrections)) {
+        for (&k, mut own) in open.iter().zip(mapped(&entries, vectors, images)) {
             for other in &directions[k] {
                 let share = dot(&other[2], &own[2]);
                 subtract(&mut own, share, other);
@@ -201,10 +220,8 @@ mod tests {
             left: own.right.clone(),
         };
         let mut pairs: Vec<ModeVectors> = exact.iter().map(open).collect();
-        let problem = FullProblem::at(&tangent, mu[0]);
-        let modes = AmongModes::of(&problem, rest.vectors);
-        let groups = pairs.chunks_mut(PAIRS_AT_A_TIME);
-        groups.for_each(|group| correct_group(&problem, (&rest.factors, &&modes), group));
+        let linearization = Linearization::of(&tangent, 1.0, rest.centre);
+        correct_lefts((&tangent, linearization), (&rest.factors, rest.vectors), mu[0], &mut pairs);
         for (own, other) in pairs.iter().zip(&exact) {
             let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
             let cosine = dot(w, exact).norm() / (length(w) * length(exact));

@@ -3,7 +3,7 @@
 use crate::cea::counted::is_vibration;
 use crate::fem::RayleighDamping;
 use crate::linalg::{MatrixPolynomial, c64};
-use crate::prestress::SlidingTangent;
+use crate::prestress::{MotionMatrices, SlidingTangent};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -78,6 +78,14 @@ impl Linearization {
         match self {
             Self::Reduced(_, centre) => s.inv() - centre.shift * centre.shift,
             Self::Companion { frequency_scale, centre } => s.inv() * frequency_scale + centre.shift,
+        }
+    }
+
+    /// The matrices of the problem at such a value, with their factors.
+    pub fn terms<P>(self, matrices: &MotionMatrices<P>, value: c64) -> Vec<(c64, &P)> {
+        match self {
+            Self::Reduced(..) => vec![(c64::ONE, &matrices.stiffness), (-value, &matrices.mass)],
+            Self::Companion { .. } => matrices.terms(value),
         }
     }
 

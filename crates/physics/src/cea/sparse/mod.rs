@@ -31,7 +31,6 @@ mod linearization;
 mod meetings;
 mod mode;
 mod nodal_diameters;
-mod open_residuals;
 mod own_frequency;
 mod packed;
 mod pairs;

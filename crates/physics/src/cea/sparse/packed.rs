@@ -75,28 +75,45 @@ impl PackedEntry {
         let real = parts.next().unwrap_or_default();
         PackedVector { real, imaginary: parts.next() }
     }
+
+    /// Its entries.
+    pub fn joined(&self, mapped: &Mat<f64>) -> Vec<c64> {
+        let own = self.vector(mapped);
+        (0..mapped.nrows()).map(|i| own.at(i)).collect()
+    }
 }
 
-/// Right vectors of modes, of unit length, packed in columns for real arithmetic.
+/// Vectors of modes packed in columns for real arithmetic.
 pub struct PackedModes {
-    /// Their coordinates.
+    /// Their coordinates, or entries.
     pub coordinates: Mat<f64>,
     /// Where each of them is.
-    entries: Vec<PackedEntry>,
+    pub entries: Vec<PackedEntry>,
 }
 
 impl PackedModes {
-    /// Packs the right vectors of `modes`.
+    /// Packs the right vectors of `modes`, scaled to unit length.
     pub fn of(modes: &[ReducedMode], dimension: usize) -> Self {
+        let unit = |ReducedMode { inverse_value, right, .. }: &ReducedMode| {
+            let length = length(right);
+            (*inverse_value, right.iter().map(|v| v / length).collect::<Vec<c64>>())
+        };
+        Self::of_vectors(dimension, modes.iter().map(unit))
+    }
+
+    /// Packs vectors, each with the inverse value of its mode.
+    pub fn of_vectors<V: AsRef<[c64]>>(
+        dimension: usize,
+        vectors: impl Iterator<Item = (c64, V)>,
+    ) -> Self {
         let (mut entries, mut columns) = (Vec::new(), Vec::<Vec<f64>>::new());
-        for ReducedMode { inverse_value, right, .. } in modes {
-            let (first, length) = (columns.len(), length(right));
-            columns.push(right.iter().map(|v| v.re / length).collect());
-            if right.iter().any(|v| v.im != 0.0) {
-                columns.push(right.iter().map(|v| v.im / length).collect());
+        for (inverse_value, own) in vectors {
+            let (first, own) = (columns.len(), own.as_ref());
+            columns.push(own.iter().map(|v| v.re).collect());
+            if own.iter().any(|v| v.im != 0.0) {
+                columns.push(own.iter().map(|v| v.im).collect());
             }
-            entries
-                .push(PackedEntry { inverse_value: *inverse_value, columns: first..columns.len() });
+            entries.push(PackedEntry { inverse_value, columns: first..columns.len() });
         }
         let coordinates = Mat::from_fn(dimension, columns.len(), |i, j| {
             columns[j].get(i).copied().unwrap_or(0.0)

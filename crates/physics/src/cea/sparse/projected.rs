@@ -13,6 +13,19 @@ use std::f64::consts::TAU;
 /// `V^T P V` of the matrices `P`, or of their derivatives, at one friction coefficient.
 pub type ProjectedMatrices = MotionMatrices<Mat<f64>>;
 
+/// The sum of square matrices times their factors.
+pub fn weighted_sum(terms: &[(c64, &Mat<f64>)]) -> Mat<c64> {
+    let m = terms[0].1.nrows();
+    let mut sum = Mat::zeros(m, m);
+    for (factor, p) in terms {
+        for j in 0..m {
+            let entries = sum.col_mut(j).iter_mut().zip(column(p.as_ref(), j));
+            entries.for_each(|(t, p): (&mut c64, _)| *t += factor * *p);
+        }
+    }
+    sum
+}
+
 impl ProjectedMatrices {
     /// The matrices projected once more, on orthonormal `columns` of coordinates.
     pub fn within(&self, columns: &Mat<f64>) -> Self {
@@ -21,15 +34,7 @@ impl ProjectedMatrices {
 
     /// `T(lambda) = lambda^2 M + lambda C + K + sum_p g_p K_p`, the last at the frequency of `lambda`.
     pub fn pencil(&self, lambda: c64) -> Mat<c64> {
-        let m = self.mass.nrows();
-        let mut pencil = Mat::zeros(m, m);
-        for (factor, p) in self.inert_first(lambda) {
-            for j in 0..m {
-                let entries = pencil.col_mut(j).iter_mut().zip(column(p.as_ref(), j));
-                entries.for_each(|(t, p): (&mut c64, _)| *t += factor * *p);
-            }
-        }
-        pencil
+        weighted_sum(&self.inert_first(lambda))
     }
 
     /// The same with the stiffness that tables give at one frequency, as structural damping and stiffness of a problem without.

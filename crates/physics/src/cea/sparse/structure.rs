@@ -5,7 +5,7 @@ use super::packed::{PackedEntry, add_complex_multiple};
 use crate::linalg::dense::join_rows;
 use crate::linalg::{BlockOperator, MatrixPolynomial, SparsityPattern};
 use crate::linalg::{Mat, MatRef, RealFactors, c64};
-use crate::prestress::{MotionMatrices, SlidingTangent};
+use crate::prestress::{LossGain, MotionMatrices, SlidingTangent};
 use std::sync::Arc;
 
 /// Terms of a matrix, over their sum, from which on their rounding shows in residuals.
@@ -14,6 +14,8 @@ const CANCELLING: f64 = 1e3;
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
 pub struct StructureMatrices<'a> {
     pattern: &'a Arc<SparsityPattern>,
+    /// Whether they are transposed, for left vectors.
+    is_transposed: bool,
     /// Nonzero values by rows; of the reduced problem `K` and `M` alone, others are empty.
     values: MotionMatrices<Vec<f64>>,
     linearization: Linearization,
@@ -24,7 +26,19 @@ pub struct StructureMatrices<'a> {
 impl<'a> StructureMatrices<'a> {
     /// The matrices of `tangent` at friction coefficient `mu`.
     pub fn at(tangent: &'a SlidingTangent, linearization: Linearization, mu: f64) -> Self {
-        let of = |p: &MatrixPolynomial| p.pattern().by_rows(&p.evaluate(mu));
+        Self::of_side(tangent, linearization, (mu, false))
+    }
+
+    /// Those of right vectors or, transposed, of left ones.
+    pub fn of_side(
+        tangent: &'a SlidingTangent,
+        linearization: Linearization,
+        (mu, is_transposed): (f64, bool),
+    ) -> Self {
+        let of = |p: &MatrixPolynomial| match is_transposed {
+            false => p.pattern().by_rows(&p.evaluate(mu)),
+            true => p.evaluate(mu),
+        };
         let values = match linearization {
             Linearization::Companion { .. } => MotionMatrices::of(tangent, of),
             Linearization::Reduced(..) => MotionMatrices {
@@ -35,12 +49,38 @@ impl<'a> StructureMatrices<'a> {
             },
         };
         let pattern = tangent.stiffness.pattern();
-        Self { pattern, values, linearization, source: (tangent, mu) }
+        Self { pattern, is_transposed, values, linearization, source: (tangent, mu) }
     }
 
     /// Number of unknowns.
     pub fn dimension(&self) -> usize {
         self.pattern.dimension()
+    }
+
+    /// The product with `x` of each that the problem has; indices are read once for those of all problems.
+    pub fn images(&self, x: MatRef<'_, f64>) -> MotionMatrices<Mat<f64>> {
+        fn all<const N: usize>(
+            own: &StructureMatrices<'_>,
+            values: [&[f64]; N],
+            x: MatRef<'_, f64>,
+        ) -> [Mat<f64>; N] {
+            match own.is_transposed {
+                false => own.pattern.multiply_sorted(values, x),
+                true => own.pattern.multiply_transpose_each(values, x),
+            }
+        }
+        let MotionMatrices { stiffness, damping, mass, losses } = &self.values;
+        let ([stiffness, mass], damping) = if damping.is_empty() {
+            (all(self, [stiffness, mass], x), Mat::zeros(x.nrows(), 0))
+        } else {
+            let [stiffness, damping, mass] = all(self, [stiffness, damping, mass], x);
+            ([stiffness, mass], damping)
+        };
+        let lost = |(gain, own): &(_, Vec<f64>)| {
+            let [image] = all(self, [own], x);
+            (LossGain::clone(gain), image)
+        };
+        MotionMatrices { stiffness, damping, mass, losses: losses.iter().map(lost).collect() }
     }
 
     /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for the packed vectors `x` of `entries`, in
@@ -50,27 +90,15 @@ impl<'a> StructureMatrices<'a> {
         entries: &[PackedEntry],
         x: MatRef<'_, f64>,
     ) -> (Mat<f64>, Mat<f64>) {
-        let MotionMatrices { stiffness, damping, mass, losses } = &self.values;
-        let add = |sum: &mut Mat<f64>, image: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
-            for entry in entries {
-                let value = self.linearization.value(entry.inverse_value);
-                add_complex_multiple(sum, factor(value), image, &entry.columns);
+        let images = self.images(x);
+        let mut residuals = Mat::zeros(x.nrows(), x.ncols());
+        for entry in entries {
+            let value = self.linearization.value(entry.inverse_value);
+            for (factor, image) in self.linearization.terms(&images, value) {
+                add_complex_multiple(&mut residuals, factor, image, &entry.columns);
             }
-        };
-        if let Linearization::Reduced(..) = self.linearization {
-            let [mut residual, inert] = self.pattern.multiply_sorted([stiffness, mass], x);
-            add(&mut residual, &inert, &|kappa| -kappa);
-            return (residual, inert);
         }
-        let all = [&stiffness[..], damping, mass];
-        let [mut residual, damped, inert] = self.pattern.multiply_sorted(all, x);
-        add(&mut residual, &inert, &|lambda| lambda * lambda);
-        add(&mut residual, &damped, &|lambda| lambda);
-        for (gain, values) in losses {
-            let [image] = self.pattern.multiply_sorted([values], x);
-            add(&mut residual, &image, &|lambda| gain.at(lambda));
-        }
-        (residual, inert)
+        (residuals, images.mass)
     }
 
     /// `T(lambda) x` over what [`Self::residuals_and_momenta`] returns: `T(lambda) = (1 + beta lambda) (K - kappa M)`.

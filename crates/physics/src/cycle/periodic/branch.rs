@@ -4,13 +4,15 @@ use super::corrector::{Corrector, Point};
 use super::follower::Follower;
 use super::map::PeriodMap;
 use super::motion::PeriodicMotion;
-use super::multipliers::{Kept, kept, recalled};
 use super::search::Found;
 use crate::cea::SweepWatch;
 use crate::cycle::continuation::{Values, both_halves, joined};
 use crate::cycle::stability::{crossing, differing};
 use crate::cycle::{BranchEnd, FloquetMultipliers, Parameter};
 use crate::transient::TransientError;
+
+/// What is known of the stability of a motion.
+type Known = Result<FloquetMultipliers, String>;
 
 /// Motions whose stability is worked out with one map; the groups run in parallel.
 const GROUP: usize = 6;
@@ -29,7 +31,7 @@ pub struct BranchMotion {
     /// Whether the branch turns back here.
     pub is_fold: bool,
     /// Its multipliers, where they were asked for, or why there are none.
-    pub stability: Option<Result<FloquetMultipliers, String>>,
+    pub stability: Option<Known>,
 }
 
 impl BranchMotion {
@@ -182,8 +184,7 @@ impl BranchRequest<'_, '_> {
         let groups: Result<Vec<_>, TransientError> =
             crate::parallel::map(groups, |(number, group)| {
                 let name = format!("stability-{number}");
-                let known = self.watch.recalled::<Vec<Kept>>(&name).unwrap_or_default();
-                let known: Vec<_> = known.into_iter().map(recalled).collect();
+                let known = self.watch.recalled::<Vec<Known>>(&name).unwrap_or_default();
                 let mut map = (self.map)()?;
                 let motions = group.iter().enumerate().map(|(i, point)| {
                     (self.tune)(&mut map, point.value)?;
@@ -202,7 +203,7 @@ impl BranchRequest<'_, '_> {
                 let motions = motions.collect::<Result<Vec<_>, TransientError>>()?;
                 if self.with_stability && known.len() < motions.len() {
                     let found = motions.iter().filter_map(|own| own.stability.as_ref());
-                    self.watch.keep_value(&name, &found.map(kept).collect::<Vec<Kept>>());
+                    self.watch.keep_value(&name, &found.collect::<Vec<&Known>>());
                 }
                 Ok(motions)
             });

@@ -66,9 +66,9 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         });
         let seeded: Vec<Seeded<'m>> = seeded.collect();
         let patterns: Vec<&Vec<f64>> = seeded.iter().flat_map(|own| &own.patterns).collect();
-        let gram =
-            DMatrix::from_fn(patterns.len(), patterns.len(), |i, j| dot(patterns[i], patterns[j]));
-        let zeros = DMatrix::zeros(patterns.len(), patterns.len());
+        let count = patterns.len();
+        let gram = DMatrix::from_fn(count, count, |i, j| dot(patterns[i], patterns[j]));
+        let zeros = DMatrix::zeros(count, count);
         let inverse = gram.pseudo_inverse(1e-12).unwrap_or(zeros);
         // One step of steady sliding tells which nodes are open.
         map.place(&rest);

@@ -98,8 +98,7 @@ impl Point {
 impl Guess {
     /// The sum of several points, each times its weight; the weights make up one.
     fn combined<'p>(points: impl Iterator<Item = (&'p Point, f64)>) -> Self {
-        let mut guess =
-            Self { value: 0.0, state: PeriodicState { motion: Vec::new(), period: 0.0 } };
+        let mut guess = Self { value: 0.0, state: PeriodicState::default() };
         for (point, weight) in points {
             let own = &point.found.state;
             guess.state.motion.resize(own.motion.len(), 0.0);

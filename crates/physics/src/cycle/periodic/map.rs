@@ -22,7 +22,7 @@ const FEWEST_STEPS: usize = 100;
 const LOOKS: usize = 32;
 
 /// A state of motion, and the time after which it should come back.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeriodicState {
     /// `(omega sqrt(m) u_0, sqrt(m) v_{-1/2})` of every moving dof, root of J/m: its square is an energy.
     pub motion: Vec<f64>,

@@ -2,8 +2,8 @@
 
 use super::map::{PeriodMap, PeriodicState};
 use crate::cycle::arnoldi::{MultiplierSearch, Ritz, unit};
-use crate::cycle::{CycleError, FloquetMultiplier, FloquetMultipliers};
-use crate::linalg::dense::{difference, norm};
+use crate::cycle::{CycleError, FloquetMultiplier, FloquetMultipliers, Verdict};
+use crate::linalg::dense::{add, difference, dot, norm};
 use crate::linalg::{GaussianNoise, c64};
 
 /// Multipliers kept, and the residual of one that is worth listing.
@@ -18,6 +18,9 @@ const PERTURBATION: f64 = 3e-3;
 /// A multiplier whose logarithm is within this of 0 and whose direction has this share along the motion is the shift in phase. A
 /// node that starts to slip where friction falls with speed, at a whole step, takes it as far from 1 as 1.5.
 const NEUTRAL: [f64; 2] = [0.5, 0.7];
+/// Lengths at which a perturbation is followed, relative to the amplitude, periods in which it turns to where it grows fastest,
+/// and periods of either half of what is counted.
+const FOLLOWED: ([f64; 2], usize, usize) = ([PERTURBATION, PERTURBATION / 3.0], 8, 20);
 
 impl FloquetMultipliers {
     /// Arnoldi's process on differences of the period map at a periodic motion, until the leading multipliers have converged.
@@ -26,8 +29,8 @@ impl FloquetMultipliers {
     /// [`CycleError::NotFound`] where they do not.
     pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Result<Self, CycleError> {
         let (first, image) = (map.periods(), map.image(state));
-        let length = PERTURBATION * image.vibration;
-        let mut apply = |direction: &[f64]| {
+        let mut change_of = |direction: &[f64], share: f64| {
+            let length = share * image.vibration;
             let pairs = state.motion.iter().zip(direction);
             let moved = PeriodicState {
                 motion: pairs.map(|(x, d)| x + length * d).collect(),
@@ -37,6 +40,7 @@ impl FloquetMultipliers {
             change.iter_mut().for_each(|value| *value /= length);
             change
         };
+        let mut apply = |direction: &[f64]| change_of(direction, PERTURBATION);
         let mut noise = GaussianNoise::new(1);
         let start = (0..state.motion.len()).map(|_| noise.draw().re).collect();
         let [reach, least] = NEUTRAL;
@@ -61,46 +65,49 @@ impl FloquetMultipliers {
         let sums = apply(&along).into_iter().zip(apply(&against));
         let sums: Vec<f64> = sums.map(|(one, other)| one + other).collect();
         let bend = norm(&sums) / first_listed.value.norm();
-        let periods = map.periods() - first;
         // What is open of every rate: how far the shift is from 1, the residual, and the bend.
-        let shift = found.shift;
-        let off = shift.map_or(NEUTRAL[0], |shift| shift.norm().ln().abs());
+        let shift = found.shift.map(|shift| shift.norm());
+        let off = shift.map_or(NEUTRAL[0], |shift| shift.ln().abs());
         let of = |ritz: &Ritz| {
             let open = (ritz.residual + off + bend) / state.period;
             FloquetMultiplier::new(ritz.value, state.period, open)
         };
-        Ok(Self { multipliers: found.listed.iter().map(of).collect(), shift, periods })
+        let multipliers = found.listed.iter().map(of).collect();
+        let mut own = Self { multipliers, shift, periods: 0 };
+        if own.verdict() == Verdict::Undecided {
+            // The leading one by what it makes of a perturbation, without the shift in phase; none of the others grows faster.
+            let (mut direction, rate) = (along, unit(image.rate.clone()));
+            let [growth, open] = followed(|length| {
+                let mut next = change_of(&direction, length);
+                let shift = dot(&next, &rate);
+                add(&mut next, -shift, &rate);
+                let growth = norm(&next).ln();
+                direction = unit(next);
+                growth
+            });
+            let turned = c64::from_polar(growth.exp(), own.multipliers[0].multiplier.arg());
+            let leading = FloquetMultiplier::new(turned, state.period, open / state.period);
+            let most = leading.growth_rate + leading.uncertainty;
+            own.multipliers[0] = leading;
+            own.multipliers.retain(|other| other.growth_rate <= most);
+            for other in &mut own.multipliers[1..] {
+                other.uncertainty = other.uncertainty.min(most - other.growth_rate);
+            }
+        }
+        own.periods = map.periods() - first;
+        Ok(own)
     }
 }
 
-/// What is kept of one motion: periods, the shift, and multipliers with growth rate, uncertainty and beat; or why there are none.
-pub(super) type Kept = Result<(usize, Option<[f64; 2]>, Vec<[f64; 5]>), String>;
-
-/// What is kept of what is known.
-pub(super) fn kept(known: &Result<FloquetMultipliers, String>) -> Kept {
-    let found = known.as_ref().map_err(String::clone)?;
-    let numbers = found.multipliers.iter().map(|own| {
-        let c64 { re, im } = own.multiplier;
-        [re, im, own.growth_rate, own.uncertainty, own.beat_hz]
-    });
-    Ok((found.periods, found.shift.map(|own| [own.re, own.im]), numbers.collect()))
-}
-
-/// The inverse of [`kept`].
-pub(super) fn recalled(kept: Kept) -> Result<FloquetMultipliers, String> {
-    let (periods, shift, numbers) = kept?;
-    let own = |[re, im, growth_rate, uncertainty, beat_hz]: [f64; 5]| FloquetMultiplier {
-        multiplier: c64::new(re, im),
-        growth_rate,
-        uncertainty,
-        beat_hz,
-        mode: None,
-    };
-    Ok(FloquetMultipliers {
-        multipliers: numbers.into_iter().map(own).collect(),
-        shift: shift.map(|[re, im]| c64::new(re, im)),
-        periods,
-    })
+/// Mean of the growth over a period, `ln |P d| / |d|`, of a perturbation that keeps a length, and what that may be wrong by: how far
+/// the means of both halves and lengths lie apart. Where impacts bend the map, no linear one is near it.
+fn followed(mut growth: impl FnMut(f64) -> f64) -> [f64; 2] {
+    let (lengths, turns, half) = FOLLOWED;
+    let mut sum = |length, periods| (0..periods).map(|_| growth(length)).sum::<f64>();
+    let sums = lengths.map(|length| [turns, half, half].map(|periods| sum(length, periods)));
+    let means = sums.map(|[_, one, other]| [one, other].map(|sum| sum / half as f64)).concat();
+    let [least, most] = [f64::min, f64::max].map(|of| means.iter().copied().fold(means[0], of));
+    [means.iter().sum::<f64>() / means.len() as f64, most - least]
 }
 
 #[cfg(test)]
@@ -113,24 +120,5 @@ mod tests {
         assert!(kind(0.6, 0.9).contains("Neimark-Sacker"));
         assert!(kind(-1.1, 0.0).contains("doubling"));
         assert!(kind(1.1, 0.0).contains("fold"));
-    }
-
-    #[test]
-    fn what_is_kept_of_multipliers_comes_back_bit_by_bit() {
-        let known = FloquetMultipliers {
-            multipliers: vec![FloquetMultiplier {
-                multiplier: c64::new(0.1, -0.7),
-                growth_rate: -3.0,
-                uncertainty: 0.3,
-                beat_hz: 12.5,
-                mode: None,
-            }],
-            shift: Some(c64::new(0.999, 0.0)),
-            periods: 17,
-        };
-        let unknown = FloquetMultipliers { shift: None, ..known.clone() };
-        for found in [Ok(known), Ok(unknown), Err("no multiplier".to_owned())] {
-            assert_eq!(recalled(kept(&found)), found);
-        }
     }
 }

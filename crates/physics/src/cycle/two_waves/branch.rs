@@ -138,8 +138,8 @@ impl Half<'_> {
             start.impose_law();
             let found = self.waves.solved(&start, self.parameter, Closure::Value(next));
             let found = found.map(|state| self.waves.motion(state));
-            let share =
-                |found: &TwoWaveMotion| found.amplitudes[weaker] / self.here.amplitudes[weaker];
+            let before = self.here.amplitudes[weaker];
+            let share = |found: &TwoWaveMotion| found.amplitudes[weaker] / before;
             match found.filter(|found| (STEEP..1.0 / STEEP).contains(&share(found))) {
                 Some(found) => self.here = found,
                 None if halved < HALVINGS => {

@@ -106,11 +106,8 @@ impl MeshStepping<'_> {
         let (mut before, mut is_constant) = (f64::NAN, false);
         for _ in 0..LOOKS {
             let history = History::of(&mut run, harmonics, steps, window);
-            let amplitudes = history.measured().map(|found| found.amplitudes);
-            let Some([first, second]) = amplitudes else {
-                before = f64::NAN;
-                continue;
-            };
+            let none = [f64::INFINITY, f64::NAN];
+            let [first, second] = history.measured().map_or(none, |found| found.amplitudes);
             if first < GONE * second {
                 return Err(CycleError::NotFound(format!(
                     "a transient from the cycle ends on the wave of {other} nodal diameters alone"
@@ -129,10 +126,10 @@ impl MeshStepping<'_> {
                  {periods} periods"
             ))
         };
-        if !is_constant && before.is_nan() {
-            return Err(vanishes());
-        }
         if !is_constant {
+            if before.is_nan() {
+                return Err(vanishes());
+            }
             return Err(CycleError::NotFound(format!(
                 "the amplitudes of both waves still change after {periods} periods of a transient"
             )));

@@ -61,6 +61,6 @@ fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<SparseOperator<
         let shares = row.iter().filter(|(other, share)| moves(*other) && *share != 0.0);
         (dof as u32, shares.map(|&(other, share)| (other as u32, share)).collect())
     });
-    let stiffness = basis.congruent(&assembly.joined.stiffness());
+    let stiffness = basis.congruent(&assembly.joined.stiffness()).into_owned();
     SparseOperator::new(&stiffness, own, followers.collect(), simd)
 }

@@ -26,9 +26,6 @@ pub struct Steady {
 
 impl Steady {
     /// That of a case.
-    ///
-    /// # Errors
-    /// A body without a state of steady sliding; those of the eigenvalue solver.
     pub fn of(case: &Case, stepped: &SteppedMesh<'_>) -> Result<Self, StudyError> {
         let own = [case.contact.sliding.friction_coefficient];
         if let Some(assembly) = &stepped.assembly {
@@ -52,9 +49,6 @@ impl Steady {
     }
 
     /// That of a case with a parameter at another value, SI.
-    ///
-    /// # Errors
-    /// As [`Self::of`]; a value that the case cannot have.
     pub fn at(
         (case, stepped): (&Case, &SteppedMesh<'_>),
         parameter: Parameter,

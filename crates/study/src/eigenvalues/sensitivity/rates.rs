@@ -1,7 +1,7 @@
 //! Derivatives of eigenpairs by one parameter: difference quotients of the matrices.
 
 use super::{Pairs, Place};
-use crate::eigenvalues::model::wave_tangent;
+use crate::eigenvalues::model::sector_tangent;
 use crate::eigenvalues::whole::WholeMesh;
 use crate::tangent_options;
 use frictionsim_case::{Case, Cea};
@@ -21,7 +21,7 @@ const WIDER: f64 = 10.0;
 /// Steps of the coefficients of damping from zero, in which matrices are linear: of the size that measured ones have.
 const STEPS_FROM_ZERO: [(&str, f64); 2] =
     [("mass_coefficient", 1.0), ("stiffness_coefficient", 1e-8)];
-/// Keys, by their last part, on which no base state depends.
+/// Keys, by their last part, on which no base state depends, and in which matrices are linear.
 const INERT: [&str; 6] = [
     "loss_factor",
     "density",
@@ -112,32 +112,32 @@ fn quotient<T>(
 }
 
 /// Derivatives of those eigenpairs of waves that there are, at the friction coefficient of a case by a parameter from
-/// its `value` on; `moved` is the case with it elsewhere.
+/// its `value` on; `moved` is the case with it elsewhere. Matrices that are linear in it have no more than one quotient.
 pub(crate) fn rates_of_waves(
     (case, cea): (&Case, &Cea),
     (pairs, pressed): (&[Option<WavePair>], &[bool]),
-    step: f64,
+    (step, is_linear): (f64, bool),
     moved: &dyn Fn(f64) -> Result<Case, String>,
 ) -> Result<Vec<Option<c64>>, String> {
     let friction = case.contact.sliding.friction_coefficient;
     let beside = |offset: f64| {
         let moved = moved(offset)?;
-        let tangent = wave_tangent(&moved, &tangent_options(&moved, cea.mass));
+        let tangent = sector_tangent(&moved, &tangent_options(&moved, cea.mass));
         let tangent = tangent.map_err(|error| error.to_string())?;
         let tangent = tangent.ok_or_else(|| "the body loses its symmetry with it".to_owned())?;
-        if tangent.pressed() != pressed {
+        if tangent.contact.is_pressed != pressed {
             return Err("contact rings open or close near it".to_owned());
         }
         let friction_shift = moved.contact.sliding.friction_coefficient - friction;
         Ok(Beside { weight: 0.0, tangent, friction_shift })
     };
     // Richardson's extrapolation: what is left is of fourth order, so that the step may stay far above round-off.
-    let step = WIDER * step;
-    let [near, far] = [quotient(step, beside)?, quotient(2.0 * step, beside)?];
-    let [near, far] = [(near, 4.0 / 3.0), (far, -1.0 / 3.0)].map(|(terms, share)| {
-        terms.into_iter().map(move |(weight, own)| Beside { weight: share * weight, ..own })
-    });
-    let terms: Vec<Beside> = near.chain(far).collect();
+    let shares = if is_linear { &[(1.0, 1.0)][..] } else { &[(1.0, 4.0 / 3.0), (2.0, -1.0 / 3.0)] };
+    let mut terms = Vec::new();
+    for &(steps, share) in shares {
+        let sides = quotient(steps * WIDER * step, beside)?.into_iter();
+        terms.extend(sides.map(|(weight, own)| Beside { weight: share * weight, ..own }));
+    }
     let there: Vec<&WavePair> = pairs.iter().flatten().collect();
     let found = wave_responses(&there, &terms);
     let mut found = found.ok_or_else(|| "the unknowns change with it".to_owned())?.into_iter();
@@ -151,13 +151,13 @@ pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&st
         case.with_keys(&set).map_err(|errors| errors.line())
     };
     let step = step_of(key, value);
+    let is_inert = INERT.contains(&key.rsplit('.').next().unwrap_or(key));
     let found = match pairs {
         Pairs::Waves(all, pressed) => {
-            rates_of_waves((case, cea), (all, pressed), step, &moved).map(|rates| (rates, None))
+            rates_of_waves((case, cea), (all, pressed), (step, is_inert), &moved).map(|r| (r, None))
         }
         Pairs::Whole(base, places) => {
-            let last = key.rsplit('.').next().unwrap_or(key);
-            let like = INERT.contains(&last).then_some(&base.model);
+            let like = is_inert.then_some(&base.model);
             let beside = |offset: f64| {
                 let moved = moved(offset)?;
                 // The first place is the case's own operating point, which a friction coefficient of a pair moves.

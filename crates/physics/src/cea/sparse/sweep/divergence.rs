@@ -24,17 +24,20 @@ impl SparseSweep<'_> {
             return Ok(None);
         }
         let first = self.grid[self.first_asked()];
-        let start = (self.grid[0], self.ln_static(self.grid[0])?);
-        let at = |mu: f64| if mu == start.0 { Ok(start.1) } else { self.ln_static(mu) };
         // Of two the determinant has no sign.
         let is_unstable = (self.is_continued || self.is_unheld)
-            && (at(first)?.im.cos() < 0.0 || self.builder.model.static_growth(first)? > 1);
+            && (self.sign_at(first)? < 0.0 || self.builder.model.static_growth(first)? > 1);
         let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
         let mut place = ends.chain(is_unstable.then_some(first)).min_by(f64::total_cmp);
         let after = &self.grid[1..];
         let last = &after[after.len().saturating_sub(1)..];
-        if place.is_none() && self.sign_change(start, last)?.is_some() {
-            place = self.sign_change(start, after)?;
+        if place.is_none() {
+            // At rest all is held by positive stiffness.
+            let is_held = self.grid[0] == 0.0 && !self.is_unheld;
+            let start = (self.grid[0], if is_held { 1.0 } else { self.sign_at(self.grid[0])? });
+            if self.sign_change(start, last)?.is_some() {
+                place = self.sign_change(start, after)?;
+            }
         }
         Ok(place.map(|mu| mu.max(first)).map(|critical_friction| UnstableInterval {
             critical_friction,
@@ -54,26 +57,34 @@ impl SparseSweep<'_> {
         let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
         let reach = (low - (eigenvalue / derivative).re).clamp(beyond, next);
         let places = &[beyond, reach, next][..2 + usize::from(end.is_damped)];
-        self.sign_change((low, self.ln_static(low)?), places)
+        self.sign_change((low, self.sign_at(low)?), places)
     }
 
-    /// Where `det K` changes its sign between a friction coefficient, of known `ln det K`, and the first place of another sign.
-    fn sign_change(&self, from: (f64, c64), places: &[f64]) -> Result<Option<f64>, CeaError> {
-        let ((mut low, ln), mut places) = (from, places.iter());
-        let (size, mut before) = (ln.re, ln.im.cos());
+    /// Where `det K` changes from its sign at a friction coefficient, on the way to some places.
+    fn sign_change(&self, from: (f64, f64), places: &[f64]) -> Result<Option<f64>, CeaError> {
+        let ((mut low, before), mut places) = (from, places.iter());
         let (high, after) = loop {
             let Some(&high) = places.next() else { return Ok(None) };
-            let after = self.static_determinant(high, size)?;
-            if before * after < 0.0 {
+            let after = self.ln_static(high)?;
+            if before * after.im.cos() < 0.0 {
                 break (high, after);
             }
-            (low, before) = (high, after);
+            low = high;
         };
-        let mut bracket = Bracket::new([(low, before), (high, after)]);
+        // With signs, where products of two would be beyond the range of numbers.
+        let before = self.ln_static(low)?;
+        let size = before.re.max(after.re);
+        let scaled = |ln: c64| ln.im.cos() * (ln.re - size).clamp(-300.0, 300.0).exp();
+        let mut bracket = Bracket::new([(low, scaled(before)), (high, scaled(after))]);
         while bracket.width() > SETTLED * (1.0 + high) {
-            bracket.narrow(|mu| self.static_determinant(mu, size))?;
+            bracket.narrow(|mu| Ok::<_, CeaError>(scaled(self.ln_static(mu)?)))?;
         }
         Ok(Some(bracket.middle()))
+    }
+
+    /// Sign of `det K(mu)`.
+    fn sign_at(&self, mu: f64) -> Result<f64, CeaError> {
+        Ok(self.ln_static(mu)?.im.cos())
     }
 
     /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
@@ -86,12 +97,6 @@ impl SparseSweep<'_> {
         terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m));
         let found = analysis.ln_determinant(&values);
         Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
-    }
-
-    /// `det K(mu) / exp size`, with its sign where products of two would be beyond the range of numbers.
-    fn static_determinant(&self, mu: f64, size: f64) -> Result<f64, CeaError> {
-        let ln = self.ln_static(mu)?;
-        Ok(ln.im.cos() * (ln.re - size).clamp(-300.0, 300.0).exp())
     }
 }
 

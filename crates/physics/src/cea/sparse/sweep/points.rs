@@ -178,7 +178,8 @@ impl SparseSweep<'_> {
         if with_lefts {
             let leading = self.builder.leading_count().min(model.dimension());
             let leading = model.expand(Mat::identity(leading, leading).as_ref());
-            correct_lefts(self.tangent, (&self.builder.factors, leading), mu, &mut all);
+            let problem = (self.tangent, self.linearization);
+            correct_lefts(problem, (&self.builder.factors, leading), mu, &mut all);
         }
         // Over all nodal dofs.
         for ModeVectors { right, left, .. } in &mut all {
