@@ -2,24 +2,13 @@
 
 use super::tangent::ContactPart;
 use super::terms::{Kind, Part, Terms};
-use super::wave_tangent::WaveContact;
+use super::wave_tangent::{SectorTangent, WaveContact};
 use super::{PrestressError, SectorSliding, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{
     ContactInterface, Point, PressedState, SlidingContact, Turning, scaled, turned,
 };
 use crate::fem::{MaterialField, Triplets};
 use crate::mesh::{SolidSector, Strip};
-
-/// The matrices of one sector before they are those of waves.
-#[derive(Clone, Debug)]
-pub struct SectorTangent {
-    pub(super) strip: Strip,
-    pub(super) terms: Terms<Triplets>,
-    /// The contact of the sector.
-    pub contact: WaveContact,
-    pub(super) options: TangentOptions,
-    pub(super) sliding_direction: f64,
-}
 
 impl SectorTangent {
     /// `sum weight T` of tangents that differ in matrices alone, with weights that sum up to zero: a difference quotient. What they

@@ -2,10 +2,10 @@
 
 use super::elimination::Elimination;
 use super::terms::{Kind, Part, Term, Terms, of_kind};
-use super::{FrictionPolynomial, HarmonicTangent, SectorTangent, TabledGain, TangentOptions};
+use super::{FrictionPolynomial, HarmonicTangent, TabledGain, TangentOptions};
 use crate::contact::Row;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
+use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping, Triplets};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
 use crate::mesh::Strip;
@@ -69,6 +69,17 @@ pub struct WaveContact {
     pub distances: Vec<Row>,
     /// In rigid contact: each normal dof, and the tangential ones whose equations it drives, with factors of `i mu`.
     pub rigid: Vec<(usize, Row)>,
+}
+
+/// The matrices of one sector before they are those of waves.
+#[derive(Clone, Debug)]
+pub struct SectorTangent {
+    pub(super) strip: Strip,
+    pub(super) terms: Terms<Triplets>,
+    /// The contact of the sector.
+    pub contact: WaveContact,
+    pub(super) options: TangentOptions,
+    pub(super) sliding_direction: f64,
 }
 
 impl SectorTangent {

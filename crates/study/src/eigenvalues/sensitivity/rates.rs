@@ -112,7 +112,7 @@ fn quotient<T>(
 }
 
 /// Derivatives of those eigenpairs of waves that there are, at the friction coefficient of a case by a parameter from
-/// its `value` on; `moved` is the case with it elsewhere. Matrices that are linear in it have no more than one quotient.
+/// its `value` on; `moved` is the case with it elsewhere. Matrices that are linear in it have one quotient.
 pub(crate) fn rates_of_waves(
     (case, cea): (&Case, &Cea),
     (pairs, pressed): (&[Option<WavePair>], &[bool]),
