@@ -170,11 +170,11 @@ fn combination<'a>(
     (rows, columns): (usize, usize),
     terms: impl Iterator<Item = (f64, &'a [f64])>,
 ) -> DMatrix<f64> {
-    let mut sum = DMatrix::zeros(rows, columns);
-    pulp::Arch::new().dispatch(|| {
-        for (factor, values) in terms {
-            sum.as_mut_slice().iter_mut().zip(values).for_each(|(sum, own)| *sum += factor * own);
-        }
-    });
+    let (mut sum, arch) = (DMatrix::zeros(rows, columns), pulp::Arch::new());
+    // A term at a time: a closure that is small is compiled for them, a larger one called.
+    for (factor, values) in terms {
+        let pairs = sum.as_mut_slice().iter_mut().zip(values);
+        arch.dispatch(|| pairs.for_each(|(sum, own)| *sum += factor * own));
+    }
     sum
 }

@@ -117,15 +117,17 @@ impl Triplets {
     /// `b - A x` over all entries, summed in twice the precision.
     pub fn residual(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
         let mut left: Vec<[f64; 2]> = b.iter().map(|value| [*value, 0.0]).collect();
-        for &(row, column, value) in &self.entries {
-            let product = -value * x[column];
-            let [high, low] = &mut left[row];
-            let sum = *high + product;
-            let added = sum - *high;
-            let lost = (*high - (sum - added)) + (product - added);
-            *low += lost + (-value).mul_add(x[column], -product);
-            *high = sum;
-        }
+        pulp::Arch::new().dispatch(|| {
+            for &(row, column, value) in &self.entries {
+                let product = -value * x[column];
+                let [high, low] = &mut left[row];
+                let sum = *high + product;
+                let added = sum - *high;
+                let lost = (*high - (sum - added)) + (product - added);
+                *low += lost + (-value).mul_add(x[column], -product);
+                *high = sum;
+            }
+        });
         left.into_iter().map(|[high, low]| high + low).collect()
     }
 }

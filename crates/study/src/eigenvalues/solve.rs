@@ -45,7 +45,7 @@ pub fn solve(
     let found = model.model.spectrum_with_waves(case, (&request, waves_at), progress);
     let (mut found, waves) = found.map_err(|error| at_key(case, &error))?;
     let waves = waves.as_ref();
-    // Those of waves cost a tenth of the run of an annulus, half of that of bricks.
+    // Those of waves cost a tenth of the run of an annulus, up to three fifths of that of bricks.
     let is_asked = cea.sensitivities.unwrap_or(waves.is_some());
     let is_asked = is_asked && with_reading && frictions.iter().any(|&mu| mu >= friction);
     let mut rate_note = None;
