@@ -105,8 +105,6 @@ impl SparsityPattern {
         let (n, columns) = (self.dimension(), blocks[0].ncols());
         assert!(blocks.iter().all(|x| x.nrows() == n), "vectors and matrix differ in length");
         let mut results = [(); N].map(|()| Mat::zeros(n, columns));
-        // A row at a time: a closure that is small is compiled for the instructions that the processor has.
-        let arch = pulp::Arch::new();
         let mut inputs = INTERLEAVED.take();
         inputs.clear();
         inputs.resize(M * n, [0.0; LANES]);
@@ -124,7 +122,7 @@ impl SparsityPattern {
             for start in (0..n).step_by(STRIP) {
                 let rows = start..n.min(start + STRIP);
                 for index in rows.clone() {
-                    let sums = arch.dispatch(|| kernel(own, index));
+                    let sums = kernel(own, index);
                     for (strip, sum) in strips.iter_mut().zip(sums) {
                         strip[index - start] = sum;
                     }
