@@ -92,8 +92,9 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
 /// The constants, nine or the five of a material that is isotropic across its axis 3, and the axes.
 /// Every strain must have a positive energy.
 fn orthotropy(section: &Section<'_>) -> Orthotropy {
-    let is_transverse = section.list_length("young_moduli") == Some(2);
-    let (counts, label) = match is_transverse {
+    // As most of the lists are.
+    let is_of_five = |k: &usize| section.list_length(ORTHOTROPIC[*k]) == Some([2, 2, 1][*k]);
+    let (counts, label) = match (0..3).filter(is_of_five).count() > 1 {
         true => ([2, 2, 1], "[E_1, E_3], [nu_12, nu_13], [G_13] are isotropic across axis 3"),
         false => ([3; 3], "one for each of three axes"),
     };

@@ -135,10 +135,7 @@ impl SparsityPattern {
 
     /// Whether every nonzero has one opposite.
     pub(super) fn is_symmetric(&self) -> bool {
-        let is_alike = |i: usize| {
-            let row = self.row_columns[self.row_range(i)].iter();
-            row.map(|&j| j as usize).eq(self.column(i).map(|(_, row)| row))
-        };
+        let is_alike = |i: usize| self.row(i).map(|own| own.1).eq(self.column(i).map(|own| own.1));
         (0..self.dimension()).all(is_alike)
     }
 

@@ -202,30 +202,43 @@ mod tests {
     use crate::cea::{ModeLimit, SweepRequest, Unwatched};
 
     /// Independent check: inverse iteration in the full problem. The factors have their shift amid the modes, so that plain corrections of
-    /// those below it grow, and the start, the right vectors, is far off.
+    /// those below it grow, and the start, the right vectors, is far off. With proportional damping modes without coupling are real.
     #[test]
     fn corrections_from_right_vectors_lead_to_left_ones_without_factors_for_each() {
-        let (tangent, mu) = (string_on_belt(60, 0.4, false), [0.3]);
-        let rest = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(12)).unwrap();
-        let request = SweepRequest::new(&mu, ModeLimit::Lowest(12));
-        let found = sweep(&tangent, &request, &Unwatched).unwrap();
-        let values: Vec<c64> = found.points[0].modes.iter().map(|mode| mode.eigenvalue).collect();
-        let exact: Vec<ModePair> =
-            mode_pairs(&tangent, mu[0], &values).into_iter().flatten().collect();
-        assert_eq!(exact.len(), values.len());
-        let open = |own: &ModePair| ModeVectors {
-            eigenvalue: own.eigenvalue,
-            rate: own.derivative,
-            right: own.right.clone(),
-            left: own.right.clone(),
-        };
-        let mut pairs: Vec<ModeVectors> = exact.iter().map(open).collect();
-        let linearization = Linearization::of(&tangent, 1.0, rest.centre);
-        correct_lefts((&tangent, linearization), (&rest.factors, rest.vectors), mu[0], &mut pairs);
-        for (own, other) in pairs.iter().zip(&exact) {
-            let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
-            let cosine = dot(w, exact).norm() / (length(w) * length(exact));
-            assert!(1.0 - cosine * cosine < 1e-6, "{}: {}", own.eigenvalue, 1.0 - cosine * cosine);
+        for is_proportional in [false, true] {
+            let (tangent, mu) = (string_on_belt(60, 0.4, is_proportional), [0.3]);
+            let rest = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(12)).unwrap();
+            let request = SweepRequest::new(&mu, ModeLimit::Lowest(12));
+            let found = sweep(&tangent, &request, &Unwatched).unwrap();
+            let modes = &found.points[0].modes;
+            let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
+            let exact: Vec<ModePair> =
+                mode_pairs(&tangent, mu[0], &values).into_iter().flatten().collect();
+            assert_eq!(exact.len(), values.len());
+            let open = |own: &ModePair| {
+                let largest = own.right.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()));
+                let turn = largest.unwrap().conj() / largest.unwrap().norm();
+                let mut right: Vec<c64> = own.right.iter().map(|x| turn * x).collect();
+                if is_proportional && right.iter().all(|x| x.im.abs() < 1e-9) {
+                    right.iter_mut().for_each(|x| x.im = 0.0);
+                }
+                let (eigenvalue, rate, left) = (own.eigenvalue, own.derivative, right.clone());
+                ModeVectors { eigenvalue, rate, right, left }
+            };
+            let mut pairs: Vec<ModeVectors> = exact.iter().map(open).collect();
+            let is_real = |own: &ModeVectors| own.right.iter().all(|x| x.im == 0.0);
+            assert_eq!(pairs.iter().any(is_real), is_proportional);
+            let problem = (&tangent, Linearization::of(&tangent, 1.0, rest.centre));
+            correct_lefts(problem, (&rest.factors, rest.vectors), mu[0], &mut pairs);
+            let full = FullProblem::at(&tangent, mu[0]);
+            for (own, other) in pairs.iter().zip(&exact) {
+                let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
+                let cosine = dot(w, exact).norm() / (length(w) * length(exact));
+                let away = 1.0 - cosine * cosine;
+                assert!(away < 1e-6, "{is_proportional} {}: {away}", own.eigenvalue);
+                let slope = full.slope(own.eigenvalue, w, &own.right);
+                assert!((slope - 1.0).norm() < 1e-12, "{slope}");
+            }
         }
     }
 }
