@@ -53,18 +53,20 @@ pub fn correct_lefts(
 /// A left vector, or a correction of one, and what the problem makes of it: `w`, `T(lambda)^T w` and `P^-1 T(lambda)^T w`.
 type Mapped = [Vec<c64>; 3];
 
-/// The left vector of a mode: real, but for a factor that it loses, where proportional damping leaves the right one real.
+/// Inverse value and left vector of a mode: real where proportional damping leaves the right vector real, but for a factor of the left one
+/// that it loses.
 fn started(
-    ModeVectors { right, left, .. }: &ModeVectors,
+    ModeVectors { eigenvalue, right, left, .. }: &ModeVectors,
     linearization: Linearization,
-) -> Vec<c64> {
+) -> (c64, Vec<c64>) {
+    let value = linearization.inverse_value(*eigenvalue);
     let is_reduced = matches!(linearization, Linearization::Reduced(..));
     if !is_reduced || right.iter().any(|x| x.im != 0.0) {
-        return left.clone();
+        return (value, left.clone());
     }
     let largest = left.iter().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
     let turn = largest.map_or(c64::ONE, |own| own.conj() / own.norm());
-    left.iter().map(|own| (turn * own).re.into()).collect()
+    (value.re.into(), left.iter().map(|own| (turn * own).re.into()).collect())
 }
 
 /// About twice the elastic energy of the left vector of a mode: `w^T (2 lambda M + C) x` is 1.
@@ -126,8 +128,8 @@ fn correct_group(
     (factors, modes): (&RealFactors, &impl Deref<Target = AmongModes>),
     pairs: &mut [ModeVectors],
 ) {
-    let inverse_values: Vec<c64> =
-        pairs.iter().map(|pair| linearization.inverse_value(pair.eigenvalue)).collect();
+    let (inverse_values, starts): (Vec<c64>, Vec<Vec<c64>>) =
+        pairs.iter().map(|pair| started(pair, linearization)).unzip();
     let together = |own: Vec<(usize, &Vec<c64>)>| {
         let vectors = own.into_iter().map(|(k, vector)| (inverse_values[k], vector));
         PackedModes::of_vectors(matrices.dimension(), vectors)
@@ -140,7 +142,6 @@ fn correct_group(
         entries.iter().map(|entry| all.each_ref().map(|own| entry.joined(own))).collect()
     };
     let goals: Vec<f64> = pairs.iter().map(left_energy).collect();
-    let starts: Vec<Vec<c64>> = pairs.iter().map(|pair| started(pair, linearization)).collect();
     let PackedModes { coordinates, entries } = together(starts.iter().enumerate().collect());
     let (images, _) = matrices.residuals_and_momenta(&entries, coordinates.as_ref());
     let mut lefts = mapped(&entries, coordinates, images);

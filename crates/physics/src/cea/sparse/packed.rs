@@ -101,7 +101,7 @@ impl PackedModes {
         Self::of_vectors(dimension, modes.iter().map(unit))
     }
 
-    /// Packs vectors, each with the inverse value of its mode.
+    /// Packs vectors, each with the inverse value of its mode: where both are real the problem is.
     pub fn of_vectors<V: AsRef<[c64]>>(
         dimension: usize,
         vectors: impl Iterator<Item = (c64, V)>,
@@ -110,7 +110,7 @@ impl PackedModes {
         for (inverse_value, own) in vectors {
             let (first, own) = (columns.len(), own.as_ref());
             columns.push(own.iter().map(|v| v.re).collect());
-            if own.iter().any(|v| v.im != 0.0) {
+            if inverse_value.im != 0.0 || own.iter().any(|v| v.im != 0.0) {
                 columns.push(own.iter().map(|v| v.im).collect());
             }
             entries.push(PackedEntry { inverse_value, columns: first..columns.len() });
