@@ -8,6 +8,7 @@ use super::{PrestressError, SectorSliding, SolidSliding, TangentOptions, WaveTan
 use crate::contact::{
     ContactInterface, Point, PressedState, SlidingContact, Turning, scaled, turned,
 };
+use crate::fem::fold::WaveDofs;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping, Triplets};
 use crate::mesh::{SolidSector, Strip};
 
@@ -84,7 +85,9 @@ impl SectorTangent {
     /// have alike leaves no round-off. `None` where they differ in more.
     pub fn quotient(sides: &[(f64, &Self)]) -> Option<WaveTangent> {
         let first = sides.first()?.1;
-        let shape = |a: &Self| (a.sliding_direction, a.contact.clone(), a.strip.wave_dofs());
+        fn shape(own: &SectorTangent) -> (f64, &WaveContact, WaveDofs) {
+            (own.sliding_direction, &own.contact, own.strip.wave_dofs())
+        }
         let is_alike = sides.iter().all(|(_, own)| shape(own) == shape(first));
         let terms: Vec<_> = sides.iter().map(|(weight, own)| (*weight, &own.terms)).collect();
         let terms = Terms::quotient(&terms).filter(|_| is_alike)?;

@@ -294,21 +294,22 @@ impl<M: Default + PartialEq> Terms<M> {
 }
 
 impl Terms<Triplets> {
-    /// Difference quotients of all matrices ([`Triplets::quotient`]) of sides on which a term may be missing; `None` where factors differ.
+    /// Difference quotients of all matrices ([`Triplets::quotient`]); `None` where factors differ, or a side lacks a term.
     pub(super) fn quotient(sides: &[(f64, &Self)]) -> Option<Self> {
-        let factors = |a: &Self| (a.laws().cloned().collect::<Vec<_>>(), a.tangent_damping);
-        let is_alike = sides.iter().all(|(_, own)| factors(own) == factors(sides[0].1));
-        let most = sides.iter().max_by_key(|(_, own)| own.all.len()).expect("there are sides").1;
-        let (mut sum, none) = (most.clone(), Triplets::default());
-        for term in &mut sum.all {
-            let own = sides.iter().map(|(weight, own)| {
-                let is_it = |a: &&Term<_>| a.is(term.part, term.kind) && a.power == term.power;
-                (*weight, own.all.iter().find(is_it).map_or(&none, |own| &own.matrix))
-            });
+        let first = sides.first()?.1;
+        let name = |own: &Term<_>| (own.part, own.kind, own.power);
+        let is_alike = |own: &Self| {
+            (own.bodies == first.bodies && own.contacts == first.contacts)
+                && own.tangent_damping == first.tangent_damping
+                && own.all.iter().map(name).eq(first.all.iter().map(name))
+        };
+        let mut sum = sides.iter().all(|(_, own)| is_alike(own)).then(|| first.clone())?;
+        for (k, term) in sum.all.iter_mut().enumerate() {
+            let own = sides.iter().map(|(weight, own)| (*weight, &own.all[k].matrix));
             term.matrix = Triplets::quotient(&own.collect::<Vec<_>>());
         }
         sum.all.retain(|term| !term.matrix.entries.is_empty());
-        is_alike.then_some(sum)
+        Some(sum)
     }
 
     /// Those of a mesh over all its dofs without stress and rotation.

@@ -55,7 +55,7 @@ type Mapped = [Vec<c64>; 3];
 
 /// Inverse value and left vector of a mode: real where proportional damping leaves the right vector real, but for a factor of the left one
 /// that it loses.
-fn started(
+fn start_of(
     ModeVectors { eigenvalue, right, left, .. }: &ModeVectors,
     linearization: Linearization,
 ) -> (c64, Vec<c64>) {
@@ -129,7 +129,7 @@ fn correct_group(
     pairs: &mut [ModeVectors],
 ) {
     let (inverse_values, starts): (Vec<c64>, Vec<Vec<c64>>) =
-        pairs.iter().map(|pair| started(pair, linearization)).unzip();
+        pairs.iter().map(|pair| start_of(pair, linearization)).unzip();
     let together = |own: Vec<(usize, &Vec<c64>)>| {
         let vectors = own.into_iter().map(|(k, vector)| (inverse_values[k], vector));
         PackedModes::of_vectors(matrices.dimension(), vectors)

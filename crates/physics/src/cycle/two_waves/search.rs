@@ -106,8 +106,10 @@ impl MeshStepping<'_> {
         let (mut before, mut is_constant) = (f64::NAN, false);
         for _ in 0..LOOKS {
             let history = History::of(&mut run, harmonics, steps, window);
-            let none = [f64::INFINITY, f64::NAN];
-            let [first, second] = history.measured().map_or(none, |found| found.amplitudes);
+            let Some([first, second]) = history.measured().map(|found| found.amplitudes) else {
+                before = f64::NAN;
+                continue;
+            };
             if first < GONE * second {
                 return Err(CycleError::NotFound(format!(
                     "a transient from the cycle ends on the wave of {other} nodal diameters alone"
