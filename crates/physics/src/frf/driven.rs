@@ -5,8 +5,8 @@ use crate::linalg::{
     ComplexSparseLu, LdlAnalysis, LinalgError, LuAnalysis, MatMut, RealFactors, c64,
 };
 
-/// Factors of a frequency by which a real factorization evades an undamped resonance: beside it it serves as well.
-const BESIDE: [f64; 3] = [1.0, 1.000_7, 0.999_1];
+/// Factors of a frequency by which a factorization evades an undamped resonance: beside it it serves as well.
+pub(super) const BESIDE: [f64; 3] = [1.0, 1.000_7, 0.999_1];
 
 /// A system that is excited at one port and observed at another, with the symbolic factorizations of its pattern.
 pub(super) struct Driven<'a> {
@@ -31,11 +31,15 @@ impl<'a> Driven<'a> {
 
     /// One line by a complex factorization of its own.
     pub fn factorized(&self, frequency_hz: f64) -> Result<c64, FrfError> {
-        let values = self.system.dynamic_stiffness(frequency_hz);
-        let lu = ComplexSparseLu::factorize(&self.lu, values)
-            .map_err(|source| FrfError::Factorization { frequency_hz, source })?;
         let force = self.force.complex_force(self.system.dimension());
-        Ok(self.response.observe(&lu.solve_refined(&force)))
+        Ok(self.response.observe(&self.factors(frequency_hz)?.solve_refined(&force)))
+    }
+
+    /// Factors of `K + i H + i omega C - omega^2 M`.
+    pub fn factors(&self, frequency_hz: f64) -> Result<ComplexSparseLu, FrfError> {
+        let values = self.system.dynamic_stiffness(frequency_hz);
+        let factors = ComplexSparseLu::factorize(&self.lu, values);
+        factors.map_err(|source| FrfError::Factorization { frequency_hz, source })
     }
 
     /// Real factors of `K - omega^2 M`, at or beside a frequency.
@@ -55,10 +59,9 @@ impl<'a> Driven<'a> {
     }
 }
 
-/// The solution for one right side, or that of the transposed system.
-pub(super) fn solved(factors: &RealFactors, mut x: Vec<f64>, is_transposed: bool) -> Vec<f64> {
+/// The solution for one right side.
+pub(super) fn solved(factors: &RealFactors, mut x: Vec<f64>) -> Vec<f64> {
     let count = x.len();
-    let column = MatMut::from_column_major_slice_mut(&mut x, count, 1);
-    factors.solve(column, is_transposed);
+    factors.solve(MatMut::from_column_major_slice_mut(&mut x, count, 1), false);
     x
 }

@@ -33,12 +33,12 @@ impl Driven<'_> {
         let (system, count) = (self.system, self.system.dimension());
         let middle = 0.5 * (lines[0] + lines[lines.len() - 1]);
         let factors = self.real_factors(middle).ok()?;
-        let mut space = KrylovSpace::new(solved(&factors, self.force.force(count), false));
+        let mut space = KrylovSpace::new(solved(&factors, self.force.force(count)));
         let sigma = (TAU * middle).powi(2);
         let distance = |f: &f64| rayleigh.kappa(c64::new(0.0, TAU * f)) - sigma;
         let distances: Vec<c64> = lines.iter().map(distance).collect();
         let mass = &system.matrices.mass;
-        let multiply = |v: &[f64]| solved(&factors, system.multiply(mass, v, false), false);
+        let multiply = |v: &[f64]| solved(&factors, system.multiply(mass, v));
         let found = space.solve(&distances, multiply);
         let vectors = lines.iter().zip(found).map(|(f, mut y)| {
             let factor = c64::new(1.0, TAU * f * rayleigh.stiffness_coefficient);
@@ -72,7 +72,8 @@ impl Driven<'_> {
         let distances: Vec<c64> = lines.iter().map(|f| c64::new(TAU * f - omega, 0.0)).collect();
         let solved = space.solve(&distances, |z| {
             let (x, w) = z.split_at(count);
-            let mut image = system.slope(omega, x, w);
+            let terms = [w.iter().map(|w| w * omega).collect(), x.to_vec()];
+            let mut image = system.slope(omega, &terms, false);
             solve(&mut image);
             image.extend(x.iter().map(|x| x / omega));
             image

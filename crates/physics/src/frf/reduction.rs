@@ -1,16 +1,16 @@
 //! Response of a projected model.
 
-use super::driven::{Driven, solved};
+use super::driven::{BESIDE, Driven};
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem, Port};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
-use crate::linalg::{ComplexDenseLu, Mat, c64};
+use crate::linalg::{ComplexDenseLu, Mat, MatMut, c64};
 use crate::order::range;
 use crate::prestress::MotionMatrices;
 use std::f64::consts::TAU;
 
-/// Krylov vectors taken at each shift, for force and response each.
-const MOMENTS: usize = 6;
+/// Terms of each series about a shift, for force and response each.
+const MOMENTS: usize = 3;
 /// A vector that keeps less than this share of its length adds nothing.
 const DROP: f64 = 1e-10;
 
@@ -33,17 +33,17 @@ pub struct ReducedResponse {
     pub vectors: usize,
 }
 
-/// Receptance between two ports, by a rational Krylov reduction.
+/// Receptance between two ports, by a reduction that interpolates it, whatever the damping.
 ///
-/// At real shifts `sigma_j = omega_j^2` spread over the range, one basis `V` collects `((K - sigma_j M)^{-1} M)^k (K - sigma_j M)^{-1}
-/// e_force` and the same of the transposed system from `e_response`, `k < 6`; the response is that of `V^T M V, V^T C V, V^T K V`. Direct
-/// solutions at check lines measure its error; where it is above the tolerance, the worst line becomes a shift. Each shift is moved a
-/// little if it hits an undamped resonance.
+/// At shifts `omega_j` over the range one basis `V` collects real and imaginary parts of three terms of the series of `x(omega)`, and of
+/// that of the transposed system from `e_response`: `A x_0 = e_force`, `A x_k = (2 omega_j M - i C) x_{k-1} + M x_{k-2}`, where
+/// `A = K + i omega_j C - omega_j^2 M`. The response is that of `V^T M V, V^T C V, V^T K V`. Direct solutions at check lines measure its
+/// error; where it is above the tolerance, the worst line becomes a shift. One that hits an undamped resonance is moved a little.
 ///
 /// # Errors
 /// [`FrfError::NotReduced`] if the most shifts do not reach the tolerance; those of [`super::direct_response`].
 ///
-/// Source: E. J. Grimme, "Krylov projection methods for model reduction", thesis, Urbana (1997).
+/// Source: C. Beattie, S. Gugercin, "Interpolatory projection methods for structure-preserving ...", Syst. Control Lett. 58 (2009) 225.
 pub fn reduced_response(
     system: &FrfSystem,
     force: &Port,
@@ -117,26 +117,25 @@ fn check_lines(frequencies_hz: &[f64], receptance: &[c64], shifts: &[f64]) -> Ve
     lines
 }
 
-/// The basis with the Krylov vectors of one more shift.
+/// The basis with the vectors of one more shift.
 fn extended(driven: &Driven<'_>, mut basis: Mat<f64>, shift_hz: f64) -> Result<Mat<f64>, FrfError> {
-    let (system, factors) = (driven.system, driven.real_factors(shift_hz)?);
-    let n = system.dimension();
+    let n = driven.system.dimension();
+    let factors = driven.factors(shift_hz).or_else(|_| driven.factors(BESIDE[1] * shift_hz))?;
     for (start, is_transposed) in [(driven.force, false), (driven.response, true)] {
-        // Each chain is orthogonalized in itself alone: with vectors of the other chain mixed in, the
-        // recursion would leave its Krylov space.
-        let mut chain = Mat::<f64>::zeros(n, 0);
-        let mut right = start.force(n);
-        for _ in 0..MOMENTS {
-            let solved = solved(&factors, right, is_transposed);
-            let x = Mat::from_fn(n, 1, |i, _| solved[i]);
-            let new = orthonormalize(chain.as_ref(), x, DROP).columns;
-            if new.ncols() == 0 {
-                break;
+        let mut right = start.complex_force(n);
+        let mut series: Vec<Vec<c64>> = vec![vec![c64::new(0.0, 0.0); n]];
+        for moment in 1..=MOMENTS {
+            let column = MatMut::from_column_major_slice_mut(&mut right, n, 1);
+            match is_transposed {
+                true => factors.solve_transpose_in_place(column),
+                false => factors.solve_in_place(column),
             }
-            right = system.multiply(&system.matrices.mass, new.col_as_slice(0), is_transposed);
-            chain = join_columns(chain.as_ref(), new.as_ref());
+            series.push(right);
+            right = driven.system.slope(TAU * shift_hz, &series[moment - 1..], is_transposed);
         }
-        let new = orthonormalize(basis.as_ref(), chain, DROP).columns;
+        let part = |i: usize, j: usize| [series[j / 2 + 1][i].re, series[j / 2 + 1][i].im][j % 2];
+        let parts = Mat::from_fn(n, 2 * MOMENTS, part);
+        let new = orthonormalize(basis.as_ref(), parts, DROP).columns;
         basis = join_columns(basis.as_ref(), new.as_ref());
     }
     Ok(basis)
@@ -158,7 +157,7 @@ impl ReducedModel {
         let matrices = [mass, damping, stiffness].map(|values| {
             let mut image = Mat::<f64>::zeros(basis.nrows(), count);
             for j in 0..count {
-                let y = system.multiply(values, basis.col_as_slice(j), false);
+                let y = system.multiply(values, basis.col_as_slice(j));
                 image.col_as_slice_mut(j).copy_from_slice(&y);
             }
             transpose_product(basis.as_ref(), image.as_ref())

@@ -152,15 +152,15 @@ impl FrfSystem {
         self.matrices.at(c64::new(0.0, TAU * frequency_hz))
     }
 
-    /// `(2 omega M - i C) x + omega M w`.
-    pub(super) fn slope(&self, omega: f64, x: &[c64], w: &[c64]) -> Vec<c64> {
-        let MotionMatrices { mass, damping, .. } = &self.matrices;
+    /// `(2 omega M - i C) x + M w` from the last two terms `[w, x]` of a series, or the same with `M^T` and `C^T`.
+    pub(super) fn slope(&self, omega: f64, terms: &[Vec<c64>], is_transposed: bool) -> Vec<c64> {
+        let (MotionMatrices { mass, damping, .. }, w, x) = (&self.matrices, &terms[0], &terms[1]);
         let mut y = vec![c64::new(0.0, 0.0); x.len()];
-        for (column, (x, w)) in x.iter().zip(w).enumerate() {
-            let moved = (x * 2.0 + w) * omega;
-            let turned = c64::new(x.im, -x.re);
+        for column in 0..x.len() {
             for (k, row) in self.pattern.column(column) {
-                y[row] += moved * mass[k] + turned * damping[k];
+                let [from, to] = if is_transposed { [row, column] } else { [column, row] };
+                let turned = c64::new(x[from].im, -x[from].re);
+                y[to] += (x[from] * (2.0 * omega) + w[from]) * mass[k] + turned * damping[k];
             }
         }
         y
@@ -173,14 +173,11 @@ impl FrfSystem {
         pairs.map(|(k, m)| k - omega * omega * m).collect()
     }
 
-    /// `y = A x` for one of the matrices, or `A^T x`.
-    pub(super) fn multiply(&self, values: &[f64], x: &[f64], is_transposed: bool) -> Vec<f64> {
+    /// `y = A x` for one of the matrices.
+    pub(super) fn multiply(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; x.len()];
-        for column in 0..x.len() {
-            for (k, row) in self.pattern.column(column) {
-                let [from, to] = if is_transposed { [row, column] } else { [column, row] };
-                y[to] += values[k] * x[from];
-            }
+        for (column, x) in x.iter().enumerate() {
+            self.pattern.column(column).for_each(|(k, row)| y[row] += values[k] * x);
         }
         y
     }
