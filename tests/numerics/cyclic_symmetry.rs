@@ -6,8 +6,9 @@ use frictionsim::results::cea::{self, View};
 use frictionsim::study::eigenvalues::{self, Solution};
 use frictionsim::study::uncertainty::Sampler;
 
-/// One of `count` sectors of a disc in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the middle.
-fn disc_sector(count: usize, [around, radial]: [usize; 2]) -> Vec<u8> {
+/// One of `count` sectors of a disc in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the middle;
+/// with an ear of one element at a cut face where it has ears.
+fn disc_sector(count: usize, [around, radial]: [usize; 2], eared: bool) -> Vec<u8> {
     let [columns, layers] = [around, radial].map(|count| count as f64);
     let place = |mut t: f64, mut r: f64| {
         if 0.0 < r && r < layers && 0.0 < t && t < columns {
@@ -21,11 +22,13 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2]) -> Vec<u8> {
     };
     let is_missing = |i: usize, j: usize| {
         let [t, r] = [1.0 - (i as f64 + 0.5) / columns, (j as f64 + 0.5) / layers];
-        (0.3..0.55).contains(&t) && (0.6..0.8).contains(&r)
+        let is_beside_ear = eared && j + 1 == radial && i > 0;
+        is_beside_ear || (0.3..0.55).contains(&t) && (0.6..0.8).contains(&r)
     };
+    let region = |layer: usize| if eared && layer + 1 == radial { "ear" } else { "disc" };
     // Clockwise, so that elements are counter-clockwise.
     let lines = [even(columns, around).into_iter().rev().collect(), even(layers, radial)];
-    let whole = Grid::of(lines, ["inner", ""], &|_| "disc");
+    let whole = Grid::of(lines, ["inner", ""], &region);
     grids(&[Grid { is_missing: &is_missing, hole: "screw", place: &place, ..whole }])
 }
 
@@ -82,9 +85,14 @@ fn assert_same(name: &str, mesh: &[u8], text: &str) {
 #[test]
 fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
     let analysis = "[cea]\nmodes = 20\nfriction_coefficients = [0.0, 0.2, 0.4, 0.6]\n";
-    let cases = [(3, "", [20, 8]), (4, "normal_stiffness = 7.4e12\n", [14, 8])];
+    let ears = "[materials.ear]\nyoung_modulus = 7e10\npoisson_ratio = 0.3\ndensity = 2700.0\n";
+    let cases = [
+        (3, String::new(), [20, 8]),
+        (4, "normal_stiffness = 7.4e12\n".to_owned(), [14, 8]),
+        (5, ears.to_owned(), [10, 8]),
+    ];
     for (count, contact, size) in cases {
-        let mesh = disc_sector(count, size);
+        let mesh = disc_sector(count, size, contact.contains("ear"));
         let text = screwed_disc(count, &format!("{contact}{analysis}"));
         assert_same(&format!("disc-{count}"), &mesh, &text);
     }
@@ -145,7 +153,7 @@ fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
 #[test]
 fn a_body_with_one_mass_is_solved_whole() {
     let more = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.4]\n[modifications.lump]\nat = { x = 0.0905, y = 0.0 }\nmass = 0.5\n";
-    let mesh = disc_sector(3, [14, 6]);
+    let mesh = disc_sector(3, [14, 6], false);
     let text = screwed_disc(3, more);
     let [auto, whole] = ["auto", "sparse"].map(|method| solved("mass", &mesh, &text, method));
     assert_eq!(auto.sweep, whole.sweep);
@@ -159,7 +167,7 @@ fn a_body_with_one_mass_is_solved_whole() {
 fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its_onsets() {
     let more = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.4]\n[uncertainty]\nsamples = 2\nindex_samples = 0\n\
         [uncertainty.distributions]\n\"material.density\" = { uniform = [1227.999999, 1228.000001] }\n";
-    let case = read("tables", &disc_sector(4, [8, 5]), &screwed_disc(4, more), "auto");
+    let case = read("tables", &disc_sector(4, [8, 5], false), &screwed_disc(4, more), "auto");
     let (model, solution) = solution(&case);
     let cea = case.cea.as_ref().unwrap();
     let report = eigenvalues::report(&case, cea, &model, &solution, 0.0);

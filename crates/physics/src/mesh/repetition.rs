@@ -25,7 +25,7 @@ fn misfit(message: String) -> BodyError {
 /// The whole body whose sector is in the file: `symmetry.count` copies, each turned by `2 pi / count` against the one before and
 /// joined to it where its first cut face meets the other's second. Coordinates and `symmetry.point` have one unit.
 ///
-/// The cut faces are found: faces that the turn by one sector brings onto another, node by node and in the same regions. Nodes
+/// The cut faces are found: faces that the turn by one sector brings onto another, node by node and in a region of both. Nodes
 /// come sector by sector in equal order; those of the first keep their numbers, further ones add a multiple of a power of ten.
 ///
 /// # Errors
@@ -167,7 +167,7 @@ impl Cut {
         });
         let distance = MATCHED * shortest.fold(f64::INFINITY, f64::min);
 
-        // Nodes may pair with those of the same regions alone: bodies that touch have nodes in one place.
+        // Nodes pair where they share a region: bodies that touch have nodes in one place.
         let mut regions_of: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
         for face in &outer {
             for &node in &face.nodes {
@@ -181,9 +181,9 @@ impl Cut {
                 }
             }
         }
-        let mut alike: BTreeMap<&BTreeSet<usize>, Vec<u32>> = BTreeMap::new();
+        let mut alike: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
         for (&node, regions) in &regions_of {
-            alike.entry(regions).or_default().push(node);
+            regions.iter().for_each(|&region| alike.entry(region).or_default().push(node));
         }
         let turn = symmetry.turn(1);
         let mut first_of = BTreeMap::new();
