@@ -28,7 +28,7 @@ fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
     let unconverged = summary["unconverged_steps"].as_u64().unwrap();
     assert!(unconverged > 0 && unconverged <= steps, "{unconverged} of {steps}");
     let sentence = format!("had not converged in {unconverged} of {steps} steps");
-    has(&answer.stdout, &[&sentence, "Exchange the two sides of the contact"]);
+    has(&answer.stdout, &[&sentence, "exchange the two sides of the contact"]);
     // The energy of a step closes whatever its forces are.
     assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
     let matching = TempDir::new().unwrap();

@@ -113,9 +113,9 @@ fn warnings(summary: &TransientSummary) -> Vec<String> {
     });
     let open = summary.unconverged_steps.map(|steps| {
         format!(
-            "Forces between the bodies had not converged in {steps} of {} steps: there they are \
-             approximate, though the energy closes. Many contact nodes meet one node of the other \
-             body. Exchange the two sides of the contact, or refine the other body.",
+            "Contact forces had not converged in {steps} of {} steps: there they are approximate, \
+             though the energy closes. Where many contact nodes meet one node of another body, \
+             exchange the two sides of the contact, or refine that body.",
             summary.steps
         )
     });
