@@ -48,13 +48,11 @@ pub struct HarmonicTangent {
     pub friction_dashpots: Option<FrictionPolynomial>,
     /// Stiffness of loss factors and of tables over frequency, which `K_n` has beside it with these factors, N/m.
     pub losses: Vec<(LossGain, FrictionPolynomial)>,
-    /// Forms of the mass whose values over that of the mass itself are the shares of kinetic energy of the contact's nodes and of
-    /// axial motion; where unknowns are no displacements.
-    pub shares: Option<[BandedMatrix; 2]>,
+    /// Forms whose values over that of the mass are the shares of kinetic energy of the contact's nodes, of both bodies, and of axial
+    /// motion.
+    pub shares: [BandedMatrix; 2],
     /// Rayleigh coefficients.
     pub rayleigh: RayleighDamping,
-    /// Unknowns that belong to the contact, of both bodies.
-    pub contact: Vec<usize>,
 }
 
 /// [`HarmonicTangent`] at one friction coefficient, as bands laid out like [`BandedMatrix::values`].

@@ -18,6 +18,8 @@ pub(super) const I: c64 = c64::new(0.0, 1.0);
 /// has `sum_p g_p(lambda) K_p` beside it: `i eta K_p` for the wave `+n`, the conjugate for `-n`.
 pub(super) struct HarmonicProblem {
     pub tangent: HarmonicTangent,
+    /// Whether it is followed as it stands: in the plane without losses.
+    pub is_direct: bool,
     pub dimension: usize,
     pub half_bandwidth: usize,
 }
@@ -43,8 +45,9 @@ impl Matrices {
 }
 
 impl HarmonicProblem {
-    pub fn new(tangent: HarmonicTangent) -> Self {
+    pub fn new(tangent: HarmonicTangent, is_direct: bool) -> Self {
         Self {
+            is_direct,
             dimension: tangent.mass[0].dimension(),
             half_bandwidth: tangent.mass[0].half_bandwidth(),
             tangent,
@@ -219,7 +222,7 @@ impl HarmonicProblem {
     /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding
     /// is small where its dashpot is strong.
     fn damping_norm(&self, at: &Matrices, x: &[c64]) -> f64 {
-        let Some(damping) = self.damping(at).filter(|_| self.is_solid()) else {
+        let Some(damping) = self.damping(at).filter(|_| !self.is_direct) else {
             return at.norms[1];
         };
         let h = self.half_bandwidth;
@@ -254,30 +257,13 @@ impl HarmonicProblem {
         [full(&at.now.mass), full(self.damping(at).unwrap_or(&none)), full(&at.now.stiffness)]
     }
 
-    /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].
-    pub fn contact_share(&self, x: &[c64]) -> f64 {
-        let HarmonicTangent { shares, mass, contact, .. } = &self.tangent;
-        match shares {
-            Some([contact, _]) => self.share(x, |x| energy(contact, x)),
-            None => self.share(x, |x| {
-                let momentum = mass[0].multiply(x);
-                contact.iter().map(|&k| x[k] * momentum[k]).sum()
-            }),
-        }
-    }
-
-    /// Kinetic energy of axial motion over the whole; not a number in the plane.
-    pub fn axial_share(&self, x: &[c64]) -> f64 {
-        let axial = self.tangent.shares.as_ref().map(|[_, axial]| axial);
-        axial.map_or(f64::NAN, |axial| self.share(x, |x| energy(axial, x)))
-    }
-
-    /// A part of the kinetic energy, of real and imaginary part alone, over the whole.
-    fn share(&self, x: &[c64], part: impl Fn(&[f64]) -> f64) -> f64 {
+    /// Kinetic energy of the contact's nodes, and of axial motion, over the whole, see [`crate::cea::ComplexMode`].
+    pub fn shares(&self, x: &[c64]) -> [f64; 2] {
         let real: Vec<f64> = x.iter().map(|v| v.re).collect();
         let imaginary: Vec<f64> = x.iter().map(|v| v.im).collect();
-        let whole = |x: &[f64]| energy(&self.tangent.mass[0], x);
-        (part(&real) + part(&imaginary)) / (whole(&real) + whole(&imaginary))
+        let energy = |form: &BandedMatrix| energy(form, &real) + energy(form, &imaginary);
+        let HarmonicTangent { shares, mass, .. } = &self.tangent;
+        shares.each_ref().map(|part| energy(part) / energy(&mass[0]))
     }
 
     /// `lambda` with `Im >= 0` of the wave `+n`.
@@ -293,14 +279,9 @@ impl HarmonicProblem {
         if self.is_proportional() { self.tangent.rayleigh.kappa(lambda) } else { lambda }
     }
 
-    /// Whether it is a harmonic in three dimensions, whose matrices are small full ones.
-    pub fn is_solid(&self) -> bool {
-        self.tangent.shares.is_some()
-    }
-
     /// Whether a motion hardly oscillates any more under the dashpot across the sliding, on the way to where it does not at all.
     pub fn is_ending(&self, theta: c64) -> bool {
-        self.is_solid() && theta.im.abs() < STANDSTILL * theta.norm()
+        !self.is_direct && theta.im.abs() < STANDSTILL * theta.norm()
     }
 
     /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is real to round-off.

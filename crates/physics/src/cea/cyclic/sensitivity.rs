@@ -44,7 +44,7 @@ pub struct WavePair {
 pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<Option<WavePair>> {
     let numbers: BTreeSet<usize> = wanted.iter().map(|(branch, _)| branch.harmonic).collect();
     let harmonics: BTreeMap<usize, HarmonicProblem> =
-        crate::parallel::map(numbers, |n| (n, HarmonicProblem::new(tangent.harmonic(n))));
+        crate::parallel::map(numbers, |n| (n, HarmonicProblem::new(tangent.harmonic(n), true)));
     let direction = tangent.sliding_direction;
     let pair = |&(branch, friction): &(&ModeBranch, f64)| {
         let is_backward = f64::from(branch.direction) * direction > 0.0;
