@@ -250,6 +250,6 @@ impl WaveTangent {
 
 /// What a mirror does to what comes with `mu^p`, and its sign with `(i mu)^p`: `mu^p A = +-(i mu)^p R` of a real `R`, `A = R` or `i R`.
 fn mirrored(power: usize) -> (MirrorParity, f64) {
-    let parity = if power % 2 == 0 { MirrorParity::Even } else { MirrorParity::Odd };
-    (parity, if power / 2 % 2 == 0 { 1.0 } else { -1.0 })
+    let parity = [MirrorParity::Even, MirrorParity::Odd][power % 2];
+    (parity, [1.0, 1.0, -1.0, -1.0][power % 4])
 }
