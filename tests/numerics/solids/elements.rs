@@ -56,7 +56,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
             SectorTangent::of_revolution(&sector, material, &options, contact).unwrap().waves()
         };
         let [with, without] = [true, false].map(of);
-        let unknowns = with.unknowns.unknown_of.iter().enumerate();
+        let unknowns = with.dofs.unknown_of.iter().enumerate();
         let unknowns: Vec<(usize, usize)> =
             unknowns.filter_map(|(k, u)| Some((k, (*u)?))).collect();
         let mut rotation = vec![0.0; with.harmonic(0).stiffness[0].dimension()];

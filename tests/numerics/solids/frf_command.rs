@@ -50,4 +50,8 @@ fn the_response_in_sliding_contact_is_that_of_the_case_and_its_cost_is_known_bef
     // All nodes but those of the clamped rim, and three held along the normal.
     assert_eq!(summary["dofs"], 24 * (6 * 3 * 3 - 3));
     assert!(summary["backward_error"].as_f64().unwrap() <= 1e-14);
+    // The eigenproblem has the same ones.
+    let modes = ["cea={ friction_coefficients = [0.0, 0.3], max_frequency_hz = 3000 }"];
+    let waves = run(&folder, "cea", &modes).out("cea").done().summary();
+    assert_eq!(waves["dofs"], summary["dofs"]);
 }

@@ -56,7 +56,10 @@ fn dense_at<M: MaterialField + Clone>(
     // Losses are the conjugates for the other half of the plane.
     let halves = [1.0, -1.0].map(|sign| {
         let stiffness = full(&at.stiffness_at(c64::new(0.0, sign * omega)));
-        let values = inverse_spectrum([full(&at.mass), full(&at.damping), stiffness], sigma);
+        let values = inverse_spectrum(
+            [full(&at.matrices.mass), full(&at.matrices.damping), stiffness],
+            sigma,
+        );
         values.into_iter().filter(move |value| value.im * sign > 0.0)
     });
     let is_standing = tangent.is_standing(n);

@@ -66,7 +66,7 @@ fn friction_across_the_sliding_is_that_of_each_node() {
     model.options.damping = rayleigh_damping(0.0, 0.0);
     let (sector, base) = base(&model).unwrap();
     let wave = model.tangent().harmonic(1).at(0.3);
-    let diagonal = wave.damping.chunks_exact(2 * wave.half_bandwidth + 1);
+    let diagonal = wave.matrices.damping.chunks_exact(2 * wave.half_bandwidth + 1);
     let found = diagonal.map(|row| row[wave.half_bandwidth].re);
     let found = sorted(found.filter(|own| *own != 0.0));
     let exact = sorted(base.normal_forces().map(|(node, force)| {

@@ -1,7 +1,7 @@
 //! What a surface slides on: another one, a rigid counterface, or what the mesh of a plane body has before its edge.
 
 use super::{PairError, SlidingContact};
-use crate::mesh::{Boundary, BoundaryFace, Chord, Mesh};
+use crate::mesh::{Boundary, Chord, Mesh};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -159,7 +159,10 @@ impl RigidCounterface {
         mesh: &Mesh,
         surface: &Boundary,
     ) -> Result<PlacedCounterface<'_>, PairError> {
-        let outward = mean_normals(mesh, surface);
+        // Middle of each face and its outward normal times its area.
+        let faces = surface.faces.iter();
+        let outward = faces.map(|face| (mesh.middle(face.corners()), mesh.area_vector(face)));
+        let outward: Vec<(Vector3<f64>, Vector3<f64>)> = outward.collect();
         let all = surface.faces.iter().flat_map(|face| &face.nodes);
         let mut nodes: Vec<u32> = all.copied().collect();
         nodes.sort_unstable();
@@ -259,12 +262,6 @@ impl RigidCounterface {
             is_turning: matches!(self.motion, RigidMotion::Turning(_)),
         })
     }
-}
-
-/// Middle of each face of a surface and its outward normal times its area.
-fn mean_normals(mesh: &Mesh, surface: &Boundary) -> Vec<(Vector3<f64>, Vector3<f64>)> {
-    let of_face = |face: &BoundaryFace| (mesh.middle(face.corners()), mesh.area_vector(face));
-    surface.faces.iter().map(of_face).collect()
 }
 
 impl PlacedCounterface<'_> {

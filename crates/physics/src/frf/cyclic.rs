@@ -95,10 +95,9 @@ impl Wave {
             factor *= -i;
         }
         let is_real = {
-            let damping = Some(&bands.damping).filter(|_| proportional.is_none());
-            let all = [&bands.mass, &bands.stiffness].into_iter().chain(damping);
-            let mut all = all.chain(bands.losses.iter().map(|(_, values)| values));
-            all.all(|band| band.iter().all(|value| value.im == 0.0))
+            // Proportional damping is as real as what it is proportional to.
+            let mut all = bands.matrices.each().flatten();
+            all.all(|value| value.im == 0.0)
         };
         Self {
             is_standing: system.tangent.is_standing(n),
@@ -161,19 +160,19 @@ impl<'a> Lines<'a> {
         let lane_frequency = |lane: usize| frequencies[lane.min(frequencies.len() - 1)];
         let omega = |lane: usize| sign * TAU * lane_frequency(lane);
         let lanes = |factor: &dyn Fn(f64) -> c64| Lanes::from_fn(|lane| factor(omega(lane)));
-        let bands = &wave.bands;
+        let MovingHarmonic { half_bandwidth, matrices } = &wave.bands;
         let (alpha, beta) = match &wave.proportional {
             Some(own) => (own.mass_coefficient, own.stiffness_coefficient),
             None => (0.0, 0.0),
         };
         let mut terms: Vec<(Lanes, &[c64])> = vec![
-            (lanes(&|w| c64::new(1.0, w * beta)), &bands.stiffness),
-            (lanes(&|w| c64::new(-w * w, w * alpha)), &bands.mass),
+            (lanes(&|w| c64::new(1.0, w * beta)), &matrices.stiffness),
+            (lanes(&|w| c64::new(-w * w, w * alpha)), &matrices.mass),
         ];
         if wave.proportional.is_none() {
-            terms.push((lanes(&|w| c64::new(0.0, w)), &bands.damping));
+            terms.push((lanes(&|w| c64::new(0.0, w)), &matrices.damping));
         }
-        for (gain, values) in &bands.losses {
+        for (gain, values) in &matrices.losses {
             terms.push((lanes(&|w| gain.at(c64::new(0.0, w))), values));
         }
         self.batch.assemble(&terms);
@@ -187,7 +186,7 @@ impl<'a> Lines<'a> {
                 largest = largest.max(quality[lane].backward_error);
             } else {
                 let (solution, error, own) =
-                    pivoted(&self.batch.system(lane), bands.half_bandwidth, wave.force);
+                    pivoted(&self.batch.system(lane), *half_bandwidth, wave.force);
                 (result[lane], growth) = (solution[wave.response], own);
                 largest = largest.max(error);
             }

@@ -283,7 +283,7 @@ impl<'a> Assembly<'a> {
         if let Some(Rotation { terms: [transport, gyroscopic], .. }) = self.joined.rotation.clone()
         {
             let own = [(Kind::Transport, transport), (Kind::Gyroscopic, gyroscopic)];
-            terms.add_other("rotation".into(), PartLaw::default(), own);
+            terms.add_body(Some("rotation".into()), PartLaw::default(), own);
         }
         terms
     }

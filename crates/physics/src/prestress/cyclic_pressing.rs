@@ -7,7 +7,7 @@ use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
-use crate::contact::{Point, PressedState, Row, summed};
+use crate::contact::{Point, Row, summed};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
 
@@ -63,16 +63,9 @@ impl Pressing<'_> {
         // The state of the whole body.
         let firsts: Vec<usize> = firsts.collect();
         let copy_of = first_of.iter().map(|first| firsts.partition_point(|own| own < first));
-        let repeated = |values: Vec<f64>| values.repeat(count);
-        let spread = |values: Vec<f64>| copy_of.clone().map(|i| values[i]).collect();
-        let whole = range.states.into_iter().map(|state| PressedState {
-            displacements: state.displacements.into_iter().map(repeated).collect(),
-            normal_forces: state.normal_forces.into_iter().map(spread).collect(),
-            stiffnesses: state.stiffnesses.into_iter().map(spread).collect(),
-            is_pressed: copy_of.clone().map(|i| state.is_pressed[i]).collect(),
-            frozen_below: state.frozen_below,
-        });
-        range.states = whole.collect();
+        let copy_of: Vec<usize> = copy_of.collect();
+        let states = range.states.iter_mut();
+        states.for_each(|state| *state = state.repeated(count, &copy_of));
         Ok(range)
     }
 

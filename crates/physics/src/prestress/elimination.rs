@@ -1,7 +1,7 @@
 //! Unknowns of bodies that are held, tied and in contact.
 
 use super::PrestressError;
-use crate::contact::{Row, scaled, summed};
+use crate::contact::{Point, Row, scaled, summed};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::FrictionWeights;
 use std::borrow::Cow;
@@ -27,12 +27,19 @@ pub struct Elimination {
 }
 
 /// Friction of rigid contact: the normal force acts along the slip too.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RigidFriction {
     /// Displacement whose work is the normal force, over all dofs.
     pub lift: Row,
     /// `drag` times the row of the slip, over all dofs.
     pub slip: Row,
+}
+
+impl RigidFriction {
+    /// That of a contact point.
+    pub(super) fn of(point: &Point) -> Self {
+        Self { lift: point.lift.clone(), slip: scaled(&point.slip, point.friction.drag) }
+    }
 }
 
 impl Elimination {

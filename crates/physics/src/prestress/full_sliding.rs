@@ -46,21 +46,25 @@ impl<'a> FullSliding<'a> {
         let pressed = self.refined(&load, self.pressed_by(separations, &load));
         let normal_forces = self.normal_forces(&pressed, &load);
 
-        // Friction shears it.
-        let mut traction = vec![0.0; pressed.len()];
-        for (point, force) in self.points.iter().zip(&normal_forces) {
+        let sheared = self.sheared(self.points, &normal_forces);
+        PressedState {
+            displacements: vec![self.basis.displacement(&pressed), sheared],
+            is_pressed: vec![true; normal_forces.len()],
+            normal_forces: vec![normal_forces],
+            ..PressedState::default()
+        }
+    }
+
+    /// What the friction of normal forces on some points does for each unit of its coefficient, over all dofs.
+    pub fn sheared(&self, points: &[Point], normal_forces: &[f64]) -> Vec<f64> {
+        let mut traction = vec![0.0; self.unknowns.unknown_of.len()];
+        for (point, force) in points.iter().zip(normal_forces) {
             for &(dof, along) in &point.slip {
                 traction[dof] += point.friction.drag * along * force;
             }
         }
         let traction = self.basis.transposed_forces(&traction);
-        let sheared = self.refined(&traction, self.solve(&traction));
-        PressedState {
-            displacements: [&pressed, &sheared].map(|y| self.basis.displacement(y)).into(),
-            is_pressed: vec![true; normal_forces.len()],
-            normal_forces: vec![normal_forces],
-            ..PressedState::default()
-        }
+        self.basis.displacement(&self.refined(&traction, self.solve(&traction)))
     }
 
     /// Response to a load with the separations held.

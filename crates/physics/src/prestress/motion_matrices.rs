@@ -45,6 +45,12 @@ impl<P> MotionMatrices<P> {
         viscous.into_iter().chain(self.losses.iter_mut().map(|(_, own)| own))
     }
 
+    /// All of them, in the same order.
+    pub fn each(&self) -> impl Iterator<Item = &P> {
+        let viscous = [&self.stiffness, &self.damping, &self.mass];
+        viscous.into_iter().chain(self.losses.iter().map(|(_, own)| own))
+    }
+
     /// All of them with their factors in `T(lambda)`.
     pub fn terms(&self, lambda: c64) -> Vec<(c64, &P)> {
         let mut terms = vec![

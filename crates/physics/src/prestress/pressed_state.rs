@@ -103,6 +103,20 @@ impl PressedState {
     pub fn springs(&self, friction_coefficient: f64) -> Vec<f64> {
         evaluate(&self.stiffnesses, self.beyond(friction_coefficient))
     }
+
+    /// That of a body of `count` sectors alike, from this one of a sector; of each point of the body its copy in the sector.
+    pub(super) fn repeated(&self, count: usize, copy_of: &[usize]) -> Self {
+        let of_points = |powers: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            powers.iter().map(|own| copy_of.iter().map(|&i| own[i]).collect()).collect()
+        };
+        Self {
+            displacements: self.displacements.iter().map(|own| own.repeat(count)).collect(),
+            normal_forces: of_points(&self.normal_forces),
+            stiffnesses: of_points(&self.stiffnesses),
+            is_pressed: copy_of.iter().map(|&i| self.is_pressed[i]).collect(),
+            frozen_below: self.frozen_below,
+        }
+    }
 }
 
 /// Bodies that answer to their contact points.

@@ -167,7 +167,7 @@ fn press_on_springs(
         let nodes = (0..sector.node_count()).filter(|&node| force(node) != 0.0);
         let points: Vec<Point> = nodes.clone().map(|n| node_point(sector, n, contact)).collect();
         let forces: Vec<f64> = nodes.map(force).collect();
-        let sheared = sheared(sector, stiffness, points.iter().zip(&forces))?;
+        let sheared = around_the_axis(sector, stiffness)?.sheared(&points, &forces);
         let state = PressedState {
             displacements: vec![displacement, sheared],
             is_pressed: vec![true; points.len()],
@@ -187,20 +187,15 @@ fn press_on_springs(
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
 }
 
-/// What friction does for each unit of its coefficient: it shears the body alone, whatever presses it.
-fn sheared<'a>(
+/// The body that friction shears, whatever presses it.
+fn around_the_axis<'a>(
     sector: &SolidSector,
     stiffness: &Triplets,
-    pressed: impl Iterator<Item = (&'a Point, &'a f64)>,
-) -> Result<Vec<f64>, PrestressError> {
-    let (mut basis, dofs) = (without_contact(sector), sector.strip.dof_count());
-    (0..dofs).filter(|dof| dof % 3 != 1).for_each(|dof| basis.drop_unknown(dof));
-    let mut drag = vec![0.0; dofs];
-    for (point, force) in pressed {
-        drag[point.slip[0].0] = point.friction.drag * force;
-    }
-    let body = FullSliding::new(stiffness, basis, &[])?;
-    Ok(body.refined(&drag, body.solve(&drag)))
+) -> Result<FullSliding<'a>, PrestressError> {
+    let mut basis = without_contact(sector);
+    let others = (0..sector.strip.dof_count()).filter(|dof| dof % 3 != 1);
+    others.for_each(|dof| basis.drop_unknown(dof));
+    FullSliding::new(stiffness, basis, &[])
 }
 
 /// `int k n n^T dA` over the part of the face where approaches are positive, of a stiffness that follows them, N/m.

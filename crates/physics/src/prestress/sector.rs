@@ -49,13 +49,7 @@ impl SectorSliding {
 
     /// The state of the whole body of `count` sectors: the same in the polar frames of each.
     pub fn repeated(&self, count: usize) -> PressedState {
-        let repeat = |powers: &[Vec<f64>]| powers.iter().map(|own| own.repeat(count)).collect();
-        PressedState {
-            displacements: repeat(&self.state.displacements),
-            normal_forces: repeat(&self.state.normal_forces),
-            stiffnesses: repeat(&self.state.stiffnesses),
-            is_pressed: self.state.is_pressed.repeat(count),
-            frozen_below: 0.0,
-        }
+        let points: Vec<usize> = (0..self.points.len()).collect();
+        self.state.repeated(count, &points.repeat(count))
     }
 }

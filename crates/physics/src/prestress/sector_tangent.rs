@@ -1,16 +1,18 @@
 //! The small motions of a body of equal sectors around its steady sliding.
 
-use super::elimination::Elimination;
+use super::elimination::{Elimination, RigidFriction};
 use super::tangent::ContactPart;
 use super::terms::{Kind, Part, Terms};
 use super::wave_tangent::WaveContact;
 use super::{PrestressError, SectorSliding, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{
-    ContactInterface, Point, PressedState, SlidingContact, Turning, scaled, turned,
+    ContactInterface, Point, PressedState, Row, SlidingContact, Turning, scaled, turned,
 };
 use crate::fem::fold::WaveDofs;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping, Triplets};
+use crate::linalg::FrictionWeights;
 use crate::mesh::{SolidSector, Strip};
+use std::collections::BTreeSet;
 
 /// The matrices of one sector before they are those of waves.
 #[derive(Clone, Debug)]
@@ -43,39 +45,40 @@ impl WaveTangent {
 impl SectorTangent {
     /// That of waves around the body.
     pub fn waves(self) -> WaveTangent {
-        let Self { strip, terms, mut contact, options, sliding_direction } = self;
+        let Self { strip, terms, contact, options, sliding_direction } = self;
         // A node of the other body takes part in the motion of its pair, in the sectors beside as well.
-        let mut dofs = strip.wave_dofs();
-        dofs.half_bandwidth += 2 * contact.distances.len();
-        let total = dofs.unknown_of.len();
+        let half_bandwidth = strip.wave_dofs().half_bandwidth + 2 * contact.distances.len();
+        let total = strip.dof_count();
         let mut basis = Elimination::holding(3 * total, []);
+        let mut friction = Vec::new();
         for sector in 0..3 {
+            let there = |row: &Row| -> Row {
+                row.iter().map(|&(dof, along)| (dof + sector * total, along)).collect()
+            };
             for row in &contact.distances {
-                let own = row.iter().map(|&(dof, along)| (dof + sector * total, along));
-                basis.take(&own.collect());
+                basis.take(&there(row));
             }
+            let own = contact.rigid.iter();
+            friction.extend(own.map(|RigidFriction { lift, slip }| RigidFriction {
+                lift: there(lift),
+                slip: there(slip),
+            }));
         }
-        let place = |dof: usize| dofs.unknown_of[dof];
-        let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
-        let moving = strip.free_dofs().filter(|&dof| !is_still(dof));
+        let (all, weights) = (basis.unknowns(), FrictionWeights::frozen_below(0.0));
+        let terms = terms.map(|power, own| {
+            let powers = basis.project((power, &own), &all, (&friction, weights));
+            powers.iter().map(|own| strip.folded(own)).collect()
+        });
+        // In rigid contact normals stand still.
+        let still: BTreeSet<usize> = contact.rigid.iter().map(|own| own.lift[0].0).collect();
+        let moving = strip.free_dofs().filter(|dof| !still.contains(dof));
         let unknowns = DofMap::of(total, moving.collect());
-        // Constraints by the places of free dofs.
-        contact.rigid = contact
-            .rigid
-            .iter()
-            .filter_map(|(normal, drags)| {
-                let drags = drags.iter().filter_map(|&(dof, factor)| Some((place(dof)?, factor)));
-                Some((place(*normal)?, drags.collect()))
-            })
-            .collect();
         WaveTangent {
-            moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
+            dofs: WaveDofs::new(unknowns, half_bandwidth, strip.count),
             options,
-            unknowns,
             components: strip.mesh.dimension,
             halves: strip.halves.clone(),
-            terms: terms.map(|_, own| strip.folded(&basis.congruent(&own))),
-            dofs,
+            terms,
             contact,
             sliding_direction,
         }
@@ -200,10 +203,7 @@ impl Touching {
     fn dofs(self, components: usize, options: &TangentOptions) -> WaveContact {
         let SectorSliding { points, .. } = &self.base;
         let is_rigid = options.contact.normal_stiffness.is_none() && options.contact.law.is_none();
-        let rigid = points.iter().filter(|_| is_rigid).map(|point| {
-            let (normal, along) = point.normal[0];
-            (normal, scaled(&point.slip, along * point.friction.drag))
-        });
+        let rigid = points.iter().filter(|_| is_rigid).map(RigidFriction::of);
         let distances = points.iter().map(|point| &point.normal).filter(|row| row.len() > 1);
         let nodes = points.iter().flat_map(|point| &point.normal).map(|own| own.0 / components);
         let dofs = |nodes: &Vec<usize>| {

@@ -65,25 +65,15 @@ impl SolidSliding {
     /// Pressure along the contact by the places of the rings, for the elements of the face: through the two rings at the ends of an
     /// element, and the one at its middle where there is one.
     pub fn pressure_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
-        match self.law {
-            Some(law) if self.rule == FaceRule::Integrated => {
-                law.pressure(self.approach_along(sector, element, along))
-            }
-            _ => self.pressures_over(sector).along(element, along).max(0.0),
-        }
+        let own = self.over(sector).along(element, along).max(0.0);
+        self.law.map_or(own, |law| law.pressure(own))
     }
 
-    /// `delta - u_n` along an element of the face where it is pressed, m; else zero.
-    fn approach_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
-        self.approaches_over(sector).along(element, along).max(0.0)
-    }
-
-    /// The parts of an element of the face that are pressed, see [`face_points`]. Of quadratic elements in rigid contact it is all.
-    fn pressed_spans(&self, sector: &SolidSector, element: &FaceElement) -> Vec<[f64; 2]> {
+    /// What says where the face is pressed, and how much: `delta - u_n` of springs, m, else the pressure, Pa.
+    fn over<'a>(&'a self, sector: &'a SolidSector) -> OverRings<'a> {
         match self.law {
-            None if self.rule == FaceRule::Integrated => vec![WHOLE_ELEMENT],
-            None => self.pressures_over(sector).pressed_spans(element),
-            Some(_) => self.approaches_over(sector).pressed_spans(element),
+            Some(_) => OverRings::approaches(sector, &self.approaches, (&self.contact, self.rule)),
+            None => OverRings { sector, values: &self.pressures, held: 0.0, rule: self.rule },
         }
     }
 
@@ -92,9 +82,15 @@ impl SolidSliding {
         let face = sector.specification.contact.face();
         let mut state = PressedState::default();
         let (mut points, mut forces, mut springs) = (Vec::new(), Vec::new(), Vec::new());
+        let over = self.over(sector);
         for element in sector.contact_elements() {
-            let spans = self.pressed_spans(sector, &element).into_iter();
-            let own = spans.flat_map(|span| face_points(sector, &element, span, self.rule));
+            // Of quadratic elements in rigid contact it is all.
+            let spans = match self.law {
+                None if self.rule == FaceRule::Integrated => vec![WHOLE_ELEMENT],
+                _ => over.pressed_spans(&element),
+            };
+            let own =
+                spans.into_iter().flat_map(|span| face_points(sector, &element, span, self.rule));
             for FacePoint { area, radius, along, rows } in own {
                 let (speed, friction) = self.friction(radius);
                 let pressure = self.pressure_along(sector, &element, along);
@@ -109,21 +105,13 @@ impl SolidSliding {
                 });
                 state.is_pressed.push(pressure > 0.0);
                 forces.push(area * pressure);
-                let approach = || self.approach_along(sector, &element, along);
-                springs.extend(self.law.map(|law| area * law.stiffness(approach())));
+                let approach = over.along(&element, along).max(0.0);
+                springs.extend(self.law.map(|law| area * law.stiffness(approach)));
             }
         }
         state.normal_forces = vec![forces];
         state.stiffnesses = self.law.map(|_| springs).into_iter().collect();
         (points, state)
-    }
-
-    fn pressures_over<'a>(&'a self, sector: &'a SolidSector) -> OverRings<'a> {
-        OverRings { sector, values: &self.pressures, held: 0.0, rule: self.rule }
-    }
-
-    fn approaches_over<'a>(&'a self, sector: &'a SolidSector) -> OverRings<'a> {
-        OverRings::approaches(sector, &self.approaches, (&self.contact, self.rule))
     }
 }
 
@@ -261,8 +249,10 @@ impl<'a> OverRings<'a> {
 /// A node of the face, of any sector, as a contact point.
 pub(crate) fn node_point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
     let face = sector.specification.contact.face();
+    let normal = vec![(3 * node + face.normal_component(), face.inward_sign())];
     Point {
-        normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
+        lift: normal.clone(),
+        normal,
         slip: vec![(3 * node + 1, 1.0)],
         across: vec![(3 * node + face.across_component(), 1.0)],
         friction: friction(contact, sector.nodes[node % sector.node_count()].radius),

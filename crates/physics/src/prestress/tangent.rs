@@ -3,9 +3,7 @@
 use super::elimination::{Elimination, RigidFriction};
 use super::terms::{Kind, Term, Terms, of_kind};
 use super::{LossGain, PrestressError, TabledGain, TangentOptions};
-use crate::contact::{
-    ContactStiffness, Point, PressedState, Row, Turning, linearized, scaled, turned,
-};
+use crate::contact::{ContactStiffness, Point, PressedState, Row, Turning, linearized, turned};
 use crate::fem::{DofMap, RayleighDamping, Triplets};
 use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
 use std::sync::Arc;
@@ -245,8 +243,7 @@ fn hold_rigid(
             let pivot = basis.require(&point.normal, "contact")?;
             if is_rigid && is_pressed {
                 basis.drop_unknown(pivot);
-                let slip = scaled(&point.slip, point.friction.drag);
-                friction.push(RigidFriction { lift: point.lift.clone(), slip });
+                friction.push(RigidFriction::of(point));
             }
         }
     }

@@ -263,26 +263,17 @@ impl<M: Default + PartialEq> Terms<M> {
         self.all.extend(terms.filter(|term| term.matrix != M::default()));
     }
 
-    /// Adds mass and stiffness of the next region; regions come before all other bodies.
-    pub fn add_region(&mut self, law: PartLaw, [mass, stiffness]: [M; 2]) {
-        let part = Part::Body(self.bodies.len());
-        self.add(part, Kind::Mass, [mass]);
-        self.add(part, Kind::Stiffness, [stiffness]);
-        self.bodies.push(law);
-    }
-
-    /// Adds what is no region.
-    pub fn add_other<const N: usize>(&mut self, name: String, law: PartLaw, own: [(Kind, M); N]) {
+    /// Adds the next body. Regions have no name here, and come before all others.
+    pub fn add_body<const N: usize>(
+        &mut self,
+        name: Option<String>,
+        law: PartLaw,
+        own: [(Kind, M); N],
+    ) {
         let part = Part::Body(self.bodies.len());
         own.into_iter().for_each(|(kind, matrix)| self.add(part, kind, [matrix]));
         self.bodies.push(law);
-        self.others.push(name);
-    }
-
-    /// Adds springs and dashpots of a support with the loss factor of the former.
-    pub fn add_support(&mut self, name: String, [springs, dashpots]: [M; 2], loss_factor: f64) {
-        let law = PartLaw { loss_factor, ..PartLaw::default() };
-        self.add_other(name, law, [(Kind::Stiffness, springs), (Kind::Dashpots, dashpots)]);
+        self.others.extend(name);
     }
 
     /// The next contact; what acts along its normal is damped with the whole tangent.
@@ -338,12 +329,15 @@ impl Terms<Triplets> {
     ) -> Self {
         let mut own = Self::new(options);
         for (region, stiffness) in elastic.into_iter().enumerate() {
-            let mass = region_mass(mesh, material, options.mass, region);
-            own.add_region(PartLaw::of(material, region, options.damping), [mass, stiffness]);
+            let mass = (Kind::Mass, region_mass(mesh, material, options.mass, region));
+            let law = PartLaw::of(material, region, options.damping);
+            own.add_body(None, law, [mass, (Kind::Stiffness, stiffness)]);
         }
         for boundary in mesh.boundaries.iter().filter(|_| !is_free) {
-            if let Some((terms, loss_factor)) = assemble_support(mesh, boundary) {
-                own.add_support(boundary.name.clone(), terms, loss_factor);
+            if let Some(([springs, dashpots], loss_factor)) = assemble_support(mesh, boundary) {
+                let law = PartLaw { loss_factor, ..PartLaw::default() };
+                let terms = [(Kind::Stiffness, springs), (Kind::Dashpots, dashpots)];
+                own.add_body(Some(boundary.name.clone()), law, terms);
             }
         }
         if mesh.attachments.is_empty() && mesh.patches.is_empty() {
@@ -358,7 +352,8 @@ impl Terms<Triplets> {
         dashpots.entries.extend(assemble_patch_damping(mesh, material, options.mass).entries);
         let masses = (Kind::Mass, assemble_point_masses(mesh));
         let springs = (Kind::Stiffness, springs);
-        own.add_other("modifications".into(), law, [masses, springs, (Kind::Dashpots, dashpots)]);
+        let terms = [masses, springs, (Kind::Dashpots, dashpots)];
+        own.add_body(Some("modifications".into()), law, terms);
         own
     }
 }

@@ -1,6 +1,6 @@
 //! The matrices of one harmonic, by power of the friction coefficient and at one of its values.
 
-use super::LossGain;
+use super::{LossGain, MotionMatrices};
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedMatrix, multiply_band};
 use crate::linalg::c64;
@@ -48,13 +48,11 @@ pub struct HarmonicTangent {
     pub friction_dashpots: Option<FrictionPolynomial>,
     /// Stiffness of loss factors and of tables over frequency, which `K_n` has beside it with these factors, N/m.
     pub losses: Vec<(LossGain, FrictionPolynomial)>,
-    /// Forms of the mass whose values over that of the mass itself are the shares of kinetic energy of the contact's nodes and of
-    /// axial motion; where unknowns are no displacements.
-    pub shares: Option<[BandedMatrix; 2]>,
+    /// Forms whose values over that of the mass are the shares of kinetic energy of the contact's nodes, of both bodies, and of axial
+    /// motion.
+    pub shares: [BandedMatrix; 2],
     /// Rayleigh coefficients.
     pub rayleigh: RayleighDamping,
-    /// Unknowns that belong to the contact, of both bodies.
-    pub contact: Vec<usize>,
 }
 
 /// [`HarmonicTangent`] at one friction coefficient, as bands laid out like [`BandedMatrix::values`].
@@ -62,14 +60,8 @@ pub struct HarmonicTangent {
 pub struct MovingHarmonic {
     /// Off-diagonals on either side.
     pub half_bandwidth: usize,
-    /// `M`, kg.
-    pub mass: Vec<c64>,
-    /// `C`, N s/m.
-    pub damping: Vec<c64>,
-    /// `K`, N/m, without what [`Self::stiffness_at`] adds.
-    pub stiffness: Vec<c64>,
-    /// See [`HarmonicTangent::losses`].
-    pub losses: Vec<(LossGain, Vec<c64>)>,
+    /// `M`, `C`, `K`, and what [`Self::stiffness_at`] adds, kg, N s/m, N/m.
+    pub matrices: MotionMatrices<Vec<c64>>,
 }
 
 impl HarmonicTangent {
@@ -90,20 +82,21 @@ impl HarmonicTangent {
         }
         let half_bandwidth = self.mass[0].half_bandwidth();
         let losses = self.losses.iter().map(|(gain, own)| (gain.clone(), evaluate(own, z)));
-        MovingHarmonic { half_bandwidth, mass, damping, stiffness, losses: losses.collect() }
+        let matrices = MotionMatrices { stiffness, damping, mass, losses: losses.collect() };
+        MovingHarmonic { half_bandwidth, matrices }
     }
 }
 
 impl MovingHarmonic {
     /// Number of unknowns.
     pub fn dimension(&self) -> usize {
-        self.mass.len() / (2 * self.half_bandwidth + 1)
+        self.matrices.mass.len() / (2 * self.half_bandwidth + 1)
     }
 
     /// `K` that an eigenvalue sees, losses and tables included.
     pub fn stiffness_at(&self, lambda: c64) -> Cow<'_, [c64]> {
-        let mut sum = Cow::Borrowed(&self.stiffness[..]);
-        for (gain, own) in &self.losses {
+        let mut sum = Cow::Borrowed(&self.matrices.stiffness[..]);
+        for (gain, own) in &self.matrices.losses {
             let factor = gain.at(lambda);
             sum.to_mut().iter_mut().zip(own).for_each(|(sum, value)| *sum += factor * value);
         }
@@ -112,15 +105,16 @@ impl MovingHarmonic {
 
     /// `(lambda^2 M + lambda C + K) x`, or the adjoint's product.
     pub fn apply(&self, lambda: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
-        let stiffness = self.stiffness_at(lambda);
-        let one = (c64::new(1.0, 0.0), &stiffness[..]);
-        self.combine([(lambda * lambda, &self.mass), (lambda, &self.damping), one], x, adjoint)
+        let (stiffness, MotionMatrices { mass, damping, .. }) =
+            (self.stiffness_at(lambda), &self.matrices);
+        let terms = [(lambda * lambda, &mass[..]), (lambda, damping), (c64::ONE, &stiffness)];
+        self.combine(terms, x, adjoint)
     }
 
     /// `(2 lambda M + C) x`, or the adjoint's product.
     pub fn apply_slope(&self, lambda: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
-        let one = c64::new(1.0, 0.0);
-        self.combine([(lambda + lambda, &self.mass[..]), (one, &self.damping)], x, adjoint)
+        let MotionMatrices { mass, damping, .. } = &self.matrices;
+        self.combine([(lambda + lambda, &mass[..]), (c64::ONE, damping)], x, adjoint)
     }
 
     /// `sum factor A x` of matrices laid out like these, or the adjoint's product.

@@ -1,10 +1,10 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
 use super::terms::{Kind, Part, Term, Terms, of_kind};
-use super::{FrictionPolynomial, HarmonicTangent, TabledGain, TangentOptions};
+use super::{FrictionPolynomial, HarmonicTangent, RigidFriction, TabledGain, TangentOptions};
 use crate::contact::Row;
+use crate::fem::ModulusTable;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, ModulusTable};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
 
@@ -40,16 +40,12 @@ pub struct WaveTangent {
     pub sliding_direction: f64,
     /// Choices of the linearisation.
     pub options: TangentOptions,
-    /// The matrices of one sector.
-    pub terms: Terms<SectorMatrix>,
+    /// The matrices of one sector, by power of the friction coefficient.
+    pub terms: Terms<Vec<SectorMatrix>>,
     /// The contact of one sector.
     pub contact: WaveContact,
-    /// Dofs that nothing holds.
+    /// Dofs that move, the unknowns of a harmonic: all that nothing holds but the normals in rigid contact.
     pub dofs: WaveDofs,
-    /// Those of them that move, the unknowns of a harmonic: all but the normals in rigid contact.
-    pub unknowns: DofMap,
-    /// Their places among the former.
-    pub(super) moving: Vec<usize>,
 }
 
 /// The contact of one sector, by its dofs.
@@ -65,8 +61,8 @@ pub struct WaveContact {
     pub pressed_nodes: Vec<usize>,
     /// Rows of the distances of two bodies, unknowns in place of the normal dofs of the first.
     pub distances: Vec<Row>,
-    /// In rigid contact: each normal dof, and the tangential ones whose equations it drives, with factors of `i mu`.
-    pub rigid: Vec<(usize, Row)>,
+    /// Friction of rigid contact.
+    pub rigid: Vec<RigidFriction>,
 }
 
 impl WaveTangent {
@@ -83,16 +79,14 @@ impl WaveTangent {
     /// Dofs of a sector at which a force can act and a displacement be observed: a distance between two bodies is no such place.
     pub fn places(&self) -> WaveDofs {
         let mut dofs = self.dofs.clone();
-        dofs.unknown_of.clone_from(&self.unknowns.unknown_of);
-        dofs.count = self.unknowns.len();
         self.contact.distances.iter().for_each(|row| dofs.unknown_of[row[0].0] = None);
         dofs
     }
 
     /// Displacement of each dof of a sector from the unknowns of a wave.
     pub fn displacement(&self, x: &[c64]) -> Vec<c64> {
-        let mut all = vec![c64::ZERO; self.unknowns.unknown_of.len()];
-        self.unknowns.dofs.iter().zip(x).for_each(|(&dof, value)| all[dof] = *value);
+        let unknowns = self.dofs.unknown_of.iter();
+        let mut all: Vec<c64> = unknowns.map(|own| own.map_or(c64::ZERO, |k| x[k])).collect();
         for row in &self.contact.distances {
             let apart: c64 = row[1..].iter().map(|&(dof, along)| all[dof] * along).sum();
             all[row[0].0] -= apart;
@@ -110,7 +104,7 @@ impl WaveTangent {
     /// Unknown of the tangential displacement of each contact node.
     pub fn tangential_unknowns(&self) -> Vec<usize> {
         let dofs = self.contact.places.iter().map(|dofs| dofs[1]);
-        dofs.filter_map(|dof| self.unknowns.unknown_of[dof]).collect()
+        dofs.filter_map(|dof| self.dofs.unknown_of[dof]).collect()
     }
 
     /// Unknowns along and across the sliding and along the normal of pressed nodes.
@@ -119,17 +113,12 @@ impl WaveTangent {
             let components = self.tangential_components().chain([self.contact.normal]);
             components.map(move |c| self.components * node + c)
         });
-        own.filter_map(|dof| self.unknowns.unknown_of[dof]).collect()
-    }
-
-    /// Unknowns of motion along the axis; none in the plane.
-    pub fn axial_unknowns(&self) -> Vec<usize> {
-        self.ascending((0..self.unknowns.unknown_of.len()).filter(|dof| dof % self.components == 2))
+        own.filter_map(|dof| self.dofs.unknown_of[dof]).collect()
     }
 
     /// Unknowns of each contact node, or ring of them, of one sector.
     pub fn contact_unknowns(&self) -> Vec<Vec<usize>> {
-        let place = |dof: &usize| self.unknowns.unknown_of[*dof];
+        let place = |dof: &usize| self.dofs.unknown_of[*dof];
         let contact = self.contact.places.iter();
         contact.map(|dofs| dofs.iter().filter_map(place).collect()).collect()
     }
@@ -138,9 +127,8 @@ impl WaveTangent {
     pub fn body_terms(&self, n: usize) -> Vec<Term<CompactRows>> {
         let bodies = self.terms.all.iter().filter(|own| matches!(own.part, Part::Body(_)));
         let folded = bodies.map(|term| {
-            let is_it = |own: &Term<_>| f64::from(u8::from(std::ptr::eq(own, term)));
-            let matrix = self.restricted(self.sum(n, term.parity(), &is_it));
-            term.with(CompactRows::new(&matrix))
+            let own = self.dofs.fold(n, mirrored(term.power).0, &[&term.matrix[term.power]]);
+            term.with(CompactRows::new(&own))
         });
         folded.collect()
     }
@@ -151,21 +139,10 @@ impl WaveTangent {
     }
 
     fn ascending(&self, dofs: impl Iterator<Item = usize>) -> Vec<usize> {
-        let mut unknowns: Vec<usize> =
-            dofs.filter_map(|dof| self.unknowns.unknown_of[dof]).collect();
+        let mut unknowns: Vec<usize> = dofs.filter_map(|dof| self.dofs.unknown_of[dof]).collect();
         unknowns.sort_unstable();
         unknowns.dedup();
         unknowns
-    }
-
-    /// Whether `C = alpha_R M + beta_R K_t` exactly.
-    pub fn is_proportional(&self) -> bool {
-        self.terms.is_proportional(&self.options)
-    }
-
-    /// Whether the stiffness has losses, or depends on frequency.
-    pub fn is_lossy(&self) -> bool {
-        self.terms.is_lossy()
     }
 
     /// Moduli over frequency of regions.
@@ -191,116 +168,88 @@ impl WaveTangent {
         };
         let mut kinds = self.terms.all.iter().map(|term| term.kind);
         let has_dashpots = kinds.any(|kind| kind == Kind::FrictionDashpots);
+        let is_proportional = self.terms.is_proportional(&self.options);
+        // Rows of the mass.
+        let (mass, all) = (of_kind(Kind::Mass), 0..self.dofs.unknown_of.len());
+        let share = |unknowns: Vec<usize>| {
+            let mut own = self.dofs.zeros();
+            for row in unknowns {
+                let columns = mass[0].columns(row);
+                columns.for_each(|column| own.add(row, column, mass[0].get(row, column)));
+            }
+            own
+        };
+        let contact = self.ascending(self.contact.places.iter().flatten().copied());
+        let axial = self.ascending(all.filter(|dof| dof % self.components == 2));
         HarmonicTangent {
             harmonic: n,
             is_standing: self.is_standing(n),
-            mass: of_kind(Kind::Mass),
+            shares: [contact, axial].map(share),
+            mass,
             stiffness: self.polynomial(n, |term| self.terms.factors(term)[0]),
-            damping: (!self.is_proportional()).then(|| self.polynomial(n, damping)),
+            damping: (!is_proportional).then(|| self.polynomial(n, damping)),
             friction_dashpots: has_dashpots.then(|| of_kind(Kind::FrictionDashpots)),
             losses: self.terms.losses(|factor| self.polynomial(n, factor)),
-            shares: None,
             rayleigh: self.options.damping,
-            contact: self.ascending(self.contact.places.iter().flatten().copied()),
         }
     }
 
     /// `M_n` and `K_n` without friction, real and symmetric.
     pub fn at_rest(&self, n: usize) -> [BandedMatrix; 2] {
-        self.all_at_rest(n).map(|matrix| self.restricted(matrix))
+        self.of_power(n, 0)
     }
 
-    /// The columns of `M_n` and `K_n` without friction that belong to the normals in rigid contact, over the unknowns.
-    pub fn normal_columns(&self, n: usize) -> [Vec<Vec<f64>>; 2] {
-        self.all_at_rest(n).map(|matrix| {
-            let column = |(normal, _): &(usize, _)| {
-                self.moving.iter().map(|&k| matrix.get(k, *normal)).collect()
-            };
-            self.contact.rigid.iter().map(column).collect()
+    /// The rows of `M_n` and `K_n` without friction that belong to the normals in rigid contact, each times a factor.
+    pub fn normal_rows(&self, n: usize) -> [Vec<Vec<f64>>; 2] {
+        let unknown = |own: &(usize, f64)| self.dofs.unknown_of[own.0];
+        let slips = self.contact.rigid.iter().filter_map(|own| own.slip.iter().find_map(unknown));
+        self.of_power(n, 1).map(|matrix| {
+            let row = |slip: usize| (0..self.dofs.count).map(|k| matrix.get(slip, k)).collect();
+            slips.clone().map(row).collect()
         })
     }
 
-    /// `M_n` and `K_n` without friction, the normals in rigid contact included.
-    fn all_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
-        let sum =
-            |factor: &dyn Fn(&Term<SectorMatrix>) -> f64| self.sum(n, MirrorParity::Even, factor);
+    /// What comes with a power of friction of the mass and the stiffness that there are without it.
+    fn of_power(&self, n: usize, power: usize) -> [BandedMatrix; 2] {
+        let sum = |factor: &dyn Fn(&Term<Vec<SectorMatrix>>) -> f64| {
+            let mut sum = self.dofs.zeros();
+            for own in self.terms.all.iter().filter(|own| own.power == 0) {
+                if let Some(matrix) = own.matrix.get(power) {
+                    self.dofs.add(&mut sum, n, mirrored(power).0, (factor(own), matrix));
+                }
+            }
+            sum
+        };
         [sum(&of_kind(Kind::Mass)), sum(&|term| self.terms.factors(term)[0])]
     }
 
-    /// Harmonic `n` of the terms of a parity, each times its factor.
-    fn sum(
-        &self,
-        n: usize,
-        parity: MirrorParity,
-        factor: &dyn Fn(&Term<SectorMatrix>) -> f64,
-    ) -> BandedMatrix {
-        let mut sum = self.dofs.zeros();
-        for own in self.terms.all.iter().filter(|own| own.parity() == parity) {
-            let factor = factor(own);
-            if factor != 0.0 {
-                self.dofs.add(&mut sum, n, parity, (factor, &own.matrix));
-            }
-        }
-        sum
-    }
-
-    /// Over the unknowns alone.
-    fn restricted(&self, matrix: BandedMatrix) -> BandedMatrix {
-        if self.contact.rigid.is_empty() { matrix } else { matrix.restricted_to(&self.moving) }
-    }
-
-    /// Harmonic `n` of the terms, each times its factor, over the unknowns; the odd part, `i` times this, is the coefficient of `i mu`.
+    /// Harmonic `n` of the terms, each times its factor; the matrix of an odd power, `i` times this, is the coefficient of that of
+    /// `i mu`. The dashpots of friction have one power less here.
     fn polynomial(
         &self,
         n: usize,
-        factor: impl Fn(&Term<SectorMatrix>) -> f64,
+        factor: impl Fn(&Term<Vec<SectorMatrix>>) -> f64,
     ) -> FrictionPolynomial {
-        let mut odd = self.terms.all.iter().filter(|own| own.parity() == MirrorParity::Odd);
-        let is_odd = odd.any(|own| factor(own) != 0.0);
-        let parities =
-            [MirrorParity::Even, MirrorParity::Odd].into_iter().take(1 + usize::from(is_odd));
-        self.project(parities.map(|parity| self.sum(n, parity, &factor)).collect())
-    }
-
-    /// Onto the unknowns; for rigid contact each normal row is added to its tangential rows with the
-    /// factor `-s mu`, which is `s (i mu)` once the tangential row is multiplied by `-i`.
-    fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
-        trim(&mut full);
-        if !self.contact.rigid.is_empty() {
-            full.push(self.dofs.zeros());
-        }
-        for power in (1..full.len()).rev() {
-            let (lower, upper) = full.split_at_mut(power);
-            for (normal, drags) in &self.contact.rigid {
-                for column in lower[power - 1].columns(*normal) {
-                    let value = lower[power - 1].get(*normal, column);
-                    if value != 0.0 {
-                        for (tangential, factor) in drags {
-                            upper[0].add(*tangential, column, factor * value);
-                        }
-                    }
+        let mut sums = vec![self.dofs.zeros()];
+        for own in &self.terms.all {
+            let (factor, less) = (factor(own), usize::from(own.kind == Kind::FrictionDashpots));
+            for (power, matrix) in own.matrix.iter().skip(less).enumerate() {
+                let (parity, sign) = mirrored(power);
+                if factor != 0.0 && *matrix != SectorMatrix::default() {
+                    sums.resize_with(sums.len().max(power + 1), || self.dofs.zeros());
+                    self.dofs.add(&mut sums[power], n, parity, (sign * factor, matrix));
                 }
             }
         }
-        let mut full: Vec<_> = full.into_iter().map(|matrix| self.restricted(matrix)).collect();
-        trim(&mut full);
-        full
-    }
-}
-
-impl Term<SectorMatrix> {
-    /// What a mirror does to it.
-    fn parity(&self) -> MirrorParity {
-        match (self.power, self.kind) {
-            (0, _) | (_, Kind::FrictionDashpots) => MirrorParity::Even,
-            _ => MirrorParity::Odd,
+        while sums.len() > 1 && sums.last().is_some_and(BandedMatrix::is_zero) {
+            sums.pop();
         }
+        sums
     }
 }
 
-/// Drops powers of friction that vanish from behind the others.
-fn trim(powers: &mut Vec<BandedMatrix>) {
-    while powers.len() > 1 && powers.last().is_some_and(BandedMatrix::is_zero) {
-        powers.pop();
-    }
+/// What a mirror does to what comes with `mu^p`, and its sign with `(i mu)^p`: `mu^p A = +-(i mu)^p R` of a real `R`, `A = R` or `i R`.
+fn mirrored(power: usize) -> (MirrorParity, f64) {
+    let parity = [MirrorParity::Even, MirrorParity::Odd][power % 2];
+    (parity, [1.0, 1.0, -1.0, -1.0][power % 4])
 }

@@ -48,16 +48,15 @@ pub(super) fn verify(
         checks.iter().all(|&mu| missed(problem, paths, limit, region, mu) == Some(0))
     };
     let verdicts: Vec<(usize, bool, bool)> = crate::parallel::map(others, |n| {
-        let harmonic = tangent.harmonic(n);
-        let is_proven = tangent.is_proportional()
-            && definite::is_empty(&harmonic, &tangential, friction, region);
-        let problem = HarmonicProblem::new(harmonic);
+        let problem = HarmonicProblem::new(tangent.harmonic(n), true);
+        let is_proven = problem.is_proportional()
+            && definite::is_empty(&problem.tangent, &tangential, friction, region);
         (n, is_proven, is_proven || is_complete(&problem, None))
     });
     let gaps: Vec<Option<usize>> = crate::parallel::map(followed, |paths| {
         // A small space has not the determinant of the harmonic.
         let n = paths.problem.tangent.harmonic;
-        let whole = paths.space.as_ref().map(|_| HarmonicProblem::new(tangent.harmonic(n)));
+        let whole = paths.space.as_ref().map(|_| HarmonicProblem::new(tangent.harmonic(n), true));
         let problem = whole.as_ref().unwrap_or(&paths.problem);
         (!is_complete(problem, Some(paths))).then_some(n)
     });

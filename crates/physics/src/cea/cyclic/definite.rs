@@ -207,7 +207,6 @@ mod tests {
         }
         friction.add(0, 1, coupling);
         HarmonicTangent {
-            contact: vec![0],
             harmonic: 1,
             is_standing: false,
             mass: vec![mass],
@@ -215,7 +214,7 @@ mod tests {
             damping: None,
             friction_dashpots: None,
             losses: Vec::new(),
-            shares: None,
+            shares: [0, 1].map(|_| BandedMatrix::zeros(3, 2)),
             rayleigh: RayleighDamping::default(),
         }
     }

@@ -111,15 +111,13 @@ impl Found {
             is_verified,
         };
         let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
-        let (dofs, overdamped) = match tangent.components {
-            2 => (tangent.unknowns.len(), Vec::new()),
-            _ => (tangent.dofs.count, grid.iter().map(|mu| overdamped(&followed, *mu)).collect()),
-        };
+        let damped = grid.iter().filter(|_| tangent.components == 3);
+        let overdamped = damped.map(|mu| overdamped(&followed, *mu)).collect();
         WaveSweep {
             sweep,
             branches,
             coverage,
-            dofs: dofs * tangent.dofs.sectors,
+            dofs: tangent.dofs.count * tangent.dofs.sectors,
             reduction_error: followed.iter().map(|paths| paths.reduction_error).fold(0.0, f64::max),
             overdamped,
             tangent,

@@ -140,7 +140,7 @@ fn follow_all(
                     return Ok(paths);
                 }
                 // In three dimensions smaller steps since the last value mostly do, where small ones all along cost many times more.
-                if problem.is_solid() && control != StepControl::FINE {
+                if !problem.is_direct && control != StepControl::FINE {
                     let points = &mut paths[index].points;
                     points.truncate(reached[index]);
                     if follower.walk(points, friction, StepControl::FINE, &mut matrices) {
@@ -182,8 +182,7 @@ pub(super) fn describe(
 ) {
     let (earlier, last) = points.split_at_mut(points.len() - 1);
     for point in last {
-        point.contact_share = problem.contact_share(&point.x);
-        point.axial_share = problem.axial_share(&point.x);
+        [point.contact_share, point.axial_share] = problem.shares(&point.x);
         point.uncertainty = problem.uncertainty(at, point);
     }
     for point in earlier.iter_mut().rev().take_while(|point| !point.x.is_empty()) {

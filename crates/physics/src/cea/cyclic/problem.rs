@@ -7,7 +7,9 @@ use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::vectors::{ZERO, add, dot, largest};
 use crate::linalg::{Mat, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
+use crate::prestress::{
+    FrictionPolynomial, HarmonicTangent, MotionMatrices, MovingHarmonic, evaluate,
+};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
@@ -18,6 +20,8 @@ pub(super) const I: c64 = c64::new(0.0, 1.0);
 /// has `sum_p g_p(lambda) K_p` beside it: `i eta K_p` for the wave `+n`, the conjugate for `-n`.
 pub(super) struct HarmonicProblem {
     pub tangent: HarmonicTangent,
+    /// Whether it is followed as it stands: in the plane without losses.
+    pub is_direct: bool,
     pub dimension: usize,
     pub half_bandwidth: usize,
 }
@@ -26,9 +30,8 @@ pub(super) struct HarmonicProblem {
 #[derive(Clone)]
 pub(super) struct Matrices {
     pub now: MovingHarmonic,
-    /// Of `M`, `C`, `K`, and of each loss.
-    rates: [Option<Vec<c64>>; 3],
-    loss_rates: Vec<Option<Vec<c64>>>,
+    /// `None` of what does not change.
+    rates: MotionMatrices<Option<Vec<c64>>>,
     /// Largest row sums of `M`, `C`, `K`.
     norms: [f64; 3],
 }
@@ -36,15 +39,18 @@ pub(super) struct Matrices {
 impl Matrices {
     /// The same with the stiffness of one place, whatever the eigenvalue.
     pub fn frozen(&self, theta: c64) -> Self {
-        let stiffness = self.now.stiffness_at(theta).into_owned();
-        let now = MovingHarmonic { stiffness, losses: Vec::new(), ..self.now.clone() };
-        Self { now, loss_rates: Vec::new(), ..self.clone() }
+        let mut frozen = self.clone();
+        frozen.now.matrices.stiffness = self.now.stiffness_at(theta).into_owned();
+        frozen.now.matrices.losses.clear();
+        frozen.rates.losses.clear();
+        frozen
     }
 }
 
 impl HarmonicProblem {
-    pub fn new(tangent: HarmonicTangent) -> Self {
+    pub fn new(tangent: HarmonicTangent, is_direct: bool) -> Self {
         Self {
+            is_direct,
             dimension: tangent.mass[0].dimension(),
             half_bandwidth: tangent.mass[0].half_bandwidth(),
             tangent,
@@ -62,34 +68,34 @@ impl HarmonicProblem {
         let mut damping_rate = own.damping.as_ref().and_then(|c| rate(c, z));
         if let Some(dashpots) = &own.friction_dashpots {
             // Of `mu P`: `P + mu P'`.
-            let sum = damping_rate.get_or_insert_with(|| vec![ZERO; now.damping.len()]);
+            let sum = damping_rate.get_or_insert_with(|| vec![ZERO; now.matrices.damping.len()]);
             add(sum, &evaluate(dashpots, z));
             for (sum, slope) in sum.iter_mut().zip(rate(dashpots, z).iter().flatten()) {
                 *sum += slope * mu;
             }
         }
-        Matrices {
-            rates: [rate(&own.mass, z), damping_rate, rate(&own.stiffness, z)],
-            loss_rates: own.losses.iter().map(|(_, own)| rate(own, z)).collect(),
-            norms: self.norms(&now),
-            now,
-        }
+        let losses = own.losses.iter().map(|(gain, own)| (gain.clone(), rate(own, z)));
+        let rates = MotionMatrices {
+            stiffness: rate(&own.stiffness, z),
+            damping: damping_rate,
+            mass: rate(&own.mass, z),
+            losses: losses.collect(),
+        };
+        Matrices { rates, norms: self.norms(&now.matrices), now }
     }
 
     /// Matrices without friction and with the share `damped` of the damping; the derivative is that with respect to `damped`.
     pub fn at_damping(&self, damped: f64) -> Matrices {
-        let mut matrices = self.at(0.0);
-        let scale = |own: &mut [c64]| own.iter_mut().for_each(|value| *value *= damped);
-        matrices.rates = [None, Some(matrices.now.damping.clone()), None];
-        scale(&mut matrices.now.damping);
-        for ((_, own), rate) in matrices.now.losses.iter_mut().zip(&mut matrices.loss_rates) {
-            *rate = Some(own.clone());
-            scale(own);
-        }
-        matrices
+        let mut own = self.at(0.0);
+        let now = &mut own.now.matrices;
+        own.rates = now.map(|own| Some(own.clone()));
+        (own.rates.mass, own.rates.stiffness) = (None, None);
+        let changing = now.losses.iter_mut().map(|(_, own)| own).chain([&mut now.damping]);
+        changing.flatten().for_each(|value| *value *= damped);
+        own
     }
 
-    fn norms(&self, now: &MovingHarmonic) -> [f64; 3] {
+    fn norms(&self, now: &MotionMatrices<Vec<c64>>) -> [f64; 3] {
         let norm = |values: &[c64]| {
             let rows = values.chunks_exact(2 * self.half_bandwidth + 1);
             let sums = rows.map(|row| row.iter().map(|v| v.re.abs() + v.im.abs()).sum::<f64>());
@@ -103,7 +109,7 @@ impl HarmonicProblem {
 
     /// `C` where `kappa` does not stand for it.
     fn damping<'a>(&self, at: &'a Matrices) -> Option<&'a [c64]> {
-        (!self.is_proportional()).then_some(&at.now.damping[..])
+        (!self.is_proportional()).then_some(&at.now.matrices.damping[..])
     }
 
     /// `(a, b)` and their derivatives at `theta`.
@@ -119,7 +125,8 @@ impl HarmonicProblem {
     pub fn assemble(&self, at: &Matrices, theta: c64, values: &mut Vec<c64>) {
         let [a, b, _, _] = self.factors(theta);
         values.clear();
-        values.extend(at.now.stiffness_at(theta).iter().zip(&at.now.mass).map(|(k, m)| k + a * m));
+        let mass = &at.now.matrices.mass;
+        values.extend(at.now.stiffness_at(theta).iter().zip(mass).map(|(k, m)| k + a * m));
         if let Some(damping) = self.damping(at) {
             for (value, c) in values.iter_mut().zip(damping) {
                 *value += b * c;
@@ -130,13 +137,14 @@ impl HarmonicProblem {
     /// `T'(theta) x` or its adjoint.
     pub fn apply_slope(&self, at: &Matrices, theta: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
         let [_, _, a, b] = self.factors(theta);
-        at.now.combine([(a, &at.now.mass[..]), (b, &at.now.damping)], x, adjoint)
+        let MotionMatrices { mass, damping, .. } = &at.now.matrices;
+        at.now.combine([(a, &mass[..]), (b, damping)], x, adjoint)
     }
 
     /// Two-sided Rayleigh functional: the root nearest to `theta` of `y^H T(.) x = 0`, and `y^H T' x` there.
     pub fn rayleigh_quotient(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64]) -> (c64, c64) {
         let form = |values: &[c64]| dot(y, &at.now.combine([(c64::ONE, values)], x, false));
-        let (m, k) = (form(&at.now.mass), form(&at.now.stiffness_at(theta)));
+        let (m, k) = (form(&at.now.matrices.mass), form(&at.now.stiffness_at(theta)));
         let Some(damping) = self.damping(at) else { return (k / m, -m) };
         let c = form(damping);
         let root = (c * c - m * k * 4.0).sqrt();
@@ -162,8 +170,7 @@ impl HarmonicProblem {
 
     /// `y^H (dK / d theta) x` of stiffness that follows its eigenvalue; `None` without tables.
     pub fn own_slope(&self, at: &Matrices, theta: c64, [x, y]: [&[c64]; 2]) -> Option<c64> {
-        let tabled = at.now.losses.iter().map(|(gain, own)| (gain.slope(theta), own));
-        let tabled = tabled.filter(|(rate, _)| *rate != ZERO);
+        let tabled = at.now.matrices.own_rates(theta);
         let own = tabled.map(|(rate, values)| dot(y, &at.now.combine([(rate, values)], x, false)));
         own.reduce(|sum, own| sum + own)
     }
@@ -171,8 +178,9 @@ impl HarmonicProblem {
     /// `d theta / d parameter = -y^H (dT) x / y^H T' x`.
     pub fn rate_of(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64], slope: c64) -> c64 {
         let [a, b, _, _] = self.factors(theta);
-        let terms = [a, b, c64::ONE].into_iter().zip(&at.rates);
-        let losses = at.now.losses.iter().map(|(gain, _)| gain.at(theta)).zip(&at.loss_rates);
+        let MotionMatrices { stiffness, damping, mass, losses } = &at.rates;
+        let terms = [(a, mass), (b, damping), (c64::ONE, stiffness)].into_iter();
+        let losses = losses.iter().map(|(gain, own)| (gain.at(theta), own));
         let change: c64 = terms
             .chain(losses)
             .filter_map(|(factor, values)| values.as_ref().map(|v| (factor, v)))
@@ -185,8 +193,8 @@ impl HarmonicProblem {
     /// `T(theta) x`.
     pub fn apply(&self, at: &Matrices, theta: c64, x: &[c64]) -> Vec<c64> {
         let [a, b, _, _] = self.factors(theta);
-        let stiffness = at.now.stiffness_at(theta);
-        let terms = [(c64::ONE, &stiffness[..]), (a, &at.now.mass), (b, &at.now.damping)];
+        let (stiffness, own) = (at.now.stiffness_at(theta), &at.now.matrices);
+        let terms = [(c64::ONE, &stiffness[..]), (a, &own.mass), (b, &own.damping)];
         at.now.combine(terms, x, false)
     }
 
@@ -219,7 +227,7 @@ impl HarmonicProblem {
     /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding
     /// is small where its dashpot is strong.
     fn damping_norm(&self, at: &Matrices, x: &[c64]) -> f64 {
-        let Some(damping) = self.damping(at).filter(|_| self.is_solid()) else {
+        let Some(damping) = self.damping(at).filter(|_| !self.is_direct) else {
             return at.norms[1];
         };
         let h = self.half_bandwidth;
@@ -250,34 +258,18 @@ impl HarmonicProblem {
                 false => ZERO,
             })
         };
-        let none = vec![ZERO; at.now.mass.len()];
-        [full(&at.now.mass), full(self.damping(at).unwrap_or(&none)), full(&at.now.stiffness)]
+        let MotionMatrices { mass, stiffness, .. } = &at.now.matrices;
+        let none = vec![ZERO; mass.len()];
+        [full(mass), full(self.damping(at).unwrap_or(&none)), full(stiffness)]
     }
 
-    /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].
-    pub fn contact_share(&self, x: &[c64]) -> f64 {
-        let HarmonicTangent { shares, mass, contact, .. } = &self.tangent;
-        match shares {
-            Some([contact, _]) => self.share(x, |x| energy(contact, x)),
-            None => self.share(x, |x| {
-                let momentum = mass[0].multiply(x);
-                contact.iter().map(|&k| x[k] * momentum[k]).sum()
-            }),
-        }
-    }
-
-    /// Kinetic energy of axial motion over the whole; not a number in the plane.
-    pub fn axial_share(&self, x: &[c64]) -> f64 {
-        let axial = self.tangent.shares.as_ref().map(|[_, axial]| axial);
-        axial.map_or(f64::NAN, |axial| self.share(x, |x| energy(axial, x)))
-    }
-
-    /// A part of the kinetic energy, of real and imaginary part alone, over the whole.
-    fn share(&self, x: &[c64], part: impl Fn(&[f64]) -> f64) -> f64 {
+    /// Kinetic energy of the contact's nodes, and of axial motion, over the whole, see [`crate::cea::ComplexMode`].
+    pub fn shares(&self, x: &[c64]) -> [f64; 2] {
         let real: Vec<f64> = x.iter().map(|v| v.re).collect();
         let imaginary: Vec<f64> = x.iter().map(|v| v.im).collect();
-        let whole = |x: &[f64]| energy(&self.tangent.mass[0], x);
-        (part(&real) + part(&imaginary)) / (whole(&real) + whole(&imaginary))
+        let energy = |form: &BandedMatrix| energy(form, &real) + energy(form, &imaginary);
+        let HarmonicTangent { shares, mass, .. } = &self.tangent;
+        shares.each_ref().map(|part| energy(part) / energy(&mass[0]))
     }
 
     /// `lambda` with `Im >= 0` of the wave `+n`.
@@ -293,14 +285,9 @@ impl HarmonicProblem {
         if self.is_proportional() { self.tangent.rayleigh.kappa(lambda) } else { lambda }
     }
 
-    /// Whether it is a harmonic in three dimensions, whose matrices are small full ones.
-    pub fn is_solid(&self) -> bool {
-        self.tangent.shares.is_some()
-    }
-
     /// Whether a motion hardly oscillates any more under the dashpot across the sliding, on the way to where it does not at all.
     pub fn is_ending(&self, theta: c64) -> bool {
-        self.is_solid() && theta.im.abs() < STANDSTILL * theta.norm()
+        !self.is_direct && theta.im.abs() < STANDSTILL * theta.norm()
     }
 
     /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is real to round-off.

@@ -23,7 +23,7 @@ pub(super) fn follow(
     AtRest { harmonic: n, pencil, modes }: AtRest,
     range: &Range<'_>,
 ) -> Result<HarmonicPaths, CeaError> {
-    let (harmonic, axial) = (tangent.harmonic(n), tangent.axial_unknowns());
+    let harmonic = tangent.harmonic(n);
     let across = Across::new(&harmonic, &tangent.sideways_unknowns());
     // Whether friction damps the motion across the sliding strongly somewhere in the range.
     let is_damped = across.are_strong(&modes, range.highest_friction());
@@ -33,7 +33,7 @@ pub(super) fn follow(
     let reduction = if is_damped { reduction.turned(&across) } else { reduction };
 
     // Branches in the small space.
-    let problem = || HarmonicProblem::new(reduction.tangent(&harmonic, &across, &axial));
+    let problem = || HarmonicProblem::new(reduction.tangent(&harmonic, &across), false);
     let followed = reduction.kappas.iter().take_while(|kappa| **kappa < range.margin);
     let pairs: Modes = followed.enumerate().map(|(k, &kappa)| (kappa, reduction.mode(k))).collect();
     let oscillating = match is_damped {
@@ -44,8 +44,8 @@ pub(super) fn follow(
     let paths = oscillating.map_or_else(|| follow_damped(problem(), &pairs, range), Ok)?;
 
     // Over all unknowns, or what the small space leaves out.
-    if tangent.is_lossy() {
-        return refined(paths, of_all_unknowns(harmonic, &axial), range);
+    if tangent.terms.is_lossy() {
+        return refined(paths, HarmonicProblem::new(harmonic, false), range);
     }
     let added = range.highest_friction() * range.margin.sqrt();
     let damped = is_damped.then(|| pencil.stiffened(added, &across.dashpots)).flatten();
@@ -65,8 +65,8 @@ fn space(
     // Damping of parts, and that of the whole body where supports have none of it.
     let damped = harmonic.damping.iter().map(|own| &own[0]);
     let lossy: Vec<&BandedMatrix> = lossy.chain(damped).collect();
-    let columns = tangent.normal_columns(harmonic.harmonic);
-    Reduction::new(pencil, columns, (&tangent.pressed_unknowns(), &lossy), modes)
+    let rows = tangent.normal_rows(harmonic.harmonic);
+    Reduction::new(pencil, rows, (&tangent.pressed_unknowns(), &lossy), modes)
 }
 
 /// The largest [`Reduction::error`] of the paths of a harmonic that end below `|lambda|^2 = wanted`.
@@ -81,20 +81,6 @@ fn largest_error(
         if is_listed { reduction.error(harmonic, pencil, lambda, end) } else { 0.0 }
     });
     errors.fold(0.0, f64::max)
-}
-
-/// A harmonic over all its unknowns; modes have shares of the kinetic energy of the contact's and of the `axial` ones.
-fn of_all_unknowns(harmonic: HarmonicTangent, axial: &[usize]) -> HarmonicProblem {
-    let mass = &harmonic.mass[0];
-    let rows = |unknowns: &[usize]| {
-        let mut own = BandedMatrix::zeros(mass.dimension(), mass.half_bandwidth());
-        for &row in unknowns {
-            mass.columns(row).for_each(|column| own.add(row, column, mass.get(row, column)));
-        }
-        own
-    };
-    let shares = Some([rows(&harmonic.contact), rows(axial)]);
-    HarmonicProblem::new(HarmonicTangent { shares, ..harmonic })
 }
 
 /// Every point of the branches that come below the margin of the range, solved in `problem`: losses of one part excite what the small

@@ -9,7 +9,7 @@ use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;
 use crate::linalg::vectors::{ZERO, dot};
-use crate::prestress::{MovingHarmonic, SectorTangent, WaveTangent};
+use crate::prestress::{MotionMatrices, MovingHarmonic, SectorTangent, WaveTangent};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.
@@ -44,7 +44,7 @@ pub struct WavePair {
 pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<Option<WavePair>> {
     let numbers: BTreeSet<usize> = wanted.iter().map(|(branch, _)| branch.harmonic).collect();
     let harmonics: BTreeMap<usize, HarmonicProblem> =
-        crate::parallel::map(numbers, |n| (n, HarmonicProblem::new(tangent.harmonic(n))));
+        crate::parallel::map(numbers, |n| (n, HarmonicProblem::new(tangent.harmonic(n), true)));
     let direction = tangent.sliding_direction;
     let pair = |&(branch, friction): &(&ModeBranch, f64)| {
         let is_backward = f64::from(branch.direction) * direction > 0.0;
@@ -105,7 +105,7 @@ impl WavePair {
     /// Change of the eigenvalue where the matrices change; `None` of matrices of other unknowns.
     fn response(&self, change: &MovingHarmonic) -> Option<c64> {
         let h = change.half_bandwidth;
-        if change.mass.len() != self.right.len() * (2 * h + 1) {
+        if change.matrices.mass.len() != self.right.len() * (2 * h + 1) {
             return None;
         }
         let changed = dot(&self.left, &change.apply(self.root, &self.right, false));
@@ -117,28 +117,19 @@ impl WavePair {
 
 /// A sum of matrices of the same unknowns, each with its weight; `None` where the unknowns differ.
 fn combined(terms: &[(f64, MovingHarmonic)]) -> Option<MovingHarmonic> {
-    let (weight, first) = terms.first()?;
-    let shape = |own: &MovingHarmonic| (own.half_bandwidth, own.mass.len(), own.losses.len());
-    if !terms.iter().all(|(_, own)| shape(own) == shape(first)) {
-        return None;
-    }
-    let sum = |of: &dyn for<'a> Fn(&'a MovingHarmonic) -> &'a Vec<c64>| {
-        let mut sum: Vec<c64> = of(first).iter().map(|v| v * *weight).collect();
-        for (weight, term) in &terms[1..] {
-            sum.iter_mut().zip(of(term)).for_each(|(sum, v)| *sum += v * *weight);
-        }
-        sum
+    let MovingHarmonic { half_bandwidth, ref matrices } = terms.first()?.1;
+    let sizes = |own: &MotionMatrices<Vec<c64>>| own.each().map(Vec::len).collect::<Vec<_>>();
+    let is_alike = |own: &MovingHarmonic| {
+        own.half_bandwidth == half_bandwidth && sizes(&own.matrices) == sizes(matrices)
     };
-    Some(MovingHarmonic {
-        half_bandwidth: first.half_bandwidth,
-        mass: sum(&|own| &own.mass),
-        damping: sum(&|own| &own.damping),
-        stiffness: sum(&|own| &own.stiffness),
-        losses: {
-            let gains = first.losses.iter().map(|(gain, _)| gain.clone()).enumerate();
-            gains.map(|(part, gain)| (gain, sum(&|own| &own.losses[part].1))).collect()
-        },
-    })
+    let are_alike = terms.iter().all(|(_, own)| is_alike(own));
+    let mut sum = are_alike.then(|| matrices.map(|own| vec![ZERO; own.len()]))?;
+    for (weight, own) in terms {
+        for (sum, values) in sum.each_mut().zip(own.matrices.each()) {
+            sum.iter_mut().zip(values).for_each(|(sum, v)| *sum += v * *weight);
+        }
+    }
+    Some(MovingHarmonic { half_bandwidth, matrices: sum })
 }
 
 /// The pair of a branch, by two-sided Rayleigh quotient iteration from its eigenvalue.

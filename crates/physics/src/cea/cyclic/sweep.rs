@@ -101,7 +101,7 @@ pub fn onsets(
 
 /// Whether harmonics are followed as they stand: their bands are narrow, and the waves `+n` and `-n` are of one real problem.
 fn is_direct(tangent: &WaveTangent) -> bool {
-    tangent.components == 2 && !tangent.is_lossy()
+    tangent.components == 2 && !tangent.terms.is_lossy()
 }
 
 /// The branches of all harmonics, or of those given, up to a `margin` above the highest frequency wanted; and the harmonics that are
@@ -150,7 +150,7 @@ fn follow(
                 return reduced::follow(tangent, found, &range);
             }
             found.modes.retain(|(kappa, _)| *kappa < margin);
-            let problem = HarmonicProblem::new(tangent.harmonic(found.harmonic));
+            let problem = HarmonicProblem::new(tangent.harmonic(found.harmonic), true);
             follow_pairs(problem, &found.modes, &range)
         });
     let followed = followed?;
