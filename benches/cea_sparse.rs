@@ -6,7 +6,7 @@ use crate::is_measured;
 use crate::prelude::*;
 use divan::Bencher;
 use frictionsim::cea::sparse::{SparseSweep, sweep};
-use frictionsim::linalg::{LdlAnalysis, LuAnalysis, RealFactors};
+use frictionsim::linalg::{LuAnalysis, SparseLu};
 
 /// Four times coarser where nothing is measured.
 fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
@@ -43,9 +43,9 @@ fn phase_1_mesh_base_state_and_assembly() -> SlidingTangent {
 #[divan::bench(sample_count = 5)]
 fn phase_2_symmetric_factorization(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
-    let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).expect("small enough");
+    let analysis = LuAnalysis::new(tangent.stiffness.pattern()).expect("small enough");
     bencher.bench_local(|| {
-        RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).expect("definite")
+        SparseLu::symmetric(&analysis, tangent.stiffness.evaluate(0.0)).expect("definite")
     });
 }
 
@@ -54,7 +54,7 @@ fn phase_2_factors_with_friction_one_value(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     let analysis = LuAnalysis::new(tangent.stiffness.pattern()).expect("small enough");
     bencher.bench_local(|| {
-        RealFactors::general(&analysis, tangent.stiffness.evaluate(0.5)).expect("regular")
+        SparseLu::factorize(&analysis, tangent.stiffness.evaluate(0.5)).expect("regular")
     });
 }
 

@@ -5,7 +5,7 @@ mod counts;
 
 use crate::prelude::*;
 use frictionsim::cea::sparse::*;
-use frictionsim::linalg::RealFactors;
+use frictionsim::linalg::SparseLu;
 
 type Entries = Vec<(usize, usize, f64)>;
 
@@ -171,7 +171,7 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
 fn exact_modes(tangent: &SlidingTangent, of: Linearization, mu: f64, wanted: usize) -> Vec<c64> {
     let matrices = StructureMatrices::at(tangent, of, mu);
     let analysis = LuAnalysis::new(tangent.stiffness.pattern()).unwrap();
-    let factors = RealFactors::general(&analysis, tangent.stiffness.evaluate(mu)).unwrap();
+    let factors = SparseLu::factorize(&analysis, tangent.stiffness.evaluate(mu)).unwrap();
     let operator = ShiftInverted::new(&matrices, &factors);
     let settings = crate::eigen_linear_algebra::settings(wanted);
     let settings = KrylovSchurSettings { tolerance: 1e-11, max_applications: 5000, ..settings };

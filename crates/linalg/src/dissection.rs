@@ -4,13 +4,13 @@ use super::SparsityPattern;
 use feral_metis::{CscPattern, metis_order};
 use std::collections::HashMap;
 
-/// Order of elimination by multilevel nested dissection, unknowns by place and places by unknown; nothing where there is no order.
+/// Unknowns in the order of elimination by multilevel nested dissection; nothing where there is no order.
 ///
 /// Unknowns of the same neighbours, as those of one node are, stay together.
 ///
 /// Source: G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci. Comput. 20
 /// (1998).
-pub(super) fn nested_dissection(pattern: &SparsityPattern) -> Option<[Vec<usize>; 2]> {
+pub(super) fn nested_dissection(pattern: &SparsityPattern) -> Option<Vec<usize>> {
     let n = pattern.dimension();
     let neighbours = |unknown: usize| {
         let all = pattern.column(unknown).chain(pattern.row(unknown)).map(|(_, other)| other);
@@ -46,17 +46,13 @@ pub(super) fn nested_dissection(pattern: &SparsityPattern) -> Option<[Vec<usize>
     }
     let graph = CscPattern::new(members.len(), &pointers, &others)?;
     let order = metis_order(&graph).ok()?;
-    let unknowns: Vec<usize> =
-        order.into_iter().flat_map(|vertex| members[vertex as usize].iter().copied()).collect();
-    let mut places = vec![0; n];
-    unknowns.iter().enumerate().for_each(|(place, &unknown)| places[unknown] = place);
-    Some([unknowns, places])
+    Some(order.into_iter().flat_map(|vertex| members[vertex as usize].iter().copied()).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{LdlAnalysis, MatrixPolynomial, SparseLdl};
+    use crate::{LuAnalysis, MatrixPolynomial, SparseLu};
     use faer::Mat;
 
     /// Springs between the nodes of bricks, `count` along each side, three unknowns a node, and a pattern of all neighbours.
@@ -81,14 +77,16 @@ mod tests {
     #[test]
     fn large_bodies_are_eliminated_by_nested_dissection() {
         let matrix = cube(14);
-        let [unknowns, places] = nested_dissection(matrix.pattern()).unwrap();
-        assert!(unknowns.iter().enumerate().all(|(place, &own)| places[own] == place));
+        let unknowns = nested_dissection(matrix.pattern()).unwrap();
+        let mut all = unknowns.clone();
+        all.sort_unstable();
+        assert!(all.into_iter().eq(0..matrix.dimension()));
         assert!(unknowns.chunks(3).all(|own| own[0] / 3 == own[1] / 3 && own[1] / 3 == own[2] / 3));
-        let analysis = LdlAnalysis::new(matrix.pattern()).unwrap();
-        let ldl = SparseLdl::factorize(&analysis, &matrix.evaluate(0.0)).unwrap();
+        let analysis = LuAnalysis::new(matrix.pattern()).unwrap();
+        let factors = SparseLu::symmetric(&analysis, matrix.evaluate(0.0)).unwrap();
         let x = Mat::from_fn(unknowns.len(), 1, |i, _| (i % 7) as f64);
         let mut found = matrix.pattern().multiply(&matrix.evaluate(0.0), x.as_ref());
-        ldl.solve_in_place(found.as_mut());
+        factors.solve_in_place(found.as_mut());
         assert!((found - x).norm_max() < 1e-13);
     }
 }

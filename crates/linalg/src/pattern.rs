@@ -146,6 +146,14 @@ impl SparsityPattern {
         self.row_indices()[start..end].binary_search(&row).ok().map(|offset| start + offset)
     }
 
+    /// Entries of the Cholesky factors of matrices on this pattern.
+    ///
+    /// # Errors
+    /// If the analysis runs out of memory or index range.
+    pub fn factor_entry_count(&self) -> Result<usize, LinalgError> {
+        self.symbolic_cholesky().map(|symbolic| symbolic.len_val())
+    }
+
     /// Order of elimination and structure of the Cholesky factors, neighbours of alike structure in one block; only the upper triangle
     /// counts. The order is that of approximate minimum degree or, of large factors, of nested dissection if that leaves fewer entries.
     ///
@@ -155,26 +163,53 @@ impl SparsityPattern {
         self.factors.get_or_init(|| self.analysed().map(Arc::new)).clone()
     }
 
-    fn analysed(&self) -> Result<SymbolicCholesky<usize>, LinalgError> {
-        let n = self.dimension();
-        let analysed = |order: SymmetricOrdering<'_, usize>| {
-            let parameters = CholeskySymbolicParams {
-                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-                ..Default::default()
-            };
-            factorize_symbolic_cholesky(self.symbolic.as_ref(), Side::Upper, order, parameters)
-                .map_err(|error| LinalgError::factorization(n, error))
+    /// The same in that order but for the unknowns that are `last`; nothing where there are none.
+    pub(super) fn symbolic_cholesky_with_last(
+        &self,
+        last: &[bool],
+    ) -> Result<Option<SymbolicCholesky<usize>>, LinalgError> {
+        if !last.contains(&true) {
+            return Ok(None);
+        }
+        let order = match self.symbolic_cholesky()?.perm() {
+            Some(order) => order.arrays().0.to_vec(),
+            None => (0..self.dimension()).collect(),
         };
-        let by_degree = analysed(SymmetricOrdering::Amd)?;
+        let (mut unknowns, end): (Vec<_>, Vec<_>) = order.into_iter().partition(|&own| !last[own]);
+        unknowns.extend(end);
+        self.analysed_in(unknowns).map(Some)
+    }
+
+    fn analysed(&self) -> Result<SymbolicCholesky<usize>, LinalgError> {
+        let by_degree = self.analysed_by(SymmetricOrdering::Amd)?;
         if by_degree.len_val() < LARGE {
             return Ok(by_degree);
         }
-        let Some([unknowns, places]) = nested_dissection(self) else {
+        let Some(unknowns) = nested_dissection(self) else {
             return Ok(by_degree);
         };
-        let order = PermRef::new_checked(&unknowns, &places, n);
-        let dissected = analysed(SymmetricOrdering::Custom(order))?;
+        let dissected = self.analysed_in(unknowns)?;
         Ok(if dissected.len_val() < by_degree.len_val() { dissected } else { by_degree })
+    }
+
+    /// Eliminates `unknowns` in this order.
+    fn analysed_in(&self, unknowns: Vec<usize>) -> Result<SymbolicCholesky<usize>, LinalgError> {
+        let mut places = vec![0; unknowns.len()];
+        unknowns.iter().enumerate().for_each(|(place, &unknown)| places[unknown] = place);
+        let order = PermRef::new_checked(&unknowns, &places, unknowns.len());
+        self.analysed_by(SymmetricOrdering::Custom(order))
+    }
+
+    fn analysed_by(
+        &self,
+        order: SymmetricOrdering<'_, usize>,
+    ) -> Result<SymbolicCholesky<usize>, LinalgError> {
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        factorize_symbolic_cholesky(self.symbolic.as_ref(), Side::Upper, order, parameters)
+            .map_err(|error| LinalgError::factorization(self.dimension(), error))
     }
 
     /// A matrix of this pattern with `values`, one for each nonzero.

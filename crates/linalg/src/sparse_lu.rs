@@ -1,4 +1,4 @@
-//! Sparse LU factors by elimination front by front: one symbolic analysis for all values of a pattern, real or complex.
+//! Sparse factors by elimination front by front: one symbolic analysis for all values of a pattern, real or complex.
 //!
 //! Unknowns of alike neighbours make a front. It is a dense matrix `F` of those that are eliminated
 //! in it (1) and those that they leave coupled (2). With the pivots chosen within a front,
@@ -9,33 +9,47 @@
 //!
 //! and the last goes to the front that eliminates the first of its unknowns. Source: I. S. Duff and J. K. Reid, The multifrontal solution
 //! of unsymmetric sets of linear equations, SIAM J. Sci. Stat. Comput. 5 (1984).
+//!
+//! Real fronts are symmetric until those are reached where friction acts: `P F11 P^T = L B L^T` with blocks of one or two rows in `B`
+//! (Bunch and Kaufman), `U = B L^T P` and `right = B below^T`. In a family of friction coefficients they are the same.
+
+mod front;
+mod order;
 
 use super::dense::{column, column_blocks, trial_right_side};
-use super::{LinalgError, SparsityPattern, interruption};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::factor;
+use super::{LinalgError, MatrixPolynomial, SparsityPattern, interruption};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
     solve_unit_upper_triangular_in_place, solve_upper_triangular_in_place,
 };
-use faer::perm::permute_rows_in_place;
-use faer::prelude::ReborrowMut;
-use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
 use faer::traits::ComplexField;
-use faer::traits::math_utils::{abs, imag, real};
+use faer::traits::math_utils::abs;
 use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
-use std::f64::consts::PI;
-use std::sync::Arc;
+use front::{Eliminated, Remainder, Scalar};
+use order::Order;
+use std::sync::{Arc, OnceLock};
 
 /// Right-hand sides solved together: enough to stream the factors once for many of them, few enough that a block of them stays in cache.
-const BLOCK: usize = 16;
+const BLOCK: usize = 32;
 
 /// Order of elimination and fronts of every matrix on one pattern, symmetric in structure or not.
 #[derive(Clone, Debug)]
 pub struct LuAnalysis {
     pattern: Arc<SparsityPattern>,
     fronts: Arc<Vec<Front>>,
+    /// Of a family, what its first matrix made of the fronts that all have alike.
+    shared: Arc<OnceLock<Shared<f64>>>,
+}
+
+/// Fronts eliminated once for a family of matrices.
+#[derive(Debug)]
+struct Shared<T> {
+    /// Nonzeros of the matrix that they are of.
+    values: Vec<T>,
+    /// Factors of these fronts, and what those below others leave to them.
+    factors: Vec<Option<Arc<Eliminated<T>>>>,
+    left: Vec<Option<Remainder<T>>>,
 }
 
 /// Unknowns that are eliminated together, and those that they leave coupled.
@@ -51,56 +65,8 @@ struct Front {
     children: Vec<usize>,
     /// Places in the parent of the unknowns that remain.
     places: Vec<usize>,
-}
-
-/// Which unknowns are eliminated together.
-struct Order {
-    /// Unknowns of each front by their place in the order of elimination, rising.
-    unknowns: Vec<Vec<usize>>,
-    /// Place after the last one that each front eliminates.
-    ends: Vec<usize>,
-    /// Place of each unknown of the matrix; all in their own order without.
-    places: Option<Vec<usize>>,
-}
-
-impl Order {
-    /// That of the Cholesky factors of the symmetric hull of a pattern, neighbours of alike structure in one front.
-    fn of(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
-        let n = pattern.dimension();
-        let nonzeros = (0..n).flat_map(|j| pattern.column(j).map(move |(_, i)| (i, j)));
-        let hull = nonzeros.flat_map(|(i, j)| [(i, j), (j, i)]);
-        let symbolic = match pattern.is_symmetric() {
-            true => pattern.symbolic_cholesky()?,
-            false => SparsityPattern::from_positions(n, hull).symbolic_cholesky()?,
-        };
-        let places = symbolic.perm().map(|perm| perm.arrays().1.to_vec());
-        let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
-            // A diagonal matrix, where nothing is to be eliminated.
-            return Ok(Self {
-                unknowns: (0..n).map(|place| vec![place]).collect(),
-                ends: (1..=n).collect(),
-                places,
-            });
-        };
-        let (begins, ends) = (blocks.supernode_begin(), blocks.supernode_end());
-        let unknowns = (0..blocks.n_supernodes()).map(|s| {
-            let mut own: Vec<usize> = (begins[s]..ends[s]).collect();
-            own.extend_from_slice(blocks.supernode(s).pattern());
-            own.sort_unstable();
-            own
-        });
-        Ok(Self { unknowns: unknowns.collect(), ends: ends.to_vec(), places })
-    }
-
-    /// The front that eliminates what has a place.
-    fn front_of(&self, place: usize) -> usize {
-        self.ends.partition_point(|&end| end <= place)
-    }
-
-    fn place_in(&self, front: usize, place: usize) -> usize {
-        let found = self.unknowns[front].binary_search(&place);
-        found.expect("a front holds all unknowns that those before it leave coupled")
-    }
+    /// Whether it and all below it are the same in a family.
+    is_shared: bool,
 }
 
 impl LuAnalysis {
@@ -109,142 +75,112 @@ impl LuAnalysis {
     /// # Errors
     /// If the analysis runs out of memory or index range.
     pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
-        let order = Order::of(pattern)?;
-        let place = |unknown: usize| order.places.as_ref().map_or(unknown, |all| all[unknown]);
-        let mut unknown_at = vec![0; pattern.dimension()];
-        (0..pattern.dimension()).for_each(|unknown| unknown_at[place(unknown)] = unknown);
-        let fronts = order.unknowns.iter().zip(&order.ends);
-        let fronts = fronts.map(|(places, &end)| Front {
-            unknowns: places.iter().map(|&place| unknown_at[place]).collect(),
-            width: places.partition_point(|&place| place < end),
-            entries: Vec::new(),
-            children: Vec::new(),
-            places: Vec::new(),
-        });
-        let mut fronts: Vec<Front> = fronts.collect();
-
-        // What a front leaves goes to the one that eliminates the first of it.
-        for s in 0..fronts.len() {
-            let left = &order.unknowns[s][fronts[s].width..];
-            let Some(&next) = left.first() else { continue };
-            let parent = order.front_of(next);
-            let places = left.iter().map(|&place| order.place_in(parent, place));
-            fronts[s].places = places.collect();
-            fronts[parent].children.push(s);
-        }
-
-        // Each nonzero belongs where the first of its two unknowns is eliminated.
-        for j in 0..pattern.dimension() {
-            for (at, i) in pattern.column(j) {
-                let (row, column) = (place(i), place(j));
-                let front = order.front_of(row.min(column));
-                let [row, column] = [row, column].map(|own| order.place_in(front, own));
-                fronts[front].entries.push([at, row, column].map(|index| index as u32));
-            }
-        }
-        Ok(Self { pattern: Arc::clone(pattern), fronts: Arc::new(fronts) })
+        Self::analysed(pattern, None)
     }
 
-    /// `ln det A` of the matrix with nonzeros `all` on the pattern analysed, its imaginary part up to multiples of `2 pi`; no factors are
-    /// kept. It is the product of all pivots with the signs of the exchanges; the order of elimination moves rows and columns alike.
+    /// Analyses a family: unknowns that its parameter touches come last, and fronts that it leaves alone are eliminated once for all
+    /// real matrices that agree on them.
     ///
     /// # Errors
-    /// [`LinalgError::Singular`] on a pivot of zero, or where entries grow so much that rounding would tell.
-    pub fn ln_determinant<T: ComplexField<Real = f64>>(
-        &self,
-        all: &[T],
-    ) -> Result<c64, LinalgError> {
-        let mut sum = c64::new(0.0, 0.0);
-        let growth = self.eliminate(all, |own: Eliminated<T>| {
-            let pivots = (0..own.exchanges.len()).map(|i| &own.columns[(i, i)]);
-            let diagonal = pivots.map(|pivot| c64::new(real(pivot), imag(pivot)).ln());
-            sum = diagonal.fold(sum, |sum, ln| sum + ln) + c64::new(0.0, PI * own.parity);
-        });
-        let is_regular = sum.re.is_finite() && sum.im.is_finite();
-        let condition = if is_regular { 1.0 } else { f64::INFINITY };
-        LinalgError::check(self.pattern.dimension(), f64::EPSILON * growth, condition)?;
-        Ok(sum)
+    /// As [`Self::new`].
+    pub fn of_family(family: &MatrixPolynomial) -> Result<Self, LinalgError> {
+        let changes = family.coefficients().iter().skip(1);
+        let mut varies = vec![false; family.pattern().nonzero_count()];
+        for own in changes {
+            varies.iter_mut().zip(own).for_each(|(varies, own)| *varies |= *own != 0.0);
+        }
+        Self::analysed(family.pattern(), Some(varies))
     }
 
-    /// Eliminates front by front and hands each one on; how much the entries grow.
-    fn eliminate<T: ComplexField<Real = f64>>(
+    /// Where the nonzeros that vary in a family are known some fronts are shared.
+    fn analysed(
+        pattern: &Arc<SparsityPattern>,
+        varies: Option<Vec<bool>>,
+    ) -> Result<Self, LinalgError> {
+        let mut fronts = Order::of(pattern, varies.as_deref())?.fronts(pattern);
+        let all = 0..fronts.len();
+        for (s, varies) in all.flat_map(|s| varies.iter().map(move |own| (s, own))) {
+            let Front { children, entries, .. } = &fronts[s];
+            fronts[s].is_shared = children.iter().all(|&child| fronts[child].is_shared)
+                && !entries.iter().any(|entry| varies[entry[0] as usize]);
+        }
+        let (pattern, fronts) = (Arc::clone(pattern), Arc::new(fronts));
+        Ok(Self { pattern, fronts, shared: Arc::default() })
+    }
+
+    /// The fronts that a matrix shares with the first one of its family, if it does.
+    fn shared_with(&self, values: &[f64]) -> Option<&Shared<f64>> {
+        let shared = self.shared.get_or_init(|| {
+            let (own, mut factors) =
+                (|front: &Front| front.is_shared, vec![None; self.fronts.len()]);
+            let left = self.eliminate(values, (None, false), own, |k, own| factors[k] = Some(own));
+            Shared { values: values.to_vec(), factors, left }
+        });
+        let fronts = self.fronts.iter().filter(|front| front.is_shared);
+        let mut entries = fronts.flat_map(|front| &front.entries).map(|entry| entry[0] as usize);
+        entries.all(|at| shared.values[at] == values[at]).then_some(shared)
+    }
+
+    /// Eliminates front by front those that `is_wanted` holds for and hands each one on, also those that are `shared`; what they leave to
+    /// others. Whether a front is symmetric is told by its entries, unless all are.
+    fn eliminate<T: Scalar>(
         &self,
         values: &[T],
-        mut take: impl FnMut(Eliminated<T>),
-    ) -> f64 {
+        (shared, are_symmetric): (Option<&Shared<T>>, bool),
+        is_wanted: impl Fn(&Front) -> bool,
+        mut take: impl FnMut(usize, Arc<Eliminated<T>>),
+    ) -> Vec<Option<Remainder<T>>> {
         interruption::check();
-        let mut left: Vec<Option<Mat<T>>> = vec![None; self.fronts.len()];
-        let given = values.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(T::abs1_impl(v)));
-        let mut largest = given;
-        for (k, front) in self.fronts.iter().enumerate() {
-            // The front: entries of the matrix and what its children leave.
-            let size = front.unknowns.len();
-            let mut matrix = Mat::<T>::zeros(size, size);
-            for &[at, row, column] in &front.entries {
-                matrix[(row as usize, column as usize)] = values[at as usize].clone();
+        let mut left: Vec<Option<Remainder<T>>> = self.fronts.iter().map(|_| None).collect();
+        for (k, front) in self.fronts.iter().enumerate().filter(|(_, own)| is_wanted(own)) {
+            if let Some(known) = shared.and_then(|own| own.factors[k].as_ref()) {
+                take(k, Arc::clone(known));
+                continue;
             }
-            for &child in &front.children {
-                let places = &self.fronts[child].places;
-                let update = left[child].take().expect("a front comes after those it takes up");
-                for (j, &column) in places.iter().enumerate() {
-                    for (i, &row) in places.iter().enumerate() {
-                        matrix[(row, column)] = &matrix[(row, column)] + &update[(i, j)];
+            let known = |child: usize| shared.and_then(|own| own.left[child].as_ref());
+            let left_by = |child: usize| left[child].as_ref().or(known(child));
+            let (own, rest) = self.front(k, values, are_symmetric, left_by);
+            front.children.iter().for_each(|&child| left[child] = None);
+            left[k] = Some(rest);
+            take(k, Arc::new(own));
+        }
+        left
+    }
+
+    /// Eliminates one front, of which the children `left` these; what it leaves itself.
+    fn front<'a, T: Scalar + 'a>(
+        &self,
+        k: usize,
+        values: &[T],
+        are_symmetric: bool,
+        left: impl Fn(usize) -> Option<&'a Remainder<T>>,
+    ) -> (Eliminated<T>, Remainder<T>) {
+        let front = &self.fronts[k];
+        // Entries of the matrix.
+        let size = front.unknowns.len();
+        let mut matrix = Mat::<T>::zeros(size, size);
+        for &[at, row, column] in &front.entries {
+            matrix[(row as usize, column as usize)] = values[at as usize];
+        }
+        let of_child = |&child: &usize| left(child).expect("a front comes after those it takes up");
+        let is_alike = || T::IS_REAL && front::is_symmetric(matrix.as_ref(), front.width);
+        let is_symmetric = (are_symmetric || is_alike())
+            && front.children.iter().map(of_child).all(|own| own.is_symmetric);
+        // What its children leave: of symmetric ones the lower triangle, which is enough for another symmetric one.
+        for child in &front.children {
+            let (update, places) = (of_child(child), &self.fronts[*child].places);
+            for (j, &column) in places.iter().enumerate() {
+                let first = if update.is_symmetric { j } else { 0 };
+                for (i, &row) in places.iter().enumerate().skip(first) {
+                    let value = update.matrix[(i, j)];
+                    matrix[(row, column)] += value;
+                    if update.is_symmetric && !is_symmetric && i != j {
+                        matrix[(column, row)] += value;
                     }
                 }
             }
-            let (own, rest) = Eliminated::of(matrix, front.width);
-            // The library's norm takes the root of each entry, which is more than the elimination costs.
-            let entries = rest.col_iter().flat_map(|own| own.iter().map(T::abs1_impl));
-            largest = entries.fold(largest, f64::max);
-            left[k] = (!front.places.is_empty()).then_some(rest);
-            take(own);
         }
-        largest / given
-    }
-}
-
-/// What is kept of a front.
-#[derive(Clone, Debug)]
-struct Eliminated<T> {
-    /// `L U` with `below` beneath.
-    columns: Mat<T>,
-    /// `right`.
-    right: Mat<T>,
-    /// Rows of `F11` in the order of `P F11`.
-    exchanges: Vec<usize>,
-    /// 1 where their number is odd.
-    parity: f64,
-}
-
-impl<T: ComplexField<Real = f64>> Eliminated<T> {
-    /// Eliminates the first `width` unknowns of a front; what it leaves of the others.
-    fn of(mut matrix: Mat<T>, width: usize) -> (Self, Mat<T>) {
-        let (mut pivots, mut right, mut below, mut rest) =
-            matrix.as_mut().split_at_mut(width, width);
-        let (mut forward, mut inverse) = (vec![0_usize; width], vec![0_usize; width]);
-        let scratch =
-            factor::lu_in_place_scratch::<usize, T>(width, width, Par::Seq, Default::default())
-                .or(faer::perm::permute_rows_in_place_scratch::<usize, T>(width, right.ncols()));
-        let mut memory = MemBuffer::new(scratch);
-        let (info, rows) = factor::lu_in_place(
-            pivots.rb_mut(),
-            &mut forward,
-            &mut inverse,
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Default::default(),
-        );
-        let parity = (info.transposition_count % 2) as f64;
-        let pivots = pivots.as_ref();
-        permute_rows_in_place(right.rb_mut(), rows, MemStack::new(&mut memory));
-        solve_unit_lower_triangular_in_place(pivots, right.rb_mut(), Par::Seq);
-        let across = below.rb_mut().transpose_mut();
-        solve_lower_triangular_in_place(pivots.transpose(), across, Par::Seq);
-        let (minus, below, right) = (-T::one_impl(), below.as_ref(), right.as_ref());
-        matmul(rest.rb_mut(), Accum::Add, below, right, minus, Par::Seq);
-        let (right, rest) = (right.to_owned(), rest.to_owned());
-        let columns = matrix.get(.., ..width).to_owned();
-        (Self { columns, right, exchanges: forward, parity }, rest)
+        Eliminated::of(matrix, front.width, is_symmetric)
     }
 }
 
@@ -292,12 +228,12 @@ fn subtract<T: ComplexField + Copy>(
 }
 
 macro_rules! sparse_lu {
-    ($(#[$doc:meta])* $name:ident, $scalar:ty) => {
+    ($(#[$doc:meta])* $name:ident, $scalar:ty, $shared:expr) => {
         $(#[$doc])*
         #[derive(Debug)]
         pub struct $name {
             analysis: LuAnalysis,
-            fronts: Vec<Eliminated<$scalar>>,
+            fronts: Vec<Arc<Eliminated<$scalar>>>,
             values: Vec<$scalar>,
         }
 
@@ -310,11 +246,44 @@ macro_rules! sparse_lu {
                 analysis: &LuAnalysis,
                 values: Vec<$scalar>,
             ) -> Result<Self, LinalgError> {
+                let known = ($shared(analysis, &values), false);
+                Self::eliminated(analysis, values, known)
+            }
+
+            fn eliminated(
+                analysis: &LuAnalysis,
+                values: Vec<$scalar>,
+                known: (Option<&Shared<$scalar>>, bool),
+            ) -> Result<Self, LinalgError> {
                 let mut fronts = Vec::with_capacity(analysis.fronts.len());
-                analysis.eliminate(&values, |own| fronts.push(own));
+                analysis.eliminate(&values, known, |_| true, |_, own| fronts.push(own));
                 let lu = Self { analysis: analysis.clone(), fronts, values };
                 lu.check()?;
                 Ok(lu)
+            }
+
+            /// `ln det A` of the matrix with nonzero `values` on the analysed pattern, its imaginary part up to multiples of `2 pi`; no
+            /// factors are kept. It is the product of all pivots with the signs of the exchanges; the order of elimination moves rows and
+            /// columns alike.
+            ///
+            /// # Errors
+            /// [`LinalgError::Singular`] on a pivot of zero, or where entries grow so much that rounding would tell.
+            pub fn ln_determinant(
+                analysis: &LuAnalysis,
+                values: &[$scalar],
+            ) -> Result<c64, LinalgError> {
+                let (mut sum, mut largest) = (c64::new(0.0, 0.0), 0.0_f64);
+                let known = ($shared(analysis, values), false);
+                analysis.eliminate(values, known, |_| true, |_, own| {
+                    sum += own.ln_determinant();
+                    largest = largest.max(own.largest());
+                });
+                let is_regular = sum.re.is_finite() && sum.im.is_finite();
+                let condition = if is_regular { 1.0 } else { f64::INFINITY };
+                let given = values.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(abs(v)));
+                let n = analysis.pattern.dimension();
+                LinalgError::check(n, f64::EPSILON * largest / given, condition)?;
+                Ok(sum)
             }
 
             /// Number of unknowns.
@@ -342,39 +311,45 @@ macro_rules! sparse_lu {
                 (0..n).map(|i| x[(i, 0)] + r[(i, 0)]).collect()
             }
 
-            /// `y = L^-1 P b`, then `x = U^-1 (y - right x)`; transposed `y = U^-T b`, then `x = P^T L^-T (y - below^T x)`.
+            /// `y = L^-1 P b`, then `x = U^-1 (y - right x)`; transposed `y = U^-T b`, then `x = P^T L^-T (y - below^T x)`. Of symmetric
+            /// fronts `y = B^-1 L^-1 P b` and the latter.
             fn solve_block(&self, mut x: MatMut<'_, $scalar>, is_transposed: bool) {
                 let [memory, other] = &mut [Vec::new(), Vec::new()];
                 for (front, own) in self.analysis.fronts.iter().zip(&self.fronts) {
                     let (eliminated, others) = front.unknowns.split_at(front.width);
                     let (pivots, below) = own.columns.as_ref().split_at_row(front.width);
-                    let row = |i: usize| eliminated[if is_transposed { i } else { own.exchanges[i] }];
+                    let is_left = own.is_symmetric() || !is_transposed;
+                    let row = |i: usize| eliminated[if is_left { own.exchanges[i] } else { i }];
                     let mut y = gathered(&x, (0..front.width).map(row), memory);
-                    let beyond = match is_transposed {
+                    let beyond = match is_left {
                         true => {
-                            solve_lower_triangular_in_place(pivots.transpose(), y.as_mut(), Par::Seq);
-                            own.right.transpose()
-                        }
-                        false => {
                             solve_unit_lower_triangular_in_place(pivots, y.as_mut(), Par::Seq);
                             below
                         }
+                        false => {
+                            solve_lower_triangular_in_place(pivots.transpose(), y.as_mut(), Par::Seq);
+                            own.right.transpose()
+                        }
                     };
-                    scatter(&mut x, eliminated.iter().copied(), y.as_ref());
                     subtract(&mut x, others, beyond, y.as_ref(), other);
+                    if own.is_symmetric() {
+                        own.divide(y.as_mut());
+                    }
+                    scatter(&mut x, eliminated.iter().copied(), y.as_ref());
                 }
                 for (front, own) in self.analysis.fronts.iter().zip(&self.fronts).rev() {
                     let (eliminated, others) = front.unknowns.split_at(front.width);
                     let (pivots, below) = own.columns.as_ref().split_at_row(front.width);
-                    let beyond = if is_transposed { below.transpose() } else { own.right.as_ref() };
+                    let is_left = own.is_symmetric() || is_transposed;
+                    let beyond = if is_left { below.transpose() } else { own.right.as_ref() };
                     let known = gathered(&x, others.iter().copied(), memory);
                     subtract(&mut x, eliminated, beyond, known.as_ref(), other);
                     let mut y = gathered(&x, eliminated.iter().copied(), memory);
-                    match is_transposed {
+                    match is_left {
                         true => solve_unit_upper_triangular_in_place(pivots.transpose(), y.as_mut(), Par::Seq),
                         false => solve_upper_triangular_in_place(pivots, y.as_mut(), Par::Seq),
                     }
-                    let row = |i: usize| eliminated[if is_transposed { own.exchanges[i] } else { i }];
+                    let row = |i: usize| eliminated[if is_left { own.exchanges[i] } else { i }];
                     scatter(&mut x, (0..front.width).map(row), y.as_ref());
                 }
             }
@@ -418,20 +393,37 @@ macro_rules! sparse_lu {
 }
 
 sparse_lu!(
-    /// LU factors of a real sparse matrix.
+    /// Factors of a real sparse matrix.
     SparseLu,
-    f64
+    f64,
+    LuAnalysis::shared_with
 );
 sparse_lu!(
     /// LU factors of a complex sparse matrix, on the analysis that also serves real ones.
     ComplexSparseLu,
-    c64
+    c64,
+    |_, _| None
 );
+
+impl SparseLu {
+    /// Factorizes a symmetric matrix, definite or not: a lower triangle.
+    ///
+    /// # Errors
+    /// As [`Self::factorize`].
+    pub fn symmetric(analysis: &LuAnalysis, values: Vec<f64>) -> Result<Self, LinalgError> {
+        Self::eliminated(analysis, values, (None, true))
+    }
+
+    /// Number of negative eigenvalues of a symmetric matrix (Sylvester's law of inertia: those of `B`).
+    pub fn negative_count(&self) -> usize {
+        self.fronts.iter().map(|own| own.negative_count()).sum()
+    }
+}
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dense::random_columns;
+    use crate::dense::{product, random_columns, transpose_product};
     use std::f64::consts::TAU;
 
     /// Exact: the determinant of a matrix without symmetry, in structure or in values, is that of dense elimination.
@@ -456,10 +448,70 @@ mod tests {
             }
             let exact = dense.determinant();
             let analysis = LuAnalysis::new(&pattern).unwrap();
-            let found = analysis.ln_determinant(&values).unwrap();
+            let found = ComplexSparseLu::ln_determinant(&analysis, &values).unwrap();
             assert!((found.re - exact.norm().ln()).abs() < 1e-9, "{n}");
             let turns = (found.im - exact.arg()) / TAU;
             assert!((turns - turns.round()).abs() < 1e-9, "{n} {turns}");
+        }
+    }
+
+    /// A chain of springs `K`, and a family: friction couples a few of its masses, or all, without symmetry.
+    fn family(n: usize, shift: f64, coupled: &[usize]) -> MatrixPolynomial {
+        let springs = (0..n).flat_map(|i| {
+            let next = (i + 1 < n).then(|| [(i, i + 1, -1.0), (i + 1, i, -1.0)]);
+            let far = (i + 7 < n).then(|| [(i, i + 7, -0.5), (i + 7, i, -0.5)]);
+            [(i, i, 3.1 - shift)].into_iter().chain(next.into_iter().chain(far).flatten())
+        });
+        let pairs = coupled.iter().flat_map(|&i| coupled.iter().map(move |&j| (i, j)));
+        let friction = pairs.map(|(i, j)| (i, j, ((3 * i + 5 * j) % 11) as f64 / 11.0));
+        MatrixPolynomial::from_triplets(n, &[springs.collect(), friction.collect()])
+    }
+
+    /// Exact: factors of a family solve its matrices, transposed or not, definite or not, as if each stood alone, and so do its
+    /// determinants; most fronts are eliminated once where a few unknowns are coupled.
+    #[test]
+    fn matrices_of_a_family_share_the_fronts_that_are_alike() {
+        let n = 400;
+        let (few, all) = ([17, 18, 19, 201], (0..n).collect::<Vec<_>>());
+        for (coupled, shift) in [(&few[..], 0.0), (&few, 2.0), (&all[..40], 0.0), (&all, 0.0)] {
+            let family = family(n, shift, coupled);
+            let analysis = LuAnalysis::of_family(&family).unwrap();
+            let shared = analysis.fronts.iter().filter(|front| front.is_shared).count();
+            assert_eq!(2 * shared > analysis.fronts.len(), coupled.len() < n, "{shared}");
+            for mu in [0.3, 0.0, 0.8] {
+                let values = family.evaluate(mu);
+                let lu = SparseLu::factorize(&analysis, values.clone()).unwrap();
+                let alone = LuAnalysis::of_family(&family).unwrap();
+                let alone = SparseLu::factorize(&alone, values.clone()).unwrap();
+                let matrix = family.pattern().multiply(&values, Mat::identity(n, n).as_ref());
+                let x = random_columns(n, 5, 3);
+                let mut found = product(matrix.as_ref(), x.as_ref());
+                lu.solve_in_place(found.as_mut());
+                assert!((&found - &x).norm_max() < 1e-12 * x.norm_max() * n as f64, "{mu}");
+                let mut again = product(matrix.as_ref(), x.as_ref());
+                alone.solve_in_place(again.as_mut());
+                assert_eq!(found, again);
+                let mut left = transpose_product(matrix.as_ref(), x.as_ref());
+                lu.solve_transpose_in_place(left.as_mut());
+                assert!((&left - &x).norm_max() < 1e-12 * x.norm_max() * n as f64, "{mu}");
+                let [ln, exact] = [
+                    SparseLu::ln_determinant(&analysis, &values).unwrap(),
+                    ComplexSparseLu::ln_determinant(
+                        &LuAnalysis::new(family.pattern()).unwrap(),
+                        &values.iter().map(|v| c64::new(*v, 0.0)).collect::<Vec<_>>(),
+                    )
+                    .unwrap(),
+                ];
+                assert!((ln.re - exact.re).abs() < 1e-9 * exact.re.abs());
+                assert!((ln.im.cos() - exact.im.cos()).abs() < 1e-6);
+            }
+            // A matrix that is none of the family is eliminated on its own.
+            let other: Vec<f64> = family.evaluate(0.5).iter().map(|v| 2.0 * v).collect();
+            let lu = SparseLu::factorize(&analysis, other.clone()).unwrap();
+            let x = random_columns(n, 1, 4);
+            let mut found = family.pattern().multiply(&other, x.as_ref());
+            lu.solve_in_place(found.as_mut());
+            assert!((&found - &x).norm_max() < 1e-9);
         }
     }
 
@@ -469,7 +521,8 @@ mod tests {
         let pattern = SparsityPattern::from_positions(2, [(0, 0), (0, 1), (1, 0), (1, 1)]);
         let analysis = LuAnalysis::new(&Arc::new(pattern)).unwrap();
         let one = c64::new(1.0, 0.0);
-        let refused = analysis.ln_determinant(&[one; 4]).unwrap_err().to_string();
+        let refused =
+            ComplexSparseLu::ln_determinant(&analysis, &[one; 4]).unwrap_err().to_string();
         assert!(
             refused.ends_with("its condition number is at least inf, the bound is 1e15"),
             "{refused}"

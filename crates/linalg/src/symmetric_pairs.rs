@@ -6,14 +6,10 @@ use super::gram::complement;
 use super::{BlockOperator, KrylovSchurSettings, LinalgError, krylov_schur};
 use faer::{Mat, MatRef};
 
-/// A symmetric pencil `(A, M)`, both positive definite: what the iteration asks of it.
-pub trait SymmetricPencil {
-    /// Number of unknowns.
-    fn dimension(&self) -> usize;
+/// A symmetric pencil `(A, M)`, both positive definite: the operator `A^-1 M`.
+pub trait SymmetricPencil: BlockOperator {
     /// `M x`.
     fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64>;
-    /// `A^-1 x` for each column, in place.
-    fn solve_in_place(&self, x: &mut Mat<f64>);
 }
 
 /// Pairs `A^-1 M x = theta x` by falling `theta`, with `x^T M x = 1`.
@@ -46,7 +42,7 @@ pub fn symmetric_pairs(
     let settings =
         KrylovSchurSettings { wanted, tie: 1.0, tolerance, max_applications, dense_up_to: 0 };
     let start = random_columns(n, width, 0x5eed);
-    let found = krylov_schur(&Inverse(pencil), start, &|_| true, &settings)?;
+    let found = krylov_schur(pencil, start, &|_| true, &settings)?;
     let converged = found.residuals.iter().filter(|own| **own <= tolerance).count();
 
     // Orthonormal columns, plainly first and then in the inner product of the mass.
@@ -60,8 +56,7 @@ pub fn symmetric_pairs(
 
     // The pairs in their space.
     let momenta = pencil.mass_times(basis.as_ref());
-    let mut images = momenta.clone();
-    pencil.solve_in_place(&mut images);
+    let images = pencil.apply(basis.as_ref());
     let (rising, ritz) = decomposed(transpose_product(momenta.as_ref(), images.as_ref()))?;
     let falling: Vec<usize> = (0..rising.len()).rev().take(wanted).collect();
     let ritz = pick_columns(&ritz, &falling);
@@ -78,21 +73,6 @@ fn decomposed(form: Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), LinalgError> {
         .ok_or(LinalgError::DenseEigen { dimension: form.ncols() })
 }
 
-/// `A^-1 M`.
-struct Inverse<'a>(&'a dyn SymmetricPencil);
-
-impl BlockOperator for Inverse<'_> {
-    fn dimension(&self) -> usize {
-        self.0.dimension()
-    }
-
-    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        let mut images = self.0.mass_times(x);
-        self.0.solve_in_place(&mut images);
-        images
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,19 +80,19 @@ mod tests {
     /// `diag(a)`, `diag(m)`.
     struct Diagonal(Vec<f64>, Vec<f64>);
 
-    impl SymmetricPencil for Diagonal {
+    impl BlockOperator for Diagonal {
         fn dimension(&self) -> usize {
             self.0.len()
         }
 
+        fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+            Mat::from_fn(x.nrows(), x.ncols(), |i, j| self.1[i] * x[(i, j)] / self.0[i])
+        }
+    }
+
+    impl SymmetricPencil for Diagonal {
         fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64> {
             Mat::from_fn(x.nrows(), x.ncols(), |i, j| self.1[i] * x[(i, j)])
-        }
-
-        fn solve_in_place(&self, x: &mut Mat<f64>) {
-            for j in 0..x.ncols() {
-                x.col_mut(j).iter_mut().zip(&self.0).for_each(|(v, a)| *v /= a);
-            }
         }
     }
 

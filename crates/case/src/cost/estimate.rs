@@ -9,11 +9,10 @@ use crate::{
 use frictionsim_physics::cycle::BasinRequest;
 use frictionsim_physics::fem::{ElasticMaterial, RegionMaterial};
 use frictionsim_physics::frf::FrfBoundary;
-use frictionsim_physics::linalg::{LdlAnalysis, SparsityPattern};
+use frictionsim_physics::linalg::SparsityPattern;
 use frictionsim_physics::mesh::{Mesh, SolidSpecification};
 use frictionsim_physics::transient::{OperatorChoice, stable_step_limit};
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Operations for each eigenvalue of a harmonic: iterations, residual, its branch over friction.
 const HARMONIC_PAIR: f64 = 5e5;
@@ -298,8 +297,8 @@ fn factor_entries(mesh: &Mesh, unknowns: f64) -> f64 {
         let nodes = mesh.element_nodes(element);
         nodes.iter().flat_map(|&i| nodes.iter().map(move |&j| (i as usize, j as usize)))
     });
-    let pattern = Arc::new(SparsityPattern::from_positions(mesh.nodes.len(), pairs));
-    let own = LdlAnalysis::new(&pattern).map_or(f64::INFINITY, |own| own.entry_count() as f64);
+    let pattern = SparsityPattern::from_positions(mesh.nodes.len(), pairs);
+    let own = pattern.factor_entry_count().map_or(f64::INFINITY, |own| own as f64);
     9.0 * own * (unknowns / mesh.dof_count() as f64).powf(4.0 / 3.0)
 }
 

@@ -133,20 +133,6 @@ impl BandedMatrix {
         self.values.iter().all(|value| *value == 0.0)
     }
 
-    /// Rows and columns `kept` (ascending) alone.
-    #[inline]
-    pub fn restricted_to(&self, kept: &[usize]) -> Self {
-        let mut result = Self::zeros(kept.len(), self.half_bandwidth);
-        for (row, &old_row) in kept.iter().enumerate() {
-            for column in result.columns(row) {
-                let value = self.get(old_row, kept[column]);
-                let place = result.place(row, column);
-                result.values[place] = value;
-            }
-        }
-        result
-    }
-
     /// `A x`.
     #[inline]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {

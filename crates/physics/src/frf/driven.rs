@@ -1,9 +1,7 @@
 //! A system between two ports, and its sparse factorizations.
 
 use super::{FrfError, FrfSystem, Port};
-use crate::linalg::{
-    ComplexSparseLu, LdlAnalysis, LinalgError, LuAnalysis, MatMut, RealFactors, c64,
-};
+use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, MatMut, SparseLu, c64};
 
 /// Factors of a frequency by which a factorization evades an undamped resonance: beside it it serves as well.
 pub(super) const BESIDE: [f64; 3] = [1.0, 1.000_7, 0.999_1];
@@ -14,7 +12,6 @@ pub(super) struct Driven<'a> {
     pub force: &'a Port,
     pub response: &'a Port,
     pub lu: LuAnalysis,
-    ldl: LdlAnalysis,
 }
 
 impl<'a> Driven<'a> {
@@ -25,8 +22,7 @@ impl<'a> Driven<'a> {
     ) -> Result<Self, FrfError> {
         let fail = |source| FrfError::Factorization { frequency_hz, source };
         let lu = LuAnalysis::new(&system.pattern).map_err(fail)?;
-        let ldl = LdlAnalysis::new(&system.pattern).map_err(fail)?;
-        Ok(Self { system, force, response, lu, ldl })
+        Ok(Self { system, force, response, lu })
     }
 
     /// One line by a complex factorization of its own.
@@ -43,13 +39,9 @@ impl<'a> Driven<'a> {
     }
 
     /// Real factors of `K - omega^2 M`, at or beside a frequency.
-    pub fn real_factors(&self, frequency_hz: f64) -> Result<RealFactors, FrfError> {
-        let factorized = |moved: f64| -> Result<RealFactors, LinalgError> {
-            let values = self.system.undamped_stiffness(frequency_hz * moved);
-            match self.system.is_symmetric {
-                true => RealFactors::symmetric(&self.ldl, &values),
-                false => RealFactors::general(&self.lu, values),
-            }
+    pub fn real_factors(&self, frequency_hz: f64) -> Result<SparseLu, FrfError> {
+        let factorized = |moved: f64| -> Result<SparseLu, LinalgError> {
+            SparseLu::factorize(&self.lu, self.system.undamped_stiffness(frequency_hz * moved))
         };
         let [first, others @ ..] = BESIDE;
         let found = others
@@ -60,8 +52,8 @@ impl<'a> Driven<'a> {
 }
 
 /// The solution for one right side.
-pub(super) fn solved(factors: &RealFactors, mut x: Vec<f64>) -> Vec<f64> {
+pub(super) fn solved(factors: &SparseLu, mut x: Vec<f64>) -> Vec<f64> {
     let count = x.len();
-    factors.solve(MatMut::from_column_major_slice_mut(&mut x, count, 1), false);
+    factors.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, count, 1));
     x
 }

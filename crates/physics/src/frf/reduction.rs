@@ -43,7 +43,8 @@ pub struct ReducedResponse {
 /// # Errors
 /// [`FrfError::NotReduced`] if the most shifts do not reach the tolerance; those of [`super::direct_response`].
 ///
-/// Source: C. Beattie, S. Gugercin, "Interpolatory projection methods for structure-preserving ...", Syst. Control Lett. 58 (2009) 225.
+/// Source: C. Beattie and S. Gugercin, Interpolatory projection methods for structure-preserving model reduction, Systems & Control
+/// Letters 58 (2009).
 pub fn reduced_response(
     system: &FrfSystem,
     force: &Port,

@@ -28,8 +28,6 @@ pub struct FrfSystem {
     pub(super) matrices: MotionMatrices<Vec<f64>>,
     /// Coefficients of `C = alpha_R M + beta_R K`; `None` for any other damping.
     pub(super) proportional: Option<RayleighDamping>,
-    /// Whether `M` and `K` are known to be symmetric.
-    pub(super) is_symmetric: bool,
     unknowns: DofMap,
     /// Dofs that are combinations of the unknowns, as full dofs.
     followers: Vec<(usize, Row)>,
@@ -62,15 +60,14 @@ impl FrfSystem {
             pattern: Arc::clone(tangent.stiffness.pattern()),
             matrices: MotionMatrices::of(tangent, |own| own.evaluate(friction_coefficient)),
             proportional: tangent.proportional,
-            is_symmetric: false,
             unknowns: tangent.unknowns.clone(),
             followers: tangent.distances.clone(),
         }
     }
 
-    /// Bodies without contact from their tangent, whose matrices are symmetric unless a body turns.
+    /// Bodies without contact from their tangent.
     pub fn tied(tangent: &SlidingTangent) -> Self {
-        Self { is_symmetric: !tangent.is_gyroscopic, ..Self::sliding(tangent, 0.0) }
+        Self::sliding(tangent, 0.0)
     }
 
     /// Number of unknowns.

@@ -41,7 +41,7 @@ use frictionsim_case::{Case, Cea, Diagnostic, ModeLimit};
 use frictionsim_physics::cea::sparse::FrictionlessModes;
 use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
 use frictionsim_physics::linalg::banded::BandedFactor;
-use frictionsim_physics::linalg::{LdlAnalysis, SparseLdl};
+use frictionsim_physics::linalg::{LuAnalysis, SparseLu};
 use frictionsim_results::cea::CeaReport;
 pub use frictionsim_results::cea::Solution;
 use solve::at_key;
@@ -111,8 +111,8 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     };
     let [stiffness, mass] = [&tangent.stiffness, &tangent.mass].map(|own| own.evaluate(0.0));
     let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k - kappa * m).collect();
-    let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).map_err(CeaError::from)?;
-    if SparseLdl::factorize(&analysis, &shifted).is_ok_and(|f| f.negative_count() > MOST_RIGID) {
+    let analysis = LuAnalysis::new(tangent.stiffness.pattern()).map_err(CeaError::from)?;
+    if SparseLu::symmetric(&analysis, shifted).is_ok_and(|f| f.negative_count() > MOST_RIGID) {
         return Ok(());
     }
     let found = FrictionlessModes::compute(&tangent, cea.modes);

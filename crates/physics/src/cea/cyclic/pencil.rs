@@ -3,7 +3,7 @@
 use crate::cea::accuracy::CONVERGED;
 use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
 use crate::linalg::dense::column;
-use crate::linalg::{Mat, MatRef, SymmetricPairs, SymmetricPencil, symmetric_pairs};
+use crate::linalg::{BlockOperator, Mat, MatRef, SymmetricPairs, SymmetricPencil, symmetric_pairs};
 
 /// The pencil of one harmonic at rest over the unknowns that may move, and its stiffness factorized.
 pub(super) struct Pencil {
@@ -69,16 +69,20 @@ impl Pencil {
     }
 }
 
-impl SymmetricPencil for Pencil {
+impl BlockOperator for Pencil {
     fn dimension(&self) -> usize {
         self.bands[0].dimension()
     }
 
+    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        let mut images = self.mass_times(x);
+        (0..x.ncols()).for_each(|j| self.factor.solve(images.col_as_slice_mut(j)));
+        images
+    }
+}
+
+impl SymmetricPencil for Pencil {
     fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64> {
         self.mass.multiply_columns(&x.to_owned())
-    }
-
-    fn solve_in_place(&self, x: &mut Mat<f64>) {
-        (0..x.ncols()).for_each(|j| self.factor.solve(x.col_as_slice_mut(j)));
     }
 }

@@ -15,7 +15,8 @@ use crate::linalg::dense::{
     pick_columns, random_columns,
 };
 use crate::linalg::{
-    BlockOperator, KrylovSchurSettings, LdlAnalysis, MatrixPolynomial, RealFactors, krylov_schur,
+    BlockOperator, KrylovSchurSettings, LinalgError, LuAnalysis, MatrixPolynomial, SparseLu,
+    krylov_schur,
 };
 use crate::linalg::{Mat, c64};
 use crate::prestress::SlidingTangent;
@@ -39,10 +40,12 @@ pub struct BasisBuilder<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
     /// Factors of `K(0) - sigma M(0)`.
-    pub(super) factors: RealFactors,
+    pub(super) factors: SparseLu,
     /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
     stiffness: Cow<'a, MatrixPolynomial>,
     pub(super) analysis: SharedAnalysis,
+    /// That of this stiffness at any friction.
+    family: SharedAnalysis,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -65,7 +68,7 @@ impl<'a> BasisBuilder<'a> {
         tangent: &'a SlidingTangent,
         linearization: Linearization,
         (modes, rigid): (&Mat<f64>, usize),
-        factors: RealFactors,
+        factors: SparseLu,
         watch: &'a dyn SweepWatch,
     ) -> Self {
         let mut model = ReducedModel::empty(tangent, linearization);
@@ -84,6 +87,7 @@ impl<'a> BasisBuilder<'a> {
             factors,
             stiffness: linearization.centred_stiffness(tangent),
             analysis: SharedAnalysis::default(),
+            family: SharedAnalysis::default(),
             model,
             count: modes.ncols() - rigid,
             rigid,
@@ -92,6 +96,11 @@ impl<'a> BasisBuilder<'a> {
             watch,
             steps: 0,
         }
+    }
+
+    /// The order of elimination of stiffness about the centre at any friction.
+    pub(super) fn family(&self) -> Result<&LuAnalysis, LinalgError> {
+        self.family.of(|| LuAnalysis::of_family(&self.stiffness))
     }
 
     /// The columns of the next step at `mu`: those that an earlier run of the same sweep found, else those that `find` does.
@@ -140,7 +149,7 @@ impl<'a> BasisBuilder<'a> {
             let x = self.model.expand(coordinates);
             let (residuals, momenta) = matrices.residuals_and_momenta(&entries, x.as_ref());
             let mut corrections = residuals.clone();
-            self.factors.solve(corrections.as_mut(), false);
+            self.factors.solve_in_place(corrections.as_mut());
             let is_open = |entry: &&PackedEntry| {
                 let size = |own| entry.vector(own).norm();
                 let energy = |a: &Mat<f64>, b: &Mat<f64>| -> f64 {
@@ -193,16 +202,7 @@ impl<'a> BasisBuilder<'a> {
         leading: Option<usize>,
     ) -> Result<Mat<f64>, CeaError> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let factors = match mu {
-            0.0 if self.linearization.is_symmetric(self.tangent) => {
-                let analysis = LdlAnalysis::new(self.stiffness.pattern())?;
-                RealFactors::symmetric(&analysis, &self.stiffness.evaluate(mu))?
-            }
-            _ => {
-                let analysis = self.analysis.of(self.stiffness.pattern())?;
-                RealFactors::general(analysis, self.stiffness.evaluate(mu))?
-            }
-        };
+        let factors = SparseLu::factorize(self.family()?, self.stiffness.evaluate(mu))?;
         let operator = ShiftInverted::new(&matrices, &factors);
 
         // The start.

@@ -8,7 +8,7 @@ use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
 use crate::linalg::{
-    LdlAnalysis, LinalgError, Mat, MatRef, MatrixPolynomial, RealFactors, SparseLdl,
+    BlockOperator, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial, SparseLu,
     SymmetricPairs, SymmetricPencil, symmetric_pairs,
 };
 use crate::prestress::SlidingTangent;
@@ -33,7 +33,7 @@ pub struct FrictionlessModes {
     /// Where the eigenproblems with friction are centred.
     pub centre: Centre,
     /// Factors of `K(0) - sigma M(0)`, `sigma` amid the modes where it can be.
-    pub factors: RealFactors,
+    pub factors: SparseLu,
 }
 
 impl FrictionlessModes {
@@ -196,21 +196,25 @@ impl Lowest {
 struct ShiftedPencil<'a> {
     mass: &'a MatrixPolynomial,
     values: Vec<f64>,
-    factors: SparseLdl,
+    factors: SparseLu,
 }
 
-impl SymmetricPencil for ShiftedPencil<'_> {
+impl BlockOperator for ShiftedPencil<'_> {
     fn dimension(&self) -> usize {
         self.mass.dimension()
     }
 
+    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        let mut images = self.mass_times(x);
+        self.factors.solve_in_place(images.as_mut());
+        images
+    }
+}
+
+impl SymmetricPencil for ShiftedPencil<'_> {
     fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64> {
         // Symmetric: the transpose needs no nonzeros sorted by rows.
         self.mass.pattern().multiply_transpose(&self.values, x)
-    }
-
-    fn solve_in_place(&self, x: &mut Mat<f64>) {
-        self.factors.solve_in_place(x.as_mut());
     }
 }
 
@@ -243,7 +247,7 @@ fn frequency_amid(frequencies: &[f64]) -> Option<f64> {
 struct Inertia<'a> {
     stiffness: &'a MatrixPolynomial,
     mass: &'a MatrixPolynomial,
-    analysis: LdlAnalysis,
+    analysis: LuAnalysis,
 }
 
 impl<'a> Inertia<'a> {
@@ -251,7 +255,7 @@ impl<'a> Inertia<'a> {
         Ok(Self {
             stiffness: &tangent.stiffness,
             mass: &tangent.mass,
-            analysis: LdlAnalysis::new(tangent.stiffness.pattern())?,
+            analysis: LuAnalysis::new(tangent.stiffness.pattern())?,
         })
     }
 
@@ -261,7 +265,7 @@ impl<'a> Inertia<'a> {
         let mut converged = 0;
         for attempt in 0..MOST_ATTEMPTS {
             let factors = loop {
-                match SparseLdl::factorize(&self.analysis, &self.shifted(-*shift)) {
+                match self.factors_at(-*shift) {
                     Ok(factors) if factors.negative_count() == 0 => break factors,
                     Err(error) if !(*shift < self.largest_ratio()) => return Err(error),
                     _ => *shift *= 10.0,
@@ -324,23 +328,22 @@ impl<'a> Inertia<'a> {
         if !tangent.is_gyroscopic {
             return Ok(below);
         }
-        let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0));
-        let unheld = ldl.map_or(0, |ldl| ldl.negative_count());
+        let unheld = self.factors_at(0.0).map_or(0, |own| own.negative_count());
         Ok(below.max(gyroscopic_count(tangent, omega)? + unheld))
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes, else those of `K + shift M`.
-    fn factors(&self, frequencies: &[f64], shift: f64) -> Result<RealFactors, LinalgError> {
-        let factorize = |shift: f64| RealFactors::symmetric(&self.analysis, &self.shifted(shift));
+    fn factors(&self, frequencies: &[f64], shift: f64) -> Result<SparseLu, LinalgError> {
         // There may be no such gap, or no such factors.
-        let amid = frequency_amid(frequencies).and_then(|amid| factorize(amid.powi(2)).ok());
-        amid.map_or_else(|| factorize(-shift), Ok)
+        let amid = frequency_amid(frequencies).and_then(|amid| self.factors_at(amid.powi(2)).ok());
+        amid.map_or_else(|| self.factors_at(-shift), Ok)
     }
 
-    /// Values of `K - shift M`.
-    fn shifted(&self, shift: f64) -> Vec<f64> {
+    /// Factors of `K - shift M`.
+    fn factors_at(&self, shift: f64) -> Result<SparseLu, LinalgError> {
         let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
-        stiffness.iter().zip(&mass).map(|(k, m)| k - shift * m).collect()
+        let values = stiffness.iter().zip(&mass).map(|(k, m)| k - shift * m);
+        SparseLu::symmetric(&self.analysis, values.collect())
     }
 
     /// About the largest eigenvalue of the pencil: the largest ratio of the diagonals.
@@ -354,9 +357,7 @@ impl<'a> Inertia<'a> {
 
     /// Number of modes below an angular frequency, by Sylvester's law of inertia.
     fn count_below(&self, frequency: f64) -> Result<usize, LinalgError> {
-        counted(frequency, |frequency| {
-            SparseLdl::factorize(&self.analysis, &self.shifted(frequency * frequency))
-        })
+        counted(frequency, |frequency| self.factors_at(frequency * frequency))
     }
 }
 

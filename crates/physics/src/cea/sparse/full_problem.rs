@@ -8,12 +8,14 @@ use std::sync::{Arc, OnceLock};
 
 /// Order of elimination of all matrices of one tangent, made for the first factors.
 #[derive(Clone, Default)]
-pub struct SharedAnalysis(Arc<OnceLock<Result<LuAnalysis, LinalgError>>>);
+pub struct SharedAnalysis(Arc<OnceLock<Analysed>>);
+
+type Analysed = Result<LuAnalysis, LinalgError>;
 
 impl SharedAnalysis {
-    /// The analysis of `pattern`, the same each time.
-    pub fn of(&self, pattern: &Arc<SparsityPattern>) -> Result<&LuAnalysis, LinalgError> {
-        self.0.get_or_init(|| LuAnalysis::new(pattern)).as_ref().map_err(Clone::clone)
+    /// What `analyse` gives, the same each time.
+    pub fn of(&self, analyse: impl FnOnce() -> Analysed) -> Result<&LuAnalysis, LinalgError> {
+        self.0.get_or_init(analyse).as_ref().map_err(Clone::clone)
     }
 }
 
@@ -63,14 +65,18 @@ impl<'a> FullProblem<'a> {
         residual
     }
 
+    fn analysis(&self) -> Result<&LuAnalysis, LinalgError> {
+        self.analysis.of(|| LuAnalysis::new(self.pattern))
+    }
+
     /// LU factors of `T(lambda)`.
     pub fn factors(&self, lambda: c64) -> Result<ComplexSparseLu, LinalgError> {
-        ComplexSparseLu::factorize(self.analysis.of(self.pattern)?, self.values.at(lambda))
+        ComplexSparseLu::factorize(self.analysis()?, self.values.at(lambda))
     }
 
     /// `ln det T(lambda)`, up to multiples of `2 pi i`; an error at an eigenvalue.
     pub fn ln_determinant(&self, lambda: c64) -> Result<c64, LinalgError> {
-        self.analysis.of(self.pattern)?.ln_determinant(&self.values.at(lambda))
+        ComplexSparseLu::ln_determinant(self.analysis()?, &self.values.at(lambda))
     }
 
     /// `w^T T(lambda) x`.

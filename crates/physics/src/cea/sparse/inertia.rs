@@ -1,19 +1,18 @@
 //! Modes below a frequency, counted by Sylvester's law of inertia.
 
 use crate::cea::accuracy::HALF_THE_DIGITS;
-use crate::linalg::{LdlAnalysis, LinalgError, SparseLdl, SparsityPattern};
+use crate::linalg::{LinalgError, LuAnalysis, SparseLu, SparsityPattern};
 use crate::prestress::SlidingTangent;
 use std::sync::Arc;
 
-/// Negative eigenvalues of what is factorized at an angular frequency. One that the unpivoted factorization cannot bear is moved by
-/// parts in 1e8 a few times.
+/// Negative eigenvalues of what is factorized at an angular frequency. One beside a mode is moved by parts in 1e8 a few times.
 pub(super) fn counted(
     frequency: f64,
-    factorize: impl Fn(f64) -> Result<SparseLdl, LinalgError>,
+    factorize: impl Fn(f64) -> Result<SparseLu, LinalgError>,
 ) -> Result<usize, LinalgError> {
     let count = |attempt: i32| {
         let moved = frequency * (1.0 + HALF_THE_DIGITS * f64::from(attempt));
-        factorize(moved).map(|ldl| ldl.negative_count())
+        factorize(moved).map(|factors| factors.negative_count())
     };
     (1..5).fold(count(0), |outcome, attempt| outcome.or_else(|_| count(attempt)))
 }
@@ -39,7 +38,7 @@ pub(super) fn gyroscopic_count(tangent: &SlidingTangent, omega: f64) -> Result<u
     });
     let whole = SparsityPattern::from_positions(2 * n, positions.map(|[i, j]| (i, j)));
     let whole = Arc::new(whole);
-    let analysis = LdlAnalysis::new(&whole)?;
+    let analysis = LuAnalysis::new(&whole)?;
     let [stiffness, damping, mass] =
         [&tangent.stiffness, &tangent.damping, &tangent.mass].map(|own| own.evaluate(0.0));
     let negative = counted(omega, |omega| {
@@ -62,7 +61,7 @@ pub(super) fn gyroscopic_count(tangent: &SlidingTangent, omega: f64) -> Result<u
                 });
             }
         }
-        SparseLdl::factorize(&analysis, &values)
+        SparseLu::symmetric(&analysis, values)
     })?;
     Ok(negative / 2)
 }

@@ -9,7 +9,7 @@ use super::{BESIDE, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS};
 use crate::cea::ModeVectors;
 use crate::linalg::dense::{add_product, product, transpose_product};
 use crate::linalg::vectors::{dot, length};
-use crate::linalg::{ComplexDenseLu, Mat, RealFactors, c64};
+use crate::linalg::{ComplexDenseLu, Mat, SparseLu, c64};
 use crate::prestress::{MotionMatrices, SlidingTangent};
 use std::ops::Deref;
 use std::sync::LazyLock;
@@ -33,7 +33,7 @@ const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
 /// R. A. Nicolaides, SIAM J. Numer. Anal. 24 (1987), deflation.
 pub fn correct_lefts(
     (tangent, linearization): (&SlidingTangent, Linearization),
-    (factors, modes): (&RealFactors, Mat<f64>),
+    (factors, modes): (&SparseLu, Mat<f64>),
     mu: f64,
     pairs: &mut [ModeVectors],
 ) {
@@ -125,7 +125,7 @@ impl AmongModes {
 /// Corrects some modes together.
 fn correct_group(
     (matrices, linearization): (&StructureMatrices<'_>, Linearization),
-    (factors, modes): (&RealFactors, &impl Deref<Target = AmongModes>),
+    (factors, modes): (&SparseLu, &impl Deref<Target = AmongModes>),
     pairs: &mut [ModeVectors],
 ) {
     let (inverse_values, starts): (Vec<c64>, Vec<Vec<c64>>) =
@@ -137,7 +137,7 @@ fn correct_group(
     // `[w, T(lambda)^T w, P^-1 T(lambda)^T w]` of each.
     let mapped = |entries: &[PackedEntry], vectors: Mat<f64>, images: Mat<f64>| -> Vec<Mapped> {
         let mut solved = images.clone();
-        factors.solve(solved.as_mut(), false);
+        factors.solve_in_place(solved.as_mut());
         let all = [vectors, images, solved];
         entries.iter().map(|entry| all.each_ref().map(|own| entry.joined(own))).collect()
     };

@@ -67,11 +67,6 @@ impl Linearization {
         })
     }
 
-    /// Whether that is symmetric without friction.
-    pub fn is_symmetric(self, tangent: &SlidingTangent) -> bool {
-        !tangent.is_gyroscopic || self.centre().shift == 0.0 || matches!(self, Self::Reduced(..))
-    }
-
     /// `kappa`, or `lambda`, that belongs to the eigenvalue `s` of the shift-inverted operator: `kappa = 1/s - c^2`,
     /// `lambda = c + omega/s`.
     pub fn value(self, s: c64) -> c64 {

@@ -1,9 +1,8 @@
 //! Modes of projected matrices whose stiffness depends on frequency, each at its own frequency.
 
-use super::MOST_STEPS;
-use super::NEAR;
 use super::mode::ReducedMode;
 use super::projected::ProjectedMatrices;
+use super::{MOST_STEPS, NEAR};
 use crate::linalg::LinalgError;
 use std::f64::consts::TAU;
 

@@ -4,7 +4,7 @@ use super::linearization::Linearization;
 use super::packed::{PackedEntry, add_complex_multiple};
 use crate::linalg::dense::join_rows;
 use crate::linalg::{BlockOperator, MatrixPolynomial, SparsityPattern};
-use crate::linalg::{Mat, MatRef, RealFactors, c64};
+use crate::linalg::{Mat, MatRef, SparseLu, c64};
 use crate::prestress::{LossGain, MotionMatrices, SlidingTangent};
 use std::sync::Arc;
 
@@ -158,14 +158,14 @@ impl<'a> StructureMatrices<'a> {
 /// ```
 pub struct ShiftInverted<'a> {
     matrices: &'a StructureMatrices<'a>,
-    factors: &'a RealFactors,
+    factors: &'a SparseLu,
     /// Nonzero values by rows of `M`, or of `-omega C` and `-omega^2 M`.
     values: Vec<Vec<f64>>,
 }
 
 impl<'a> ShiftInverted<'a> {
     /// The operator of `matrices` at the friction coefficient of the `factors` of what takes the place of `K`.
-    pub fn new(matrices: &'a StructureMatrices<'a>, factors: &'a RealFactors) -> Self {
+    pub fn new(matrices: &'a StructureMatrices<'a>, factors: &'a SparseLu) -> Self {
         let MotionMatrices { damping, mass, .. } = &matrices.values;
         let values = match matrices.linearization {
             Linearization::Reduced(..) => vec![mass.clone()],
@@ -188,12 +188,12 @@ impl BlockOperator for ShiftInverted<'_> {
         let pattern = self.matrices.pattern;
         let [damping, mass] = &self.values[..] else {
             let [mut image] = pattern.multiply_sorted([&self.values[0]], z);
-            self.factors.solve(image.as_mut(), false);
+            self.factors.solve_in_place(image.as_mut());
             return image;
         };
         let (x, y) = z.split_at_row(pattern.dimension());
         let mut top = pattern.multiply_sum([damping, mass], [x, y]);
-        self.factors.solve(top.as_mut(), false);
+        self.factors.solve_in_place(top.as_mut());
         join_rows(top.as_ref(), x)
     }
 }

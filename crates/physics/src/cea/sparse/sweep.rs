@@ -330,7 +330,7 @@ mod tests {
     use crate::cea::Unwatched;
     use crate::cea::sparse::fixtures::string_on_belt;
     use crate::cea::sparse::linearization::Centre;
-    use crate::linalg::{LdlAnalysis, RealFactors};
+    use crate::linalg::{LuAnalysis, SparseLu};
 
     /// Consistency check: a mode taken away from one point is missed by the tracking and found again, with proportional
     /// and with general damping.
@@ -372,8 +372,8 @@ mod tests {
         let before = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
         let after = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
-        let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).unwrap();
-        let factors = RealFactors::symmetric(&analysis, &tangent.stiffness.evaluate(0.0)).unwrap();
+        let analysis = LuAnalysis::new(tangent.stiffness.pattern()).unwrap();
+        let factors = SparseLu::symmetric(&analysis, tangent.stiffness.evaluate(0.0)).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
         complete.improve_at(0.2).unwrap();

@@ -192,7 +192,7 @@ impl BasisBuilder<'_> {
             let problem = FullProblem::at(builder.tangent, *mu);
             let residuals = sides.map(|is_left| builder.residual(&problem, mode, is_left));
             let mut parts = side_by_side(problem.dimension(), &residuals);
-            builder.factors.solve(parts.as_mut(), false);
+            builder.factors.solve_in_place(parts.as_mut());
             turn_to_real(&mut parts);
             parts
         })

@@ -5,7 +5,7 @@ use crate::cea::sparse::SETTLED;
 use crate::cea::sparse::branches::{BranchEnd, TrackedBranch};
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::{CeaError, UnstableInterval};
-use crate::linalg::{Bracket, c64};
+use crate::linalg::{Bracket, SparseLu, c64};
 
 impl SparseSweep<'_> {
     /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
@@ -89,13 +89,12 @@ impl SparseSweep<'_> {
 
     /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
     fn ln_static(&self, mu: f64) -> Result<c64, CeaError> {
-        let analysis = self.builder.analysis.of(self.tangent.stiffness.pattern())?;
         let mut values = self.tangent.stiffness.evaluate(mu);
         let growth = self.linearization.least_growth();
         let [damping, mass] = [&self.tangent.damping, &self.tangent.mass].map(|p| p.evaluate(mu));
         let terms = values.iter_mut().zip(damping.iter().zip(&mass));
         terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m));
-        let found = analysis.ln_determinant(&values);
+        let found = SparseLu::ln_determinant(self.builder.family()?, &values);
         Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }
 }
