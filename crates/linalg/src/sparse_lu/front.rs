@@ -193,21 +193,19 @@ fn inverse_blocks<T: Scalar>(pivots: MatRef<'_, T>, beside: &[T]) -> Vec<[T; 2]>
     inverse
 }
 
-/// `B^-1 y` in place.
+/// `B^-1 y` in place, row by row.
 fn divide<T: Scalar>(inverse: &[[T; 2]], mut y: MatMut<'_, T>) {
-    let zero = T::zero_impl();
-    for j in 0..y.ncols() {
-        let mut i = 0;
-        while i < inverse.len() {
-            let ([own, beside], first) = (inverse[i], y[(i, j)]);
+    let mut rows = inverse.iter().enumerate();
+    while let Some((i, &[own, beside])) = rows.next() {
+        let next = (beside != T::zero_impl()).then(|| rows.next()).flatten();
+        for j in 0..y.ncols() {
+            let first = y[(i, j)];
             y[(i, j)] = own * first;
-            if beside != zero {
-                let second = y[(i + 1, j)];
-                y[(i, j)] = own * first + beside * second;
-                y[(i + 1, j)] = beside * first + inverse[i + 1][0] * second;
-                i += 1;
+            if let Some((k, &[other, _])) = next {
+                let second = y[(k, j)];
+                y[(i, j)] += beside * second;
+                y[(k, j)] = beside * first + other * second;
             }
-            i += 1;
         }
     }
 }

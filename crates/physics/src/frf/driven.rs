@@ -1,7 +1,7 @@
 //! A system between two ports, and its sparse factorizations.
 
 use super::{FrfError, FrfSystem, Port};
-use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, MatMut, SparseLu, c64};
+use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, SparseLu, c64};
 
 /// Factors of a frequency by which a factorization evades an undamped resonance: beside it it serves as well.
 pub(super) const BESIDE: [f64; 3] = [1.0, 1.000_7, 0.999_1];
@@ -49,11 +49,4 @@ impl<'a> Driven<'a> {
             .fold(factorized(first), |found, moved| found.or_else(|_| factorized(*moved)));
         found.map_err(|source| FrfError::Factorization { frequency_hz, source })
     }
-}
-
-/// The solution for one right side.
-pub(super) fn solved(factors: &SparseLu, mut x: Vec<f64>) -> Vec<f64> {
-    let count = x.len();
-    factors.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, count, 1));
-    x
 }

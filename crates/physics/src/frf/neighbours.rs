@@ -1,6 +1,6 @@
 //! Lines close to each other, solved from one factorization.
 
-use super::driven::{Driven, solved};
+use super::driven::Driven;
 use super::krylov::KrylovSpace;
 use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND};
 use crate::fem::RayleighDamping;
@@ -33,12 +33,12 @@ impl Driven<'_> {
         let (system, count) = (self.system, self.system.dimension());
         let middle = 0.5 * (lines[0] + lines[lines.len() - 1]);
         let factors = self.real_factors(middle).ok()?;
-        let mut space = KrylovSpace::new(solved(&factors, self.force.force(count)));
+        let mut space = KrylovSpace::new(factors.solve(self.force.force(count)));
         let sigma = (TAU * middle).powi(2);
         let distance = |f: &f64| rayleigh.kappa(c64::new(0.0, TAU * f)) - sigma;
         let distances: Vec<c64> = lines.iter().map(distance).collect();
         let mass = &system.matrices.mass;
-        let multiply = |v: &[f64]| solved(&factors, system.multiply(mass, v));
+        let multiply = |v: &[f64]| factors.solve(system.multiply(mass, v));
         let found = space.solve(&distances, multiply);
         let vectors = lines.iter().zip(found).map(|(f, mut y)| {
             let factor = c64::new(1.0, TAU * f * rayleigh.stiffness_coefficient);

@@ -5,7 +5,7 @@ use super::joined_points::JoinedPoints;
 use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, Pressing};
 use crate::contact::{Point, Row};
 use crate::fem::Triplets;
-use crate::linalg::{DenseLu, Mat, SparseCholesky};
+use crate::linalg::{DenseLu, Mat, SparseLu};
 
 /// Contact points whose responses are computed together.
 const BLOCK: usize = 32;
@@ -32,7 +32,7 @@ const NODES: usize = 7;
 /// One solution for each point serves both: `B` has the rows of `t` and the columns of `K*^-1 n`, since `K*` is symmetric.
 pub(super) struct CondensedContact<'a> {
     points: JoinedPoints<'a>,
-    solver: SparseCholesky,
+    solver: SparseLu,
     /// `A` and `B`.
     normal_response: Mat<f64>,
     drag_response: Mat<f64>,

@@ -1,13 +1,13 @@
 //! Steady sliding of a body whose contact is pressed all around: its normal forces do not depend on friction.
 
 use super::PrestressError;
-use super::cholesky::factorized;
 use super::elimination::Elimination;
+use super::factors::factorized;
 use super::penalty::PenaltyContact;
 use super::pressed_state::{PressedBodies, Pressing};
 use crate::contact::{ContactInterface, Point, PressedState};
 use crate::fem::{DofMap, Triplets};
-use crate::linalg::SparseCholesky;
+use crate::linalg::SparseLu;
 
 /// A body with the separations of its contact points prescribed.
 pub(super) struct FullSliding<'a> {
@@ -18,7 +18,7 @@ pub(super) struct FullSliding<'a> {
     /// Stiffness over separations and the other dofs.
     stiffness: Triplets,
     unknowns: DofMap,
-    solver: SparseCholesky,
+    solver: SparseLu,
 }
 
 impl<'a> FullSliding<'a> {

@@ -1,12 +1,12 @@
 //! Bodies over their unknowns, with springs at their contact points.
 
 use super::PrestressError;
-use super::cholesky::factorized;
+use super::factors::factorized;
 use super::pressed_state::{ContactState, Pressing};
 use crate::contact::{Row, scaled};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::dense::{column, column_mut};
-use crate::linalg::{Mat, SparseCholesky};
+use crate::linalg::{Mat, SparseLu};
 
 /// Bodies and the rows of their contact points over the unknowns. Bodies may be held by contact alone: what is factorized has
 /// springs at the points,
@@ -45,7 +45,7 @@ impl<'a> JoinedPoints<'a> {
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn factorize(&self, springs: &[f64]) -> Result<SparseCholesky, PrestressError> {
+    pub fn factorize(&self, springs: &[f64]) -> Result<SparseLu, PrestressError> {
         let mut held = self.stiffness.clone();
         for (row, spring) in self.normals.iter().zip(springs) {
             let row = row.iter().map(|&(unknown, along)| (self.unknowns.dofs[unknown], along));
@@ -62,12 +62,7 @@ impl<'a> JoinedPoints<'a> {
     }
 
     /// `P^-1` times `load` and, a column each, forces along the normals and drags of the points.
-    pub fn respond(
-        &self,
-        solver: &SparseCholesky,
-        load: &[f64],
-        along: &[Vec<[f64; 2]>],
-    ) -> Mat<f64> {
+    pub fn respond(&self, solver: &SparseLu, load: &[f64], along: &[Vec<[f64; 2]>]) -> Mat<f64> {
         let mut block = Mat::zeros(load.len(), along.len());
         for (j, forces) in along.iter().enumerate() {
             let right_side = column_mut(&mut block, j);
@@ -91,7 +86,7 @@ impl<'a> JoinedPoints<'a> {
     /// Displacement of every dof from the state of the points, with `P` of these springs.
     pub fn displacement(
         &self,
-        (solver, springs): (&SparseCholesky, &[f64]),
+        (solver, springs): (&SparseLu, &[f64]),
         friction_coefficient: f64,
         state: &ContactState,
     ) -> Vec<f64> {

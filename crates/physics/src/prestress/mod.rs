@@ -8,12 +8,12 @@
 //! harmonic by harmonic: of a plane annulus around [`SectorSliding`], of a body of revolution around [`SolidSliding`].
 
 mod assembly;
-mod cholesky;
 mod complementarity;
 mod condensed;
 mod cyclic_pressing;
 mod elimination;
 mod error;
+mod factors;
 mod friction_polynomial;
 mod frozen;
 mod full_sliding;

@@ -4,7 +4,7 @@ use super::PrestressError;
 use super::joined_points::JoinedPoints;
 use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, widened};
 use crate::linalg::dense::{column, difference};
-use crate::linalg::{LinearFamily, SparseCholesky};
+use crate::linalg::{LinearFamily, SparseLu};
 
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
 const OPEN_SHARE: f64 = 1e-6;
@@ -53,7 +53,7 @@ pub(super) struct PenaltyContact<'a> {
     springs: Vec<f64>,
     pushed: Vec<f64>,
     /// `P`, the points pressed in it, and `r_i k_i` in it, N/m.
-    solver: SparseCholesky,
+    solver: SparseLu,
     factorized: Vec<bool>,
     held: Vec<f64>,
     /// Whether the last solution took too long.

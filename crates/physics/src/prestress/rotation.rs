@@ -1,8 +1,8 @@
 //! Rotation of regions of an assembly.
 
 use super::PrestressError;
-use super::cholesky::factorized;
 use super::elimination::Elimination;
+use super::factors::factorized;
 use crate::contact::Motion;
 use crate::fem::{
     ElementGeometry, MassKind, MaterialField, RotationFrame, Spin, Triplets, assemble_around,

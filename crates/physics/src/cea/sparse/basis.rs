@@ -2,7 +2,6 @@
 
 mod samples;
 
-use super::full_problem::SharedAnalysis;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedEntry, PackedModes};
@@ -21,6 +20,7 @@ use crate::linalg::{
 use crate::linalg::{Mat, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
@@ -43,9 +43,8 @@ pub struct BasisBuilder<'a> {
     pub(super) factors: SparseLu,
     /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
     stiffness: Cow<'a, MatrixPolynomial>,
-    pub(super) analysis: SharedAnalysis,
-    /// That of this stiffness at any friction.
-    family: SharedAnalysis,
+    /// The order of elimination of this stiffness at any friction, made for the first factors.
+    family: OnceLock<Result<LuAnalysis, LinalgError>>,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -86,8 +85,7 @@ impl<'a> BasisBuilder<'a> {
             linearization,
             factors,
             stiffness: linearization.centred_stiffness(tangent),
-            analysis: SharedAnalysis::default(),
-            family: SharedAnalysis::default(),
+            family: OnceLock::new(),
             model,
             count: modes.ncols() - rigid,
             rigid,
@@ -100,7 +98,8 @@ impl<'a> BasisBuilder<'a> {
 
     /// The order of elimination of stiffness about the centre at any friction.
     pub(super) fn family(&self) -> Result<&LuAnalysis, LinalgError> {
-        self.family.of(|| LuAnalysis::of_family(&self.stiffness))
+        let analyse = || LuAnalysis::of_family(&self.stiffness);
+        self.family.get_or_init(analyse).as_ref().map_err(Clone::clone)
     }
 
     /// The columns of the next step at `mu`: those that an earlier run of the same sweep found, else those that `find` does.

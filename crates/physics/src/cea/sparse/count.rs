@@ -1,9 +1,9 @@
 //! Eigenvalues in a part of the upper half plane, counted by the argument principle.
 
-use super::full_problem::{FullProblem, SharedAnalysis};
+use super::full_problem::FullProblem;
 use crate::cea::accuracy::NEAR;
 use crate::cea::{CeaError, CountedRegion, ModeCount};
-use crate::linalg::{LinalgError, Uncounted, ZeroCount, c64, count_zeros};
+use crate::linalg::{LinalgError, LuAnalysis, Uncounted, ZeroCount, c64, count_zeros};
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 /// are eigenvalues that are none of them; where the list is complete there are none, and few points on the edge serve.
 pub struct ModeCounter<'a> {
     tangent: &'a SlidingTangent,
-    analysis: SharedAnalysis,
+    analysis: LuAnalysis,
 }
 
 impl<'a> ModeCounter<'a> {
@@ -29,7 +29,7 @@ impl<'a> ModeCounter<'a> {
                 gain.table.key
             )));
         }
-        Ok(Self { tangent, analysis: SharedAnalysis::default() })
+        Ok(Self { tangent, analysis: LuAnalysis::new(tangent.stiffness.pattern())? })
     }
 
     /// `ln det T(lambda; mu)`, up to multiples of `2 pi i`.

@@ -6,23 +6,11 @@ use crate::linalg::{
 use crate::prestress::{MotionMatrices, SlidingTangent};
 use std::sync::{Arc, OnceLock};
 
-/// Order of elimination of all matrices of one tangent, made for the first factors.
-#[derive(Clone, Default)]
-pub struct SharedAnalysis(Arc<OnceLock<Analysed>>);
-
-type Analysed = Result<LuAnalysis, LinalgError>;
-
-impl SharedAnalysis {
-    /// What `analyse` gives, the same each time.
-    pub fn of(&self, analyse: impl FnOnce() -> Analysed) -> Result<&LuAnalysis, LinalgError> {
-        self.0.get_or_init(analyse).as_ref().map_err(Clone::clone)
-    }
-}
-
 /// `T(lambda) = K + lambda C + lambda^2 M + i H + sum_p g_p K_p` at one friction coefficient, `g_p` at the frequency of `lambda`.
 pub struct FullProblem<'a> {
     pattern: &'a Arc<SparsityPattern>,
-    analysis: SharedAnalysis,
+    /// Made for the first factors.
+    analysis: OnceLock<Result<LuAnalysis, LinalgError>>,
     /// Nonzero values of the matrices.
     values: MotionMatrices<Vec<f64>>,
 }
@@ -34,15 +22,15 @@ impl<'a> FullProblem<'a> {
     }
 
     /// The same with an analysis that serves other friction coefficients too.
-    pub fn sharing(self, analysis: &SharedAnalysis) -> Self {
-        Self { analysis: analysis.clone(), ..self }
+    pub fn sharing(self, analysis: &LuAnalysis) -> Self {
+        Self { analysis: Ok(analysis.clone()).into(), ..self }
     }
 
     /// That of the values that are taken of each matrix: its derivatives by friction, too.
     pub fn of(tangent: &'a SlidingTangent, values: impl Fn(&MatrixPolynomial) -> Vec<f64>) -> Self {
         Self {
             pattern: tangent.stiffness.pattern(),
-            analysis: SharedAnalysis::default(),
+            analysis: OnceLock::new(),
             values: MotionMatrices::of(tangent, values),
         }
     }
@@ -66,7 +54,8 @@ impl<'a> FullProblem<'a> {
     }
 
     fn analysis(&self) -> Result<&LuAnalysis, LinalgError> {
-        self.analysis.of(|| LuAnalysis::new(self.pattern))
+        let analyse = || LuAnalysis::new(self.pattern);
+        self.analysis.get_or_init(analyse).as_ref().map_err(Clone::clone)
     }
 
     /// LU factors of `T(lambda)`.

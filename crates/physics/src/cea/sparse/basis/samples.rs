@@ -211,7 +211,7 @@ impl BasisBuilder<'_> {
     /// The corrections of [`Self::shift`], two real columns each, of right vectors (`false`) and of left ones where `sides` has them.
     /// Neighbours in frequency share factors.
     fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode], sides: &[bool]) -> Mat<f64> {
-        let problem = FullProblem::at(self.tangent, mu).sharing(&self.analysis);
+        let problem = FullProblem::at(self.tangent, mu).sharing(self.factors.analysis());
         let unknowns = problem.dimension();
         let mut open: Vec<&ReducedMode> = modes.iter().collect();
         crate::order::sort_by_number(&mut open, |own| own.eigenvalue.im);
