@@ -46,7 +46,9 @@ impl Browser {
             "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
             format!("--window-size={width},{height}"),
         ] });
+        // A machine with other work takes its time over a script that reads a whole page.
         let wanted = json!({ "capabilities": { "alwaysMatch": {
+            "timeouts": { "script": 180_000, "pageLoad": 180_000 },
             "goog:loggingPrefs": { "browser": "ALL" }, "goog:chromeOptions": options,
         } } });
         let made = browser.request("POST", "/session", &wanted);
@@ -160,7 +162,7 @@ impl Browser {
 
     fn exchange(&self, method: &str, path: &str, body: &Value) -> std::io::Result<Value> {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
-        stream.set_read_timeout(Some(Duration::from_secs(60)))?;
+        stream.set_read_timeout(Some(Duration::from_secs(200)))?;
         let body = if method == "POST" { body.to_string() } else { String::new() };
         write!(
             stream,
