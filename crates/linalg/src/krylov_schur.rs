@@ -12,6 +12,8 @@ use std::ops::RangeInclusive;
 
 /// Columns of the basis, for each eigenvalue wanted, at the first look at the projected problem: with fewer nothing has converged.
 const FIRST_LOOK: usize = 2;
+/// Part of the way to the tolerance, as the last two looks foretell it, after which there is another one: iterations become faster.
+const NEXT_LOOK: f64 = 0.7;
 /// Columns of the basis, for each eigenvalue wanted, from which on it is restarted: with fewer, restarts cost more than they save.
 const LARGEST_BASIS: usize = 3;
 
@@ -76,16 +78,14 @@ pub fn krylov_schur(
         return whole(operator, is_wanted, settings);
     }
     let mut process = BlockArnoldi::new(operator, start);
-    let mut next_look = FIRST_LOOK * settings.wanted;
+    let (mut next_look, mut last_look) = (FIRST_LOOK * settings.wanted, (f64::INFINITY, 0));
     loop {
         interruption::check();
         process.expand();
         let is_spent = process.applications >= settings.max_applications;
-        if process.dimension() < next_look && !process.is_exhausted() && !is_spent {
+        if process.applications < next_look && !process.is_exhausted() && !is_spent {
             continue;
         }
-        // A dense decomposition costs as much as many applications: look when the basis has grown by a tenth.
-        next_look = (11 * process.dimension()).div_ceil(10);
         let eigen = real_eigen(process.projection.as_ref(), false, settings.wanted)?;
         let chosen = leading(&eigen.values, is_wanted, settings.wanted, 1.0);
         let residuals = process.residuals(&eigen, &chosen);
@@ -109,11 +109,22 @@ pub fn krylov_schur(
         let last =
             chosen.last().map_or(0, |&own| 1 + order.iter().position(|&i| i == own).unwrap_or(0));
         let target = last.max(settings.wanted).max(process.width());
-        if process.dimension() + process.width() > LARGEST_BASIS * target + 8 * process.width() {
+        let largest = LARGEST_BASIS * target + 8 * process.width();
+        if process.dimension() + process.width() > largest {
             let keep = target + (process.dimension() - target) / 3;
             process.restart(&eigen, &order[..keep.min(order.len())]);
-            next_look = (11 * process.dimension()).div_ceil(10);
         }
+
+        // A dense decomposition costs as much as many applications: the next one on the way to where the last two foretell the end, after
+        // a tenth of the basis at least, and no later than its restart.
+        let worst = residuals.iter().copied().fold(0.0, f64::max);
+        let (before, then) = std::mem::replace(&mut last_look, (worst, process.applications));
+        let rate = (before / worst).ln() / (process.applications - then) as f64;
+        let foretold = NEXT_LOOK * (worst / settings.tolerance).ln() / rate;
+        let [tenth, room] =
+            [process.dimension().div_ceil(10), largest.saturating_sub(process.dimension())];
+        // No number, of looks that foretell nothing, is none.
+        next_look = process.applications + (foretold as usize).clamp(tenth, room.max(tenth));
     }
 }
 
