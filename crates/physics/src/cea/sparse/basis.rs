@@ -111,11 +111,11 @@ impl<'a> BasisBuilder<'a> {
         Ok(self.steps(&[mu], |builder, _| find(builder))?.swap_remove(0))
     }
 
-    /// Those of the next steps, one at each of `values`, side by side: none needs what another one finds.
+    /// Those of the next steps, one at each of `values`, side by side: none needs what another one finds. To `find` they are told by place.
     fn steps<E: Send>(
         &mut self,
         values: &[f64],
-        find: impl Fn(&Self, f64) -> Result<Mat<f64>, E> + Sync,
+        find: impl Fn(&Self, usize) -> Result<Mat<f64>, E> + Sync,
     ) -> Result<Vec<Mat<f64>>, E> {
         let (own, unknowns) = (&*self, self.tangent.stiffness.dimension());
         let found: Vec<Result<_, E>> =
@@ -125,7 +125,7 @@ impl<'a> BasisBuilder<'a> {
                 if let Some(columns) = kept.and_then(|columns| from_columns(&columns, unknowns)) {
                     return Ok(columns);
                 }
-                let columns = find(own, mu)?;
+                let columns = find(own, i)?;
                 own.watch.keep_value(&name, &columns_of(&columns));
                 Ok(columns)
             });

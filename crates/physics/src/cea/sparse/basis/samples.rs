@@ -63,7 +63,7 @@ impl BasisBuilder<'_> {
         let is_companion = matches!(self.linearization, Linearization::Companion { .. });
         let count = self.leading_count();
         let leading = is_companion.then(|| count.min(self.model.dimension()));
-        let found = self.steps(values, |own, mu| own.dominant_vectors(mu, count, leading))?;
+        let found = self.steps(values, |own, i| own.dominant_vectors(values[i], count, leading))?;
         for (&mu, vectors) in values.iter().zip(found) {
             self.begin_sample(mu);
             let known = self.model.dimension();
@@ -166,26 +166,35 @@ impl BasisBuilder<'_> {
     /// What `x` has of another mode, with the eigenvalue `nu`, a correction takes away down to `|sigma - lambda| / |sigma - nu|`: factors
     /// that hold friction, damping, losses and tables, and lie beside the mode, leave a hundredth or less.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> bool {
-        self.corrected(mu, |builder| builder.shifted_corrections(mu, modes, &[false]))
+        self.corrected(&[mu], |builder, _| builder.shifted_corrections(mu, modes, &[false]))
     }
 
-    /// Takes up the corrections of modes at `mu` that `find` has; whether the basis grew.
-    fn corrected(&mut self, mu: f64, find: impl Fn(&Self) -> Mat<f64> + Sync) -> bool {
-        let Ok(corrections) = self.step(mu, |builder| Ok::<_, Infallible>(find(builder)));
-        let has_grown = self.model.extend(corrections.clone(), ROUND_OFF).ncols() > 0;
-        match self.is_sampled(mu) {
-            true => self.model.hold_sample(mu, &corrections),
-            false => self.model.hold_correction(mu, &corrections),
+    /// Takes up the corrections of modes at `values` that `find` has, told by place; whether the basis grew.
+    fn corrected(
+        &mut self,
+        values: &[f64],
+        find: impl Fn(&Self, usize) -> Mat<f64> + Sync,
+    ) -> bool {
+        let Ok(found) = self.steps(values, |own, i| Ok::<_, Infallible>(find(own, i)));
+        let none = Mat::zeros(self.tangent.stiffness.dimension(), 0);
+        let all = found.iter().fold(none, |all, own| join_columns(all.as_ref(), own.as_ref()));
+        let has_grown = self.model.extend(all, ROUND_OFF).ncols() > 0;
+        for (&mu, own) in values.iter().zip(&found) {
+            match self.is_sampled(mu) {
+                true => self.model.hold_sample(mu, own),
+                false => self.model.hold_correction(mu, own),
+            }
         }
         has_grown
     }
 
-    /// Corrects one mode, nearly that at `mu`, and its left vector, of which a basis of right ones holds less: its eigenvalue is wrong by
-    /// the product of what both lack. As [`Self::shift`] or, `is_at_rest`, by the factors without friction, which cost next to nothing and
-    /// leave more; whether the basis grew.
-    pub fn correct_both(&mut self, ModeAt { mu, mode }: &ModeAt, is_at_rest: bool) -> bool {
-        self.corrected(*mu, |builder| {
-            let sides = [false, true];
+    /// Corrects modes, each nearly one at its friction coefficient, and their left vectors, of which a basis of right ones holds less: an
+    /// eigenvalue is wrong by the product of what both lack. As [`Self::shift`] or, `is_at_rest`, by the factors without friction, which cost
+    /// next to nothing and leave more; whether the basis grew.
+    pub fn correct_both(&mut self, states: &[ModeAt], is_at_rest: bool) -> bool {
+        let values: Vec<f64> = states.iter().map(|state| state.mu).collect();
+        self.corrected(&values, |builder, i| {
+            let (ModeAt { mu, mode }, sides) = (&states[i], [false, true]);
             if !is_at_rest {
                 return builder.shifted_corrections(*mu, std::slice::from_ref(mode), &sides);
             }

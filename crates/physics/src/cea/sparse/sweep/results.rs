@@ -122,10 +122,10 @@ impl SparseSweep<'_> {
                 open.clear();
             }
             let mut has_grown = false;
-            // By turns: factors beside a mode leave little, which those at rest then show to be little.
-            for state in open {
-                let is_at_rest = !searches && round % 3 != 2;
-                has_grown |= self.builder.correct_both(&state, is_at_rest);
+            // By turns: factors beside a mode leave little, which those at rest then show to be little. There is memory for one mode's own.
+            let is_at_rest = !searches && round % 3 != 2;
+            for states in open.chunks(if is_at_rest { open.len().max(1) } else { 1 }) {
+                has_grown |= self.builder.correct_both(states, is_at_rest);
             }
             if !has_grown {
                 let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
