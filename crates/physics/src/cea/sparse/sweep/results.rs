@@ -4,7 +4,7 @@ use super::SparseSweep;
 use super::onset::{FoundInterval, doubt};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
-use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, SETTLED};
+use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, SETTLED};
 use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode, UnstableInterval};
 use crate::linalg::{LinalgError, c64};
@@ -86,7 +86,7 @@ impl SparseSweep<'_> {
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
         let all = || (0..branches.len()).collect::<Vec<usize>>();
         let mut found: Vec<Vec<FoundInterval>> = branches.iter().map(|_| Vec::new()).collect();
-        let (mut sought, mut searches) = (all(), true);
+        let (mut sought, mut searches, mut last) = (all(), true, f64::INFINITY);
         for round in 0.. {
             let own: Result<Vec<_>, LinalgError> =
                 crate::parallel::map(&sought, |&i| match searches {
@@ -95,6 +95,7 @@ impl SparseSweep<'_> {
                 });
             // Crossings that moved since the last round, all in the first one.
             let (mut open, mut moved): (Vec<ModeAt>, Vec<usize>) = Default::default();
+            let mut largest = 0.0_f64;
             for (&i, own) in sought.iter().zip(own?) {
                 let before = std::mem::replace(&mut found[i], own);
                 let before: Vec<f64> =
@@ -103,7 +104,10 @@ impl SparseSweep<'_> {
                     found[i].iter().flat_map(FoundInterval::crossings).collect();
                 let is_same = round > 0 && before.len() == own.len();
                 let moving = own.into_iter().enumerate().filter(|(k, state)| {
-                    !is_same || (state.mu - before[*k]).abs() > SETTLED.max(doubt(state))
+                    let change =
+                        if is_same { (state.mu - before[*k]).abs() } else { f64::INFINITY };
+                    largest = largest.max(change);
+                    change > SETTLED.max(doubt(state))
                 });
                 let known = open.len();
                 open.extend(moving.filter(|_| !self.builder.is_whole).map(|(_, own)| own.clone()));
@@ -121,9 +125,9 @@ impl SparseSweep<'_> {
             if round == MOST_ATTEMPTS {
                 open.clear();
             }
+            // By the factors at rest as long as that helps, else by those beside a mode: there is memory for one's at a time.
+            let is_at_rest = !searches && largest <= LITTLE * std::mem::replace(&mut last, largest);
             let mut has_grown = false;
-            // By turns: factors beside a mode leave little, which those at rest then show to be little. There is memory for one mode's own.
-            let is_at_rest = !searches && round % 3 != 2;
             for states in open.chunks(if is_at_rest { open.len().max(1) } else { 1 }) {
                 has_grown |= self.builder.correct_both(states, is_at_rest);
             }
