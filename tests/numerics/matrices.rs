@@ -82,15 +82,18 @@ pub fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> 
     dense_quadratic(&complex(mass), &complex(damping), &elastic, scale)
 }
 
-/// Rigid contact, springs with dashpots, and losses of the block and of springs, which have a matrix of their own.
+/// Rigid contact, springs with dashpots, those with falling friction, whose dashpots have a power of friction more than the stress, and
+/// losses of the block and of springs, which have a matrix of their own.
 #[test]
 fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
     let folder = folder();
     block(&folder);
     let springs = "contact.normal_stiffness=1e13";
     let dashpots = [springs, "contact.normal_damping=1e4"];
+    let falling = [springs, "contact.static_friction_ratio=1.4 ; contact.decay_speed=0.5"];
     let lossy = ["material.loss_factor=0.03", springs, "contact.loss_factor=0.1"];
-    for (contact, has_losses) in [(&[][..], false), (&dashpots, false), (&lossy, true)] {
+    let viscous = [(&[][..], false), (&dashpots, false), (&falling, false)];
+    for (contact, has_losses) in viscous.into_iter().chain([(&lossy[..], true)]) {
         solved(&folder, contact);
         let [.., losses] = assembled(&folder.path().join("matrices"), 0.3);
         assert_eq!(losses.norm_max() > 0.0, has_losses, "{contact:?}");

@@ -62,7 +62,7 @@ fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
 fn beside_stiffness(tangent: &SlidingTangent) -> (f64, Vec<Vec<f64>>) {
     let [damping, stiffness] = [&tangent.damping, &tangent.stiffness].map(|p| p.coefficients());
     let size = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    // The highest power has stress alone.
+    // The highest power has stress alone; without any the share is infinite, or no number.
     let last = damping.len() - 1;
     let share = stiffness.get(last).map_or(0.0, |own| size(&damping[last]) / size(own));
     let beside = |p: usize| -> Vec<f64> {
@@ -70,7 +70,7 @@ fn beside_stiffness(tangent: &SlidingTangent) -> (f64, Vec<Vec<f64>>) {
         let own = damping[p].iter().zip(&stiffness[p]).map(|(c, k)| c - share * k);
         own.map(|own| if own.abs() > bound { own } else { 0.0 }).collect()
     };
-    match share > 0.0 && stiffness.len() == damping.len() && size(&beside(last)) == 0.0 {
+    match share.is_normal() && stiffness.len() == damping.len() && size(&beside(last)) == 0.0 {
         true => (share, (0..=last).map(beside).collect()),
         false => (0.0, damping.to_vec()),
     }
