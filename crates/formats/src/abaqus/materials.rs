@@ -3,7 +3,7 @@
 use super::Reader;
 use super::block::{Block, fields};
 use crate::deck::real;
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 impl Reader<'_, '_> {
     /// Reads materials and sections: each element gets its region, each region its material.
-    pub(super) fn read_materials(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_materials(&mut self) -> Result<()> {
         let definitions = self.definitions()?;
         let orientations = self.orientations()?;
         let mut is_sectioned = vec![false; self.collected.len()];
@@ -64,7 +64,7 @@ impl Reader<'_, '_> {
     }
 
     /// Materials by name, of no region yet.
-    fn definitions(&mut self) -> Result<BTreeMap<String, FileMaterial>, MeshFileError> {
+    fn definitions(&mut self) -> Result<BTreeMap<String, FileMaterial>> {
         let mut definitions: BTreeMap<String, FileMaterial> = BTreeMap::new();
         let mut current: Option<String> = None;
         for &(_, block) in self.blocks {
@@ -97,7 +97,7 @@ impl Reader<'_, '_> {
                         self.leave_out("*ELASTIC with more than one line", block.place, reason);
                     }
                 }
-                "DENSITY" => definition.density = block.first_numbers()?.first().copied(),
+                "DENSITY" => definition.density = block.numbers(1)?.first().copied(),
                 _ => damping(block, definition)?,
             }
         }
@@ -105,7 +105,7 @@ impl Reader<'_, '_> {
     }
 
     /// `*ORIENTATION` by scope and name.
-    fn orientations(&mut self) -> Result<BTreeMap<(usize, String), MaterialAxes>, MeshFileError> {
+    fn orientations(&mut self) -> Result<BTreeMap<(usize, String), MaterialAxes>> {
         let mut found = BTreeMap::new();
         for (scope, block) in self.blocks_of("ORIENTATION") {
             let name = block.required("NAME")?;
@@ -114,7 +114,7 @@ impl Reader<'_, '_> {
             {
                 return Err(wrong("only DEFINITION=COORDINATES is supported"));
             }
-            let numbers = block.first_numbers()?;
+            let numbers = block.numbers(1)?;
             let Some(&[a, b, c, d, e, f]) = numbers.get(..6).and_then(|n| n.first_chunk::<6>())
             else {
                 return Err(wrong("six numbers expected: two points"));
@@ -171,9 +171,9 @@ fn turned_axes(a: Vector3<f64>, b: Vector3<f64>, extra: &[f64]) -> Option<[Vecto
 }
 
 /// `*ELASTIC`; whether it has lines for other temperatures.
-fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool, MeshFileError> {
+fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
     let kind = block.parameter("TYPE").unwrap_or("ISOTROPIC").to_uppercase();
-    let numbers = block.numbers()?;
+    let numbers = block.numbers(usize::MAX)?;
     let name = &definition.name;
     let few = |count: usize| {
         let what = format!("*ELASTIC, TYPE={kind} of material {name}");
@@ -223,7 +223,7 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool, Mes
 }
 
 /// `*DAMPING`, its values parameters.
-fn damping(block: &Block<'_>, definition: &mut FileMaterial) -> Result<(), MeshFileError> {
+fn damping(block: &Block<'_>, definition: &mut FileMaterial) -> Result<()> {
     for (name, value) in &block.parameters {
         let number = real(value);
         let slot = match name.as_str() {

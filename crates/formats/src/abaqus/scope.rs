@@ -2,7 +2,7 @@
 
 use super::block::{Block, fields};
 use crate::deck::{Deck, Place, quoted, real};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use nalgebra::{Rotation3, Unit, Vector3};
 use std::collections::BTreeMap;
 
@@ -48,10 +48,7 @@ pub(super) struct Layout<'b, 'a> {
 type Parts<'b, 'a> = BTreeMap<String, (Place, bool, Vec<&'b Block<'a>>)>;
 
 /// Sorts the blocks of a file by part and instance.
-pub(super) fn layout<'b, 'a>(
-    deck: &Deck<'_>,
-    blocks: &'b [Block<'a>],
-) -> Result<Layout<'b, 'a>, MeshFileError> {
+pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result<Layout<'b, 'a>> {
     let mut layout =
         Layout { scopes: vec![Scope::default()], blocks: Vec::new(), unused_parts: Vec::new() };
     let mut parts: Parts<'b, 'a> = BTreeMap::new();
@@ -105,7 +102,7 @@ pub(super) fn layout<'b, 'a>(
 }
 
 /// The scope of an instance: its data lines say how it is moved, first by a vector, then about the line through two points.
-fn placed(block: &Block<'_>) -> Result<Scope, MeshFileError> {
+fn placed(block: &Block<'_>) -> Result<Scope> {
     let name = block.required("NAME")?.to_owned();
     let mut rows = Vec::new();
     for &(place, line) in &block.data {

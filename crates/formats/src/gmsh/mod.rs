@@ -7,7 +7,7 @@ mod version2;
 mod version4;
 
 use super::ElementKind;
-use super::file_mesh::{FileElement, FileMesh, MeshFileError, SurfaceFace};
+use super::file_mesh::{FileElement, FileMesh, MeshFileError, Result, SurfaceFace};
 use cursor::Cursor;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -118,7 +118,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
-    fn finished(self) -> Result<FileMesh, MeshFileError> {
+    fn finished(self) -> Result<FileMesh> {
         let mut file = self.file;
         let dimensions = file.elements.iter().map(|element| element.kind.dimension());
         let dimension = dimensions.max().unwrap_or(2);
@@ -134,7 +134,7 @@ impl Reader<'_> {
         Ok(FileMesh { dimension, ..file })
     }
 
-    fn physical_names(&mut self) -> Result<(), MeshFileError> {
+    fn physical_names(&mut self) -> Result<()> {
         // Text in binary files too.
         let is_binary = std::mem::replace(&mut self.cursor.is_binary, false);
         let count = self.cursor.count("physical names", 5)?;
@@ -159,7 +159,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn node(&mut self, label: usize) -> Result<(), MeshFileError> {
+    fn node(&mut self, label: usize) -> Result<()> {
         let [x, y, z] = [0; 3].map(|_| self.cursor.number("coordinate"));
         let point = [x?, y?, z?];
         let index = self.file.points.len() as u32;
@@ -190,7 +190,7 @@ impl Reader<'_> {
         (label, entity): (usize, i64),
         groups: &[i64],
         labels: &[usize],
-    ) -> Result<(), MeshFileError> {
+    ) -> Result<()> {
         let mut nodes = Vec::with_capacity(labels.len());
         for node in labels {
             let Some(&index) = self.index_of.get(node) else {
@@ -221,11 +221,7 @@ impl Reader<'_> {
     }
 
     /// Node count and, for all but points, the kind of an element type that can be used.
-    fn shape_of(
-        &self,
-        number: i64,
-        label: usize,
-    ) -> Result<(usize, Option<ElementKind>), MeshFileError> {
+    fn shape_of(&self, number: i64, label: usize) -> Result<(usize, Option<ElementKind>)> {
         let known =
             ElementKind::listed(|row| row.gmsh.names.iter().any(|&kind| i64::from(kind) == number));
         if let Some(kind) = known {
