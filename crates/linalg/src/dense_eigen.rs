@@ -33,7 +33,6 @@ pub struct RealEigen {
 
 /// Eigenvalues, rising, and orthonormal eigenvectors of a symmetric matrix, of which the lower triangle is read; nothing where
 /// the iteration fails.
-#[inline]
 pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
     interruption::check();
     let n = matrix.nrows();

@@ -30,7 +30,6 @@ pub enum Distribution {
 
 impl Distribution {
     /// Probability of a value below `x`.
-    #[inline]
     pub fn below(&self, x: f64) -> f64 {
         match *self {
             Self::Normal { mean, deviation } => normal_below((x - mean) / deviation),
@@ -41,7 +40,6 @@ impl Distribution {
     }
 
     /// The value below which others lie with a probability strictly between 0 and 1.
-    #[inline]
     pub fn quantile(&self, probability: f64) -> f64 {
         match *self {
             Self::Normal { mean, deviation } => mean + deviation * normal_quantile(probability),

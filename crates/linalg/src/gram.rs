@@ -25,7 +25,6 @@ pub struct GramFactors {
 ///
 /// Source: Y. Yamamoto, Y. Nakatsukasa, Y. Yanagisawa, T. Fukaya, Roundoff error analysis of the CholeskyQR2 algorithm,
 /// Electron. Trans. Numer. Anal. 44 (2015); here with pivots.
-#[inline]
 pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
     let first = Pass::of(w.as_ref(), 0.0);
     if first.kept.len() < w.ncols() {
@@ -39,7 +38,6 @@ pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
 
 /// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`: remainders shorter than `shortest`,
 /// or than a millionth of their own length, are left out.
-#[inline]
 pub fn complement(basis: MatRef<'_, f64>, mut w: Mat<f64>, shortest: f64) -> Mat<f64> {
     // Always twice: a very stiff contact turns what round-off is left along the basis into modes of its own.
     for shortest in [shortest, UNIT_REMAINDER] {

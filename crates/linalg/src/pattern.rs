@@ -127,7 +127,6 @@ impl SparsityPattern {
     }
 
     /// Values sorted by rows.
-    #[inline]
     pub fn by_rows(&self, values: &[f64]) -> Vec<f64> {
         let positions = self.row_positions.iter();
         positions.map(|&position| values[position as usize]).collect()
@@ -213,7 +212,6 @@ impl SparsityPattern {
     }
 
     /// A matrix of this pattern with `values`, one for each nonzero.
-    #[inline]
     pub fn matrix<'a, T>(&'a self, values: &'a [T]) -> SparseColMatRef<'a, usize, T> {
         SparseColMatRef::new(self.symbolic.as_ref(), values)
     }

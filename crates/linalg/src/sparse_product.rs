@@ -43,7 +43,6 @@ fn lane_sums<const N: usize>(
 
 impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
-    #[inline]
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         let [y] = self.multiply_sorted([&self.by_rows(values)], x);
         y
@@ -65,7 +64,6 @@ impl SparsityPattern {
     }
 
     /// `A^T x` for each column of `x` and each of several matrices, given by their nonzeros in the order of the pattern.
-    #[inline]
     pub fn multiply_transpose_each<const N: usize>(
         &self,
         values: [&[f64]; N],
@@ -75,7 +73,6 @@ impl SparsityPattern {
     }
 
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows ([`Self::by_rows`]).
-    #[inline]
     pub fn multiply_sum(&self, values: [&[f64]; 2], vectors: [MatRef<'_, f64>; 2]) -> Mat<f64> {
         let [sum] = self.by_lanes(vectors, |[x, y], index| {
             let mut sum = [0.0; LANES];
@@ -90,7 +87,6 @@ impl SparsityPattern {
     }
 
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
-    #[inline]
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         let [y] = self.multiply_transpose_each([values], x);
         y

@@ -20,7 +20,6 @@ impl Lanes {
     pub const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
 
     /// The number `value(lane)` in each system.
-    #[inline]
     pub fn from_fn(value: impl Fn(usize) -> c64) -> Self {
         let mut result = Self::ZERO;
         for lane in 0..LANES {
@@ -112,7 +111,6 @@ pub struct Quality {
 
 impl BandedBatch {
     /// Space for the systems.
-    #[inline]
     pub fn new(dimension: usize, half_bandwidth: usize) -> Self {
         let zeros = vec![Lanes::ZERO; dimension * (2 * half_bandwidth + 1)];
         Self {
@@ -125,7 +123,6 @@ impl BandedBatch {
     }
 
     /// Sets `A = sum_t factor_t band_t` from bands laid out like [`super::BandedMatrix::values`].
-    #[inline]
     pub fn assemble(&mut self, terms: &[(Lanes, &[c64])]) {
         for (place, value) in self.values.iter_mut().enumerate() {
             *value = Lanes::ZERO;
@@ -136,13 +133,11 @@ impl BandedBatch {
     }
 
     /// Band of one system.
-    #[inline]
     pub fn system(&self, lane: usize) -> Vec<c64> {
         self.values.iter().map(|value| value.get(lane)).collect()
     }
 
     /// Solves `A x = e_unknown` in each system.
-    #[inline]
     pub fn solve(&mut self, unknown: usize) -> [Quality; LANES] {
         interruption::check();
         self.solution.fill(Lanes::ZERO);
@@ -154,7 +149,6 @@ impl BandedBatch {
     }
 
     /// The unknowns that [`Self::solve`] found.
-    #[inline]
     pub fn solution(&self) -> &[Lanes] {
         &self.solution
     }

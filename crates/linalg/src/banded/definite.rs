@@ -69,19 +69,16 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
     }
 
     /// Number of negative eigenvalues.
-    #[inline]
     pub fn negative_count(&self) -> usize {
         self.pivots().filter(|d| *d < 0.0).count()
     }
 
     /// Whether all eigenvalues are positive; a pivot of zero, which stands as the least positive one, is none.
-    #[inline]
     pub fn is_definite(&self) -> bool {
         self.pivots().all(|d| d > f64::MIN_POSITIVE)
     }
 
     /// Whether no pivot overflowed or vanished beside the largest, but for rounding.
-    #[inline]
     pub fn is_regular(&self) -> bool {
         let largest = self.pivots().fold(0.0_f64, |m, d| m.max(d.abs()));
         largest.is_finite() && self.pivots().all(|d| d.abs() > 1e-15 * largest)

@@ -17,7 +17,6 @@ pub struct BandedLu {
 
 impl BandedLu {
     /// Space for a factorization.
-    #[inline]
     pub fn new(dimension: usize, half_bandwidth: usize) -> Self {
         let zero = c64::new(0.0, 0.0);
         Self {
@@ -128,7 +127,6 @@ impl BandedLu {
     }
 
     /// `ln det A`, up to multiples of `2 pi i`.
-    #[inline]
     pub fn ln_determinant(&self) -> c64 {
         let width = 3 * self.half_bandwidth + 1;
         // Unit phasors multiply without overflow.
