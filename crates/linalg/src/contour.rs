@@ -55,7 +55,7 @@ pub fn count_zeros<E>(
     let ends = samples(&[corners.as_slice(), &middles].concat())?;
     let mut open: Vec<[Sample; 3]> =
         (0..4).map(|i| [ends[i], ends[4 + i], ends[(i + 1) % 4]]).collect();
-    let (mut sums, mut pieces) = ([c64::new(0.0, 0.0); 2], open.len());
+    let (mut sums, mut pieces) = ([c64::ZERO; 2], open.len());
     while !open.is_empty() {
         let mut rough = Vec::new();
         for piece in open {
@@ -130,7 +130,7 @@ fn least(change: c64) -> c64 {
 fn integral(piece: &[Sample; 3]) -> Option<[c64; 2]> {
     let [from, middle, to] = piece;
     let whole = to.at - from.at;
-    let mut sums = [c64::new(0.0, 0.0); 2];
+    let mut sums = [c64::ZERO; 2];
     let halves = [([from, middle, to], [5.0, 8.0, -1.0]), ([middle, to, from], [8.0, 5.0, -1.0])];
     for ([near, far, other], weights) in halves {
         let slopes = near.slope * weights[0] + far.slope * weights[1] + other.slope * weights[2];

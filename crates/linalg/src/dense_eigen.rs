@@ -291,7 +291,7 @@ fn inverse_iteration(
     // Off the eigenvalue by more than its round-off, by far less than its distance to others.
     let shift = value * (1.0 + 1e-11);
     let shifted = Mat::from_fn(n, n, |i, j| {
-        c64::new(matrix[(i, j)], 0.0) - if i == j { shift } else { c64::new(0.0, 0.0) }
+        c64::new(matrix[(i, j)], 0.0) - if i == j { shift } else { c64::ZERO }
     });
     let lu = ComplexDenseLu::factorize(shifted);
     let start = random_columns(n, 1, seed);
@@ -352,7 +352,7 @@ mod tests {
         let entry = |i: usize, j: usize| c64::new(re[(i, j)], im[(i, j)]);
         let triangle = Mat::from_fn(12, 12, |i, j| match i <= j {
             true => entry(i, j),
-            false => c64::new(0.0, 0.0),
+            false => c64::ZERO,
         });
         let found = complex_eigenvalues(triangle.as_ref()).unwrap();
         assert_eq!(found.len(), 12);

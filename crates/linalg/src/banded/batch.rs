@@ -246,20 +246,20 @@ mod tests {
                     let is_inside = (0..n as isize).contains(&(row as isize + offset));
                     let value = c64::new(entry(seed + 2 * k), entry(seed + 2 * k + 1));
                     let unit = if offset == 0 { diagonal } else { 0.0 };
-                    if is_inside { value + unit } else { c64::new(0.0, 0.0) }
+                    if is_inside { value + unit } else { c64::ZERO }
                 })
                 .collect()
         };
         let (a, b) = (band(3, 4.0), band(1000, 0.0));
         let factor = Lanes::from_fn(|lane| c64::new(0.1 * lane as f64, 0.3));
         let mut batch = BandedBatch::new(n, h);
-        batch.assemble(&[(Lanes::from_fn(|_| c64::new(1.0, 0.0)), &a), (factor, &b)]);
+        batch.assemble(&[(Lanes::from_fn(|_| c64::ONE), &a), (factor, &b)]);
         let quality = batch.solve(5);
         for lane in 0..LANES {
             let mut lu = BandedLu::new(n, h);
             lu.factorize(&batch.system(lane));
-            let mut x = vec![c64::new(0.0, 0.0); n];
-            x[5] = c64::new(1.0, 0.0);
+            let mut x = vec![c64::ZERO; n];
+            x[5] = c64::ONE;
             lu.solve(&mut x);
             for (found, known) in batch.solution().iter().zip(&x) {
                 // Diagonally strong: condition of a few units.

@@ -15,7 +15,7 @@ use faer::c64;
 /// `A x`, or `A^H x`, of a complex band with `h` off-diagonals on either side, laid out like [`BandedMatrix::values`].
 pub fn multiply_band(values: &[c64], h: usize, x: &[c64], adjoint: bool) -> Vec<c64> {
     let n = x.len();
-    let mut result = vec![c64::new(0.0, 0.0); n];
+    let mut result = vec![c64::ZERO; n];
     for (row, band) in values.chunks_exact(2 * h + 1).enumerate() {
         let (first, last) = (row.saturating_sub(h), (row + h + 1).min(n));
         let band = &band[first + h - row..last + h - row];

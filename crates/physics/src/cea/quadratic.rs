@@ -188,7 +188,7 @@ impl Problem<'_> {
         // Back in the unknowns of the problem, the largest one.
         let own: Vec<c64> = (0..n).map(|i| x[(i, 0)] * columns[i]).collect();
         let longer = |a: c64, b: &c64| if b.norm() > a.norm() { *b } else { a };
-        let largest = own.iter().fold(c64::new(0.0, 0.0), longer);
+        let largest = own.iter().fold(c64::ZERO, longer);
         QuadraticMode {
             eigenvalue,
             residual: forces.norm_l2() / sizes,

@@ -203,14 +203,13 @@ impl WaveBody {
     pub fn profile(&self, k: usize, at: DynamicCoefficients, edge: [c64; 2]) -> Vec<[c64; 2]> {
         let blocks = &self.harmonics[k];
         let (inverses, []) = self.condensed(k, at, []);
-        let unit = c64::new(0.0, 1.0);
         // Real basis: u_theta = i w.
-        let mut current = nalgebra::Vector2::new(edge[0], -unit * edge[1]);
+        let mut current = nalgebra::Vector2::new(edge[0], -c64::I * edge[1]);
         let mut profile = vec![edge];
         for i in 1..inverses.len() {
             let inward = complex(&blocks.outward[i - 1]).transpose();
             current = -(inverses[i] * inward * current) * at.stiffness;
-            profile.push([current[0], unit * current[1]]);
+            profile.push([current[0], c64::I * current[1]]);
         }
         profile
     }
@@ -218,9 +217,8 @@ impl WaveBody {
     /// `u^H (alpha_R M + beta_R K) u` of one sector for the displacement of its nodes at harmonic `k`.
     pub fn damping_form(&self, k: usize, damping: &RayleighDamping, profile: &[[c64; 2]]) -> f64 {
         let blocks = &self.harmonics[k];
-        let unit = c64::new(0.0, 1.0);
         let real: Vec<_> =
-            profile.iter().map(|u| nalgebra::Vector2::new(u[0], -unit * u[1])).collect();
+            profile.iter().map(|u| nalgebra::Vector2::new(u[0], -c64::I * u[1])).collect();
         let mut sum = 0.0;
         for (i, u) in real.iter().enumerate() {
             let force = complex(&blocks.diagonal[i]) * u;
@@ -262,6 +260,5 @@ fn inverted(m: &Matrix2<c64>) -> Matrix2<c64> {
 
 /// From the basis `(u_r, -i u_theta)` to `(u_r, u_theta)`.
 fn polar(m: &Matrix2<c64>) -> Matrix2<c64> {
-    let unit = c64::new(0.0, 1.0);
-    Matrix2::new(m[(0, 0)], -unit * m[(0, 1)], unit * m[(1, 0)], m[(1, 1)])
+    Matrix2::new(m[(0, 0)], -c64::I * m[(0, 1)], c64::I * m[(1, 0)], m[(1, 1)])
 }

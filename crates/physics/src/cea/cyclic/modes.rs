@@ -90,7 +90,7 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
     let mut wave = tangent.displacement(x);
     for (dof, u) in wave.iter_mut().enumerate() {
         if dof % components == 1 {
-            *u *= c64::new(0.0, 1.0);
+            *u *= c64::I;
         }
         if is_backward {
             *u = u.conj();
