@@ -163,7 +163,7 @@ impl RigidCounterface {
         let faces = surface.faces.iter();
         let outward = faces.map(|face| (mesh.middle(face.corners()), mesh.area_vector(face)));
         let outward: Vec<(Vector3<f64>, Vector3<f64>)> = outward.collect();
-        let all = surface.faces.iter().flat_map(|face| &face.nodes);
+        let all = surface.faces.iter().flat_map(|face| &face.nodes); // Its nodes, each once.
         let mut nodes: Vec<u32> = all.copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -187,6 +187,7 @@ impl RigidCounterface {
             }
             RigidShape::Cylinder(radius) | RigidShape::Sphere(radius) => radius,
         };
+        // Of a round one the side on which the body lies, and each node's distance from the axis or centre.
         let facing = outward.iter().map(|(at, normal)| self.arm(at).dot(normal));
         placed.sense = if facing.sum::<f64>() < 0.0 { 1.0 } else { -1.0 };
         let radial = |point: [f64; 3]| self.arm(&point.into()).normalize();
@@ -194,6 +195,7 @@ impl RigidCounterface {
         let radii = nodes.iter().map(|&node| (node, self.arm(&position(node)).norm()));
         let mut radii: BTreeMap<u32, f64> = radii.collect();
         Chord::bridge(&chords, &mut radii);
+        // A radius that is not given is the one that all nodes have.
         let radius = match radius {
             Some(radius) => radius,
             None => self.common_radius(mesh, surface, &radii)?,
