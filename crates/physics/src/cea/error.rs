@@ -138,7 +138,7 @@ impl CeaError {
                     PrestressError::Unpressed { .. }
                         | PrestressError::GapEverywhere { .. }
                         | PrestressError::Pair { .. }
-                        | PrestressError::Overconstrained { .. }
+                        | PrestressError::Overconstrained
                         | PrestressError::MixedContacts
                         | PrestressError::FrameOfNone { .. }
                         | PrestressError::NotOfRevolution { .. }

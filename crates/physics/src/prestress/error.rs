@@ -1,5 +1,8 @@
 //! Errors of the steady-sliding equilibrium.
 
+/// What is sought of the equilibrium, or why there is none.
+pub(super) type Result<T, E = PrestressError> = std::result::Result<T, E>;
+
 /// A sliding equilibrium that does not exist or cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PrestressError {
@@ -63,12 +66,9 @@ pub enum PrestressError {
     },
     /// A form that is to be eliminated has no free dof.
     #[error(
-        "{name} holds nodes that are already held or tied: leave one of the conditions out there"
+        "contact holds nodes that are already held or tied: leave one of the conditions out there"
     )]
-    Overconstrained {
-        /// The tie or contact.
-        name: String,
-    },
+    Overconstrained,
     /// Two surfaces that make no contact or tie.
     #[error("{name}: {error}")]
     Pair {
