@@ -100,6 +100,7 @@ impl<'a> Branch<'a> {
     /// `None` where the curve cannot be followed any further.
     pub fn advance(&mut self, samples: &Values) -> Option<Step> {
         let flipped = self.pending.take().map(|event| self.flip(event));
+        // The tangent, turned so that what has just changed goes on to hold.
         let linear = Linearization::at(self.wave, &self.state, self.parameter);
         let system = System::new(&self.state, self.parameter, self.force_scale);
         let mut heading = system.tangent(&linear, self.heading.as_ref())?;
@@ -115,6 +116,7 @@ impl<'a> Branch<'a> {
             inequalities.iter_mut().for_each(|inequality| inequality.2 *= -1.0);
         }
         self.direction = heading.scalars()[2].signum();
+        // As far as the first inequality that would break along it.
         let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
         // An inequality that breaks on the way after all becomes the goal; each such shortening is progress.
         for _ in 0..12 {

@@ -96,6 +96,7 @@ impl MeshStepping<'_> {
         stability: Option<&FloquetMultipliers>,
         periods: usize,
     ) -> Result<Confirmation, CycleError> {
+        // A seed in the direction that grows fastest, and periods in which it would show.
         let leading = stability.and_then(FloquetMultipliers::leading);
         let periods = telling_periods(leading, E_FOLDS * cycle.frequency_hz(), periods);
         let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body.radius;
@@ -213,7 +214,7 @@ fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
 
 /// First harmonic over one period of the displacement of each contact node along the counterface.
 fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
-    let mut sums = vec![c64::new(0.0, 0.0); map.run.interface().len()];
+    let mut sums = vec![c64::ZERO; map.run.interface().len()];
     let steps = map.steps();
     for step in 0..steps {
         map.run.advance();
