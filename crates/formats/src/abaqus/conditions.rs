@@ -40,6 +40,7 @@ impl Reader<'_, '_> {
         for &(scope, block) in self.blocks {
             match block.keyword.as_str() {
                 "STEP" => step += 1,
+                // What holds: displacements of zero, of no other kind.
                 "BOUNDARY" => {
                     if block.is("OP", "NEW") {
                         held.clear();
@@ -51,6 +52,7 @@ impl Reader<'_, '_> {
                     }
                     self.boundary(scope, block, &mut held)?;
                 }
+                // What loads: pressures on faces or surfaces.
                 keyword @ ("DLOAD" | "DSLOAD") => {
                     if block.is("OP", "NEW") {
                         pressures.clear();
@@ -67,6 +69,7 @@ impl Reader<'_, '_> {
                 "conditions, pressures and friction are those at the end of {step} {plural}"
             ));
         }
+        // What is left at the end; equations need to know which nodes are held.
         let referred = self.read_equations(&held)?;
         self.take_held(held, &transformed, &referred);
         for (boundary, (pressure, place)) in pressures {

@@ -35,6 +35,7 @@ impl Reader<'_, '_> {
                         (node, *axis, *factor)
                     });
                     let (own, beside): (Vec<_>, Vec<_>) = all.partition(|t| used.contains(&t.0));
+                    // Nodes without elements vanish from it if they are held.
                     for (node, axis, _) in beside {
                         if !is_held(self, node, axis) {
                             let label = self.file.labels[node as usize];
@@ -49,6 +50,7 @@ impl Reader<'_, '_> {
                 }
             }
         }
+        // A plane body has no use for them.
         if dimension(&self.collected) == 2 && !self.file.equations.is_empty() {
             self.file.equations.clear();
             let first = self.blocks_of("EQUATION").next();

@@ -20,6 +20,7 @@ impl Reader<'_, '_> {
             let Some(set) = self.elements.sets.get(&self.key(scope, name)).cloned() else {
                 return Err(self.unknown(block.place, "element set", name));
             };
+            // The set is the region of its elements, each of which has one section.
             let region: Arc<str> = set.name.as_str().into();
             for &element in &set.items.iter().copied().collect::<BTreeSet<usize>>() {
                 let known = &mut self.collected[element];
@@ -30,6 +31,7 @@ impl Reader<'_, '_> {
                 }
                 known.region = Some(Arc::clone(&region));
             }
+            // Its material by name, in any case of letters.
             let Some(material) = block.parameter("MATERIAL") else {
                 self.leave_out("*SOLID SECTION without MATERIAL", block.place, "");
                 continue;
@@ -114,13 +116,14 @@ impl Reader<'_, '_> {
             {
                 return Err(wrong("only DEFINITION=COORDINATES is supported"));
             }
-            let numbers = block.numbers(1)?;
+            let numbers = block.numbers(1)?; // Two points a and b; a third, the origin, is zero where it is not given.
             let Some(&[a, b, c, d, e, f]) = numbers.get(..6).and_then(|n| n.first_chunk::<6>())
             else {
                 return Err(wrong("six numbers expected: two points"));
             };
             let [p, q] = [Vector3::new(a, b, c), Vector3::new(d, e, f)];
             let system = block.parameter("SYSTEM").unwrap_or("RECTANGULAR").to_uppercase();
+            // The second line turns about one of the axes.
             let extra = match block.data.get(1) {
                 Some(&(_, line)) => fields(line).filter_map(real).collect(),
                 None => Vec::new(),
@@ -131,6 +134,7 @@ impl Reader<'_, '_> {
                     [[0.0; 3], v.into()].map(|point| Vector3::from(scope_of.place(point)));
                 (to - from).into()
             };
+            // Axes turn with the instance.
             let axes = match system.as_str() {
                 "RECTANGULAR" | "R" => {
                     let Some([first, second]) = turned_axes(p, q, &extra) else {
@@ -179,6 +183,7 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
         let what = format!("*ELASTIC, TYPE={kind} of material {name}");
         fault!(block; "{what} needs {count} numbers")
     };
+    // What one temperature takes: one line, or two of more than eight numbers.
     let (elasticity, lines) = match kind.as_str() {
         "ISOTROPIC" | "ISO" => {
             let &[young_modulus, poisson_ratio, ..] = numbers.as_slice() else {
@@ -190,6 +195,7 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
             let &[e1, e2, e3, n12, n13, n23, g12, g13, g23, ..] = numbers.as_slice() else {
                 return Err(few(9));
             };
+            // E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
             let constants = FileElasticity::Orthotropic {
                 young_moduli: [e1, e2, e3],
                 poisson_ratios: [n12, n13, n23],
@@ -218,7 +224,7 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
                  CONSTANTS");
         }
     };
-    definition.elasticity = Some(elasticity);
+    definition.elasticity = Some(elasticity); // Further lines are of other temperatures.
     Ok(block.data.len() > lines)
 }
 

@@ -56,6 +56,7 @@ pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result
     let mut instance: Option<usize> = None;
     for block in blocks {
         match block.keyword.as_str() {
+            // Parts keep their blocks until an instance asks for them.
             "PART" => {
                 let name = block.required("NAME")?.to_uppercase();
                 if parts.contains_key(&name) {
@@ -65,6 +66,7 @@ pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result
                 part = Some((name, block.place));
             }
             "END PART" => part = None,
+            // An instance has a scope of its own, with all blocks of its part.
             "INSTANCE" => {
                 let name = block.required("PART")?;
                 let found = parts.get_mut(&name.to_uppercase());
@@ -82,6 +84,7 @@ pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result
             }
             "END INSTANCE" => instance = None,
             "ASSEMBLY" | "END ASSEMBLY" => {}
+            // All else belongs to where it stands: 0 is the assembly and what is outside.
             _ => match (&part, instance) {
                 (Some((name, _)), _) => {
                     if let Some((_, _, own)) = parts.get_mut(name) {

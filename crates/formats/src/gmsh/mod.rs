@@ -24,6 +24,7 @@ impl FileMesh {
         if !bytes.starts_with(b"$MeshFormat") {
             return Err(cursor.error(foreign(bytes)));
         }
+        // The format: version, binary or not, size of a number; of a binary file the order of bytes.
         cursor.text_line();
         let version = cursor.text_line().unwrap_or_default();
         let words: Vec<&str> = version.split_whitespace().collect();
@@ -47,6 +48,7 @@ impl FileMesh {
             };
         }
         cursor.end("MeshFormat")?;
+        // Sections in their order, those of other content skipped.
         let mut reader = Reader { cursor, ..Reader::default() };
         let is_new = words[0] == "4.1";
         while let Some(section) = reader.cursor.section() {
@@ -65,6 +67,7 @@ impl FileMesh {
             }
             reader.cursor.end(&section)?;
         }
+        // A file of names alone has nothing to compute with.
         if reader.file.points.is_empty() {
             refuse!(reader.cursor; "the file has no $Nodes");
         }

@@ -151,6 +151,7 @@ impl Reader<'_, '_> {
             let set = card.number(0)?;
             let element = self.solid(card.number(1)?, card)?;
             let pressure = card.real(2)?;
+            // Pressures of the other corners, a direction, a line load: only what is one pressure is taken.
             let others = [3, 4, 5].map(|field| card.optional_real(field));
             let mut is_plain =
                 card.fields.get(8..).unwrap_or_default().iter().all(|field| field.is_empty());
@@ -163,12 +164,13 @@ impl Reader<'_, '_> {
                 continue;
             }
             let face = self.loaded_face(card, element)?;
-            let known = sets.entry(set).or_default();
+            let known = sets.entry(set).or_default(); // Faces of one set with one pressure are one boundary.
             match known.iter_mut().find(|known| known.0 == pressure) {
                 Some(known) => known.1.push(face),
                 None => known.push((pressure, vec![face], card.place)),
             }
         }
+        // Those that the subcases name act; a boundary has its name in any case.
         let known = sets.keys().copied().collect();
         let named = self.control.load.clone();
         let active = self.active(&named, &known, "LOAD")?;

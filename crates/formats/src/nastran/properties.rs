@@ -12,11 +12,12 @@ impl Reader<'_, '_> {
         for card in self.cards_of("PSOLID") {
             let property = card.number(0)?;
             let number = card.number(1)?;
-            let region = self.region(property);
+            let region = self.region(property); // Of no elements that are read there is no region.
             let elements = self.collected.iter();
             if !elements.filter_map(|e| e.region.as_deref()).any(|other| other == region) {
                 continue;
             }
+            // CORDM says along which axes MAT9 has its stiffness.
             let axes = match card.optional_int(2)?.unwrap_or(0) {
                 0 => MaterialAxes::Global,
                 system if system > 0 => {
@@ -37,6 +38,7 @@ impl Reader<'_, '_> {
                     MaterialAxes::Global
                 }
             };
+            // MID is the number of its material.
             let is_meant = |card: &&Card<'_>| {
                 matches!(card.name.as_str(), "MAT1" | "MAT9") && card.field(0).parse() == Ok(number)
             };

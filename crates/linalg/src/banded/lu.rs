@@ -18,12 +18,11 @@ pub struct BandedLu {
 impl BandedLu {
     /// Space for a factorization.
     pub fn new(dimension: usize, half_bandwidth: usize) -> Self {
-        let zero = c64::new(0.0, 0.0);
         Self {
             dimension,
             half_bandwidth,
-            upper: vec![zero; dimension * (3 * half_bandwidth + 1)],
-            lower: vec![zero; dimension * half_bandwidth],
+            upper: vec![c64::ZERO; dimension * (3 * half_bandwidth + 1)],
+            lower: vec![c64::ZERO; dimension * half_bandwidth],
             pivots: vec![0; dimension],
         }
     }
@@ -35,10 +34,10 @@ impl BandedLu {
         interruption::check();
         let (n, h) = (self.dimension, self.half_bandwidth);
         let (width, stored) = (3 * h + 1, 2 * h + 1);
-        let zero = c64::new(0.0, 0.0);
+        // Rows with space for what exchanges of rows fill in: twice the bandwidth on the right.
         for (row, band) in self.upper.chunks_exact_mut(width).zip(values.chunks_exact(stored)) {
             row[..stored].copy_from_slice(band);
-            row[stored..].fill(zero);
+            row[stored..].fill(c64::ZERO);
         }
         let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.re.abs()).max(v.im.abs()));
         for k in 0..n {
@@ -47,7 +46,8 @@ impl BandedLu {
                 let v = self.upper[i * width + k + h - i];
                 v.re.abs() + v.im.abs()
             };
-            let mut pivot = k;
+            let mut pivot = k; // Partial pivoting among the h rows below.
+            // Below the pivot: row_i -= (a_ik / a_kk) row_k.
             for i in k + 1..=last {
                 if size(i) > size(pivot) {
                     pivot = i;
@@ -61,10 +61,10 @@ impl BandedLu {
                 let start = (pivot - k - 1) * width + k + h - pivot;
                 top.swap_with_slice(&mut below[start..start + columns]);
             }
-            if top[0] == zero {
+            if top[0] == c64::ZERO {
                 top[0] = c64::new(f64::EPSILON * largest, 0.0);
             }
-            let inverse = c64::new(1.0, 0.0) / top[0];
+            let inverse = c64::ONE / top[0];
             for i in k + 1..=last {
                 let start = (i - k - 1) * width + k + h - i;
                 let row = &mut below[start..start + columns];
@@ -130,7 +130,7 @@ impl BandedLu {
     pub fn ln_determinant(&self) -> c64 {
         let width = 3 * self.half_bandwidth + 1;
         // Unit phasors multiply without overflow.
-        let (mut size, mut phase) = (0.0, c64::new(1.0, 0.0));
+        let (mut size, mut phase) = (0.0, c64::ONE);
         for k in 0..self.dimension {
             let inverse = self.upper[k * width + self.half_bandwidth];
             let sign = if self.pivots[k] == k { 1.0 } else { -1.0 };
@@ -147,8 +147,8 @@ mod tests {
 
     /// Deterministic, far from symmetric, needs pivoting.
     fn example(n: usize, h: usize) -> (Vec<c64>, Vec<Vec<c64>>) {
-        let mut band = vec![c64::new(0.0, 0.0); n * (2 * h + 1)];
-        let mut dense = vec![vec![c64::new(0.0, 0.0); n]; n];
+        let mut band = vec![c64::ZERO; n * (2 * h + 1)];
+        let mut dense = vec![vec![c64::ZERO; n]; n];
         let mut state = 1.0_f64;
         for i in 0..n {
             for j in i.saturating_sub(h)..=(i + h).min(n - 1) {
