@@ -233,12 +233,11 @@ impl RigidCounterface {
         let farthest = radii.iter().max_by(|a, b| off(a).total_cmp(&off(b)));
         match farthest {
             Some((&node, &distance)) if (distance - mean).abs() > ROUND * mean => {
-                Err(PairError::NotRound {
-                    surface: surface.name.clone(),
-                    node: mesh.labels[node as usize],
-                    distance,
-                    mean,
-                })
+                Err(PairError(format!(
+                    "surface \"{}\" is not round about the axis or centre of its counterface: node {} lies {distance:.6e} m away, the \
+                     mean is {mean:.6e} m. Correct `center` and `axis`, or give its `radius`",
+                    surface.name, mesh.labels[node as usize]
+                )))
             }
             _ => Ok(mean),
         }
@@ -257,12 +256,15 @@ impl RigidCounterface {
         if off <= ALONG * whole {
             return Ok(());
         }
-        Err(PairError::LeavesPlane {
-            surface: surface.name.clone(),
-            // Without the signs of zeros.
-            normal: normal.map(|x| x + 0.0).into(),
-            is_turning: matches!(self.motion, RigidMotion::Turning(_)),
-        })
+        let [x, y, z]: [f64; 3] = normal.map(|x| x + 0.0).into(); // Without the signs of zeros.
+        let [fault, remedy] = match self.motion {
+            RigidMotion::Turning(_) => ["tilt", "give that normal as `axis`"],
+            RigidMotion::Sliding(_) => ["move along it", "correct `direction`"],
+        };
+        Err(PairError(format!(
+            "the rigid plane under surface \"{}\" has the normal ({x:.6}, {y:.6}, {z:.6}) and would {fault}: {remedy}",
+            surface.name
+        )))
     }
 }
 

@@ -205,13 +205,24 @@ impl ContactSurface {
 
     /// Refuses points that are all held, or at rest.
     fn sliding(self, surface: &Boundary, counter: Option<&Boundary>) -> Result<Self, PairError> {
-        let name = surface.name.clone();
-        match (counter, self.points.iter().any(|point| point.speed > 0.0)) {
-            (_, true) => Ok(self),
-            _ if self.points.is_empty() => Err(PairError::AllHeld(name)),
-            (None, _) => Err(PairError::AtRest(name)),
-            (Some(counter), _) => Err(PairError::NoSliding([name, counter.name.clone()])),
-        }
+        let name = &surface.name;
+        let problem = match counter {
+            _ if self.points.iter().any(|point| point.speed > 0.0) => return Ok(self),
+            _ if self.points.is_empty() => format!(
+                "all of surface \"{name}\" is held: nothing of it can give way to the rigid counterface; name another surface, or hold \
+                 less"
+            ),
+            None => format!(
+                "nothing slides over surface \"{name}\": its rigid counterface is at rest, or moves along its normal; check its speed, \
+                 direction and axis"
+            ),
+            Some(counter) => format!(
+                "nothing slides between surfaces \"{name}\" and \"{}\": the motion given leaves them at rest to each other. Check the \
+                 axis, the centre and the regions of [motion]",
+                counter.name
+            ),
+        };
+        Err(PairError(problem))
     }
 
     /// Takes out the points that are held along their normals: they cannot give way to a rigid counterface.

@@ -172,7 +172,10 @@ impl<'a> Facet<'a> {
 /// The facets of a boundary that has some.
 fn facets_of<'a>(mesh: &Mesh, boundary: &'a Boundary) -> Result<Vec<Facet<'a>>, PairError> {
     match boundary.faces.is_empty() {
-        true => Err(PairError::NoFaces(boundary.name.clone())),
+        true => Err(PairError(format!(
+            "surface \"{}\" has no faces on the outside of the bodies",
+            boundary.name
+        ))),
         false => Ok(boundary.faces.iter().map(|face| Facet::of(mesh, face)).collect()),
     }
 }
@@ -235,14 +238,14 @@ impl SurfacePair {
             }
         }
         if pair.points.is_empty() {
-            let names = [surface, counter].map(|boundary| boundary.name.clone());
+            let names = [surface, counter].map(|boundary| boundary.name.as_str());
             return Err(pair.why_not(names, &own, &others));
         }
         Ok(pair)
     }
 
     /// Why no face has a segment with another: what lies over what, however far.
-    fn why_not(&self, names: [String; 2], own: &[Facet<'_>], others: &[Facet<'_>]) -> PairError {
+    fn why_not(&self, [a, b]: [&str; 2], own: &[Facet<'_>], others: &[Facet<'_>]) -> PairError {
         let (mut distance, mut is_turned) = (f64::INFINITY, false);
         for facet in own {
             let plane = Plane::of(facet);
@@ -257,10 +260,21 @@ impl SurfacePair {
                 }
             }
         }
-        if distance.is_finite() {
-            return PairError::Apart { names, distance, reach: self.reach };
-        }
-        if is_turned { PairError::FacesAway(names) } else { PairError::NeverMeets(names) }
+        PairError(match (distance.is_finite(), is_turned) {
+            (true, _) => format!(
+                "surfaces \"{a}\" and \"{b}\" face each other but stand {distance:.3e} m apart, more than half an element ({:.3e} m). \
+                 Move the bodies together in the mesh, or name other surfaces",
+                self.reach
+            ),
+            (false, true) => format!(
+                "surface \"{a}\" faces away from \"{b}\": where they lie over each other their outward normals point the same way. \
+                 Name the surfaces that touch"
+            ),
+            (false, false) => format!(
+                "surfaces \"{a}\" and \"{b}\" never meet: along its normals no face of the one lies over a face of the other. Name \
+                 the surfaces that touch"
+            ),
+        })
     }
 
     fn add_segment(&mut self, (f, facet): (usize, &Facet<'_>), other: &Facet<'_>, plane: &Plane) {

@@ -183,7 +183,7 @@ impl FrfSystem {
 /// Checks that every frequency is positive.
 pub(super) fn check_frequencies(frequencies_hz: &[f64]) -> Result<(), FrfError> {
     match frequencies_hz.iter().find(|f| !(**f > 0.0 && f.is_finite())) {
-        Some(value) => Err(FrfError::Frequency { value: *value }),
+        Some(value) => Err(FrfError::Frequency(*value)),
         None => Ok(()),
     }
 }

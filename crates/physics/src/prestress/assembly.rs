@@ -88,7 +88,7 @@ impl<'a> Assembly<'a> {
     /// finer surface: a time step tells the forces of points that stick apart.
     ///
     /// # Errors
-    /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
+    /// [`PrestressError::Asked`] names the tie or contact whose surfaces do not meet.
     pub fn new(
         mesh: &'a Mesh,
         materials: &'a dyn MaterialField,
@@ -301,7 +301,7 @@ impl<'a> Assembly<'a> {
     /// Mass, damping and stiffness of small motions around `state`.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
+    /// [`PrestressError::Asked`] where a rigid contact has no free dof to hold.
     pub fn tangent(
         &self,
         state: &PressedState,
@@ -405,5 +405,5 @@ fn tie_surfaces(mesh: &Mesh, tie: &TiedSurfaces, basis: &mut Elimination) -> Res
 
 /// The error of the surfaces of a section.
 fn unpaired(name: String) -> impl FnOnce(PairError) -> PrestressError {
-    |error| PrestressError::Pair { name, error: Box::new(error) }
+    move |error| PrestressError::Asked(format!("{name}: {error}"))
 }

@@ -26,8 +26,7 @@ pub(super) fn range(
         state_of: vec![0; friction_coefficients.len()],
         ..PressedRange::default()
     };
-    // The sets in turn, and where each gives way to the next.
-    let mut sets: Vec<Vec<bool>> = Vec::new();
+    let mut sets: Vec<Vec<bool>> = Vec::new(); // The sets in turn, and where each gives way to the next.
     let (mut before, mut start) = (0.0, vec![true; bodies.pressing().points.len()]);
     for &i in &order {
         let friction = friction_coefficients[i];

@@ -21,7 +21,8 @@ impl Pressing<'_> {
     /// same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
-    /// [`PrestressError::MixedContacts`]; [`PrestressError::NoState`] at the first friction coefficient without one;
+    /// [`PrestressError::Asked`] for rigid contacts beside ones that stiffen; [`PrestressError::NoState`] at the first friction coefficient
+    /// without one;
     /// [`PrestressError::GapEverywhere`]; [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn states(&self, mesh: &Mesh, friction_coefficients: &[f64]) -> Result<PressedRange> {
         let count = mesh.symmetry.as_ref().map_or(1, |symmetry| symmetry.count);
@@ -70,7 +71,11 @@ impl Pressing<'_> {
     fn states_of_all(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
         match PenaltyContact::new(self)? {
             Some(mut bodies) => range(&mut bodies, friction_coefficients),
-            None if self.laws.iter().any(Option::is_some) => Err(PrestressError::MixedContacts),
+            None if self.laws.iter().any(Option::is_some) => {
+                let problem = "contacts with a normal_law other than \"linear\" and rigid contacts in one case: give the rigid ones a \
+                               normal_stiffness";
+                Err(PrestressError::Asked(problem.to_owned()))
+            }
             None => range(&mut CondensedContact::new(self)?, friction_coefficients),
         }
     }

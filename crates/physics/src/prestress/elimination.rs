@@ -239,9 +239,10 @@ impl Elimination {
     /// [`Self::take`] of the separation of a contact point.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`] where that is held already.
+    /// [`PrestressError::Asked`] where that is held already.
     pub fn require(&mut self, row: &Row) -> Result<usize> {
-        self.take(row).ok_or(PrestressError::Overconstrained)
+        let problem = "contact holds nodes that are already held or tied: leave one of the conditions out there";
+        self.take(row).ok_or_else(|| PrestressError::Asked(problem.to_owned()))
     }
 }
 

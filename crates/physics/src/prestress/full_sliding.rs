@@ -25,7 +25,7 @@ impl<'a> FullSliding<'a> {
     /// Of a stiffness over all dofs, supports included, without those that `basis` holds.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`]; [`PrestressError::Singular`] for a stiffness that is not positive definite.
+    /// [`PrestressError::Asked`] for points that are held; [`PrestressError::Singular`] for a stiffness that is not positive definite.
     pub fn new(stiffness: &Triplets, mut basis: Elimination, points: &'a [Point]) -> Result<Self> {
         let separations = points.iter().map(|point| basis.require(&point.normal));
         let separations = separations.collect::<Result<Vec<usize>>>()?;

@@ -59,7 +59,11 @@ impl Pressing<'_> {
             first += count;
             own.abs() <= UNPRESSED * all
         });
-        found.map(|(name, _)| PrestressError::Unpressed { name: name.clone() })
+        let (name, _) = found?;
+        Some(PrestressError::Asked(format!(
+            "nothing presses the two sides of {name} together: one of them is held by the contact alone. Press it with a boundary pressure \
+             or an interference, or hold it by springs"
+        )))
     }
 
     pub(super) fn gap_everywhere(&self) -> PrestressError {

@@ -35,7 +35,7 @@ impl Rotation {
     /// boundaries `seams` are glued.
     ///
     /// # Errors
-    /// [`PrestressError::NotOfRevolution`], [`PrestressError::FrameOfNone`].
+    /// [`PrestressError::Asked`] for bodies that are none of revolution, or do not turn with a frame that does.
     pub fn of(
         mesh: &Mesh,
         materials: &dyn MaterialField,
@@ -103,10 +103,11 @@ fn check_frames(mesh: &Mesh, of: &dyn Fn(usize) -> Option<Spin>) -> Result<()> {
     };
     match spins.iter().position(|spin| *spin != spins[first]) {
         None => Ok(()),
-        Some(other) => Err(PrestressError::FrameOfNone {
-            turning: mesh.regions[first].clone(),
-            other: mesh.regions[other].clone(),
-        }),
+        Some(other) => Err(PrestressError::Asked(format!(
+            "motion.{}.frame = \"turning\", but \"{}\" does not turn so: in that frame it would move. Give both the same axis, speed and \
+             frame, or describe bodies of revolution with frame = \"rest\"",
+            mesh.regions[first], mesh.regions[other]
+        ))),
     }
 }
 
@@ -123,19 +124,21 @@ fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<()>
         for there in mesh.quadrature(&face) {
             let velocity = motion.velocity(there.position);
             let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-            let along = dot(there.area, motion.axis); // |v . n| dA over |v| dA of the parts that face across the axis.
+            let along = dot(there.area, motion.axis);
             let side = (dot(there.area, there.area) - along * along).max(0.0).sqrt();
             across += dot(velocity, there.area).abs();
             whole += dot(velocity, velocity).sqrt() * side;
         }
     }
-    let share = across / whole;
+    let share = across / whole; // int |v . n| dA / int |v| dA over what faces across the axis.
     if share > MOST_ACROSS {
-        let region = motion.regions.first().map(|&region| &mesh.regions[region]);
-        return Err(PrestressError::NotOfRevolution {
-            region: region.cloned().unwrap_or_default(),
-            share,
-        });
+        let region = motion.regions.first().map_or("", |&region| &mesh.regions[region]);
+        return Err(PrestressError::Asked(format!(
+            "motion.{region}.rotation_terms = true, but \"{region}\" is no body of revolution about that axis: {:.0} % of the velocity on \
+             its sides stands across them. Such sides move in the frame at rest. Where everything turns with it give frame = \"turning\", \
+             else leave rotation_terms out",
+            100.0 * share
+        )));
     }
     Ok(())
 }

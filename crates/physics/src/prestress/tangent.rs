@@ -141,7 +141,7 @@ impl SlidingTangent {
     /// The matrices of bodies, `terms` over all dofs, and their contacts over what `basis` (held dofs, ties) and rigid contact leave.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
+    /// [`PrestressError::Asked`] where a rigid contact has no free dof to hold.
     pub fn assemble(
         mut terms: Terms<Triplets>,
         contacts: &[ContactPart<'_>],
