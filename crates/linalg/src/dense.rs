@@ -186,7 +186,7 @@ pub fn orthogonalize<T: ComplexField<Real = f64> + Copy>(
     let mut shares = vec![T::zero_impl(); basis.len()];
     for _ in 0..2 {
         for (unit, share) in basis.iter().zip(&mut shares) {
-            let part = dot(unit, vector);
+            let part = dot(unit, vector); // v -= q (q^H v).
             *share += part;
             add(vector, -part, unit);
         }
@@ -257,6 +257,7 @@ fn orthonormalize_down_to(
     bound: impl Fn(f64) -> f64,
 ) -> Orthonormalized {
     let lengths = column_norms(w.as_ref());
+    // w -= V (V^T w), twice: once leaves round-off of what was large.
     let mut against = transpose_product(basis, w.as_ref());
     add_product(w.as_mut(), -1.0, basis, against.as_ref());
     let correction = transpose_product(basis, w.as_ref());
@@ -279,13 +280,13 @@ fn orthonormalize_down_to(
                 (0..basis.ncols()).for_each(|i| against[(i, j)] += overlap[(i, 0)]);
             }
             for (slot, &k) in kept.iter().enumerate() {
-                let (q, v) = two_columns(&mut w, k, j);
+                let (q, v) = two_columns(&mut w, k, j); // v -= q (q . v).
                 let overlap = dot(q, v);
                 within[(slot, j)] += overlap;
                 add(v, -overlap, q);
             }
         }
-        let norm = norm(column(w.as_ref(), j));
+        let norm = norm(column(w.as_ref(), j)); // What is left of it is a new column, unless it is short.
         if norm > bound(lengths[j]) && norm > 0.0 {
             within[(kept.len(), j)] = norm;
             w.col_mut(j).iter_mut().for_each(|v| *v /= norm);

@@ -63,10 +63,11 @@ fn normal_quantile(probability: f64) -> f64 {
     let numerator = 2.515_517 + t * (0.802_853 + t * 0.010_328);
     let mut x = numerator / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308))) - t;
     for _ in 0..3 {
-        let density = (-0.5 * x * x).exp() / (2.0 * PI).sqrt();
+        let density = (-0.5 * x * x).exp() / (2.0 * PI).sqrt(); // Halley: x -= u / (1 + x u / 2), u = (P(x) - p) / P'(x).
         let newton = (normal_below(x) - tail) / density;
         x -= newton / (1.0 + 0.5 * x * newton);
     }
+    // The upper tail is the mirror image of the lower one.
     if probability > 0.5 { -x } else { x }
 }
 

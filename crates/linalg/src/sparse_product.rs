@@ -106,7 +106,7 @@ impl SparsityPattern {
         inputs.resize(M * n, [0.0; LANES]);
         let mut strips = [[[0.0; LANES]; STRIP]; N];
         for first in (0..columns).step_by(LANES) {
-            let width = LANES.min(columns - first);
+            let width = LANES.min(columns - first); // Interleave the entries of so many vectors.
             for (x, input) in blocks.iter().zip(inputs.chunks_exact_mut(n.max(1))) {
                 for lane in 0..width {
                     for (entry, value) in input.iter_mut().zip(column(*x, first + lane)) {
@@ -116,7 +116,7 @@ impl SparsityPattern {
             }
             let own: [&[[f64; LANES]]; M] = std::array::from_fn(|m| &inputs[m * n..(m + 1) * n]);
             for start in (0..n).step_by(STRIP) {
-                let rows = start..n.min(start + STRIP);
+                let rows = start..n.min(start + STRIP); // A strip of rows of the results, then their columns from it.
                 for index in rows.clone() {
                     let sums = kernel(own, index);
                     for (strip, sum) in strips.iter_mut().zip(sums) {

@@ -71,7 +71,7 @@ impl Lanes {
     fn inverse(&self) -> Self {
         let mut result = Self::ZERO;
         for lane in 0..LANES {
-            let square = self.re[lane] * self.re[lane] + self.im[lane] * self.im[lane];
+            let square = self.re[lane] * self.re[lane] + self.im[lane] * self.im[lane]; // 1 / z = conj(z) / |z|^2.
             result.re[lane] = self.re[lane] / square;
             result.im[lane] = -self.im[lane] / square;
         }
@@ -161,7 +161,7 @@ impl BandedBatch {
             let columns = last - k;
             let (above, below) = self.factors.split_at_mut((k + 1) * width);
             let top = &mut above[k * width + h..][..=columns];
-            top[0] = top[0].inverse();
+            top[0] = top[0].inverse(); // row_i -= (a_ik / a_kk) row_k, the right side with it.
             let (known, unknown) = self.solution.split_at_mut(k + 1);
             for i in k + 1..=last {
                 let start = (i - k - 1) * width + k + h - i;
@@ -181,7 +181,7 @@ impl BandedBatch {
         for k in (0..n).rev() {
             let columns = (k + h).min(n - 1) - k;
             let row = &self.factors[k * width + h..][..=columns];
-            let mut sum = self.solution[k];
+            let mut sum = self.solution[k]; // x_k = (b_k - sum_j u_kj x_j) / u_kk.
             for (value, known) in row[1..].iter().zip(&self.solution[k + 1..]) {
                 sum.subtract_product(value, known);
             }
@@ -203,7 +203,7 @@ impl BandedBatch {
             let mut sum = [0.0; LANES];
             let entries = &row[first + h - i..=last + h - i];
             for (value, x) in entries.iter().zip(&self.solution[first..=last]) {
-                residual.subtract_product(value, x);
+                residual.subtract_product(value, x); // b - A x, and the row sum of |A|.
                 let sizes = value.sizes();
                 (0..LANES).for_each(|lane| sum[lane] += sizes[lane]);
             }
@@ -212,7 +212,7 @@ impl BandedBatch {
             raise(&mut norms, sum);
         }
         std::array::from_fn(|lane| {
-            let growth = norms[lane] * solutions[lane];
+            let growth = norms[lane] * solutions[lane]; // |A| |x|, with |b| = 1.
             Quality { backward_error: residuals[lane] / growth, growth }
         })
     }

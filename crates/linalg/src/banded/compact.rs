@@ -23,7 +23,7 @@ impl CompactRows {
             let h = matrix.half_bandwidth();
             for (k, &value) in matrix.row(i).iter().enumerate() {
                 if value != 0.0 {
-                    columns.push(i + k - h);
+                    columns.push(i + k - h); // Entry k of a row of the band stands in column i - h + k.
                     values.push(value);
                 }
             }

@@ -50,7 +50,7 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
                 pivot = f64::MIN_POSITIVE;
             }
             top[0] = T::from_real_impl(&pivot);
-            let inverse = T::from_real_impl(&(1.0 / pivot));
+            let inverse = T::from_real_impl(&(1.0 / pivot)); // a_ij -= conj(a_ki) a_kj / d_k.
             let last = h.min(n - 1 - k);
             for (i, row) in below.chunks_exact_mut(width).take(last).enumerate() {
                 let factor = T::conj_impl(&top[i + 1]) * inverse;
@@ -90,7 +90,7 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
         for k in 0..n {
             let row = &self.upper[k * width..][..width.min(n - k)];
             let (value, rest) = x[k..].split_first_mut().expect("a row for each unknown");
-            let known = *value;
+            let known = *value; // L y = b, then D: each y_k out of the rows below it.
             row[1..].iter().zip(rest).for_each(|(l, x)| *x -= T::conj_impl(l) * known);
             *value = known * T::from_real_impl(&(1.0 / T::real_part_impl(&row[0])));
         }

@@ -47,7 +47,6 @@ impl BandedLu {
                 v.re.abs() + v.im.abs()
             };
             let mut pivot = k; // Partial pivoting among the h rows below.
-            // Below the pivot: row_i -= (a_ik / a_kk) row_k.
             for i in k + 1..=last {
                 if size(i) > size(pivot) {
                     pivot = i;
@@ -64,7 +63,7 @@ impl BandedLu {
             if top[0] == c64::ZERO {
                 top[0] = c64::new(f64::EPSILON * largest, 0.0);
             }
-            let inverse = c64::ONE / top[0];
+            let inverse = c64::ONE / top[0]; // Below the pivot: row_i -= (a_ik / a_kk) row_k.
             for i in k + 1..=last {
                 let start = (i - k - 1) * width + k + h - i;
                 let row = &mut below[start..start + columns];
@@ -84,7 +83,7 @@ impl BandedLu {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let width = 3 * h + 1;
         for k in 0..n {
-            x.swap(k, self.pivots[k]);
+            x.swap(k, self.pivots[k]); // L y = P b, one exchange after the other.
             let value = x[k];
             let factors = &self.lower[k * h..(k + 1) * h];
             for (unknown, factor) in x[k + 1..].iter_mut().zip(factors) {
@@ -92,7 +91,7 @@ impl BandedLu {
             }
         }
         for k in (0..n).rev() {
-            let columns = (k + 2 * h).min(n - 1) - k + 1;
+            let columns = (k + 2 * h).min(n - 1) - k + 1; // U x = y; the diagonal of U is inverted.
             let row = &self.upper[k * width + h..][..columns];
             let mut sum = x[k];
             for (value, known) in row[1..].iter().zip(&x[k + 1..]) {
@@ -107,7 +106,7 @@ impl BandedLu {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let width = 3 * h + 1;
         for k in 0..n {
-            let columns = (k + 2 * h).min(n - 1) - k + 1;
+            let columns = (k + 2 * h).min(n - 1) - k + 1; // U^H y = b, by columns of U^H.
             let row = &self.upper[k * width + h..][..columns];
             let value = x[k] * row[0].conj();
             x[k] = value;
@@ -116,7 +115,7 @@ impl BandedLu {
             }
         }
         for k in (0..n).rev() {
-            let factors = &self.lower[k * h..(k + 1) * h];
+            let factors = &self.lower[k * h..(k + 1) * h]; // L^H P x = y, from the last exchange back.
             let mut sum = x[k];
             for (known, factor) in x[k + 1..].iter().zip(factors) {
                 sum -= factor.conj() * known;
@@ -133,7 +132,7 @@ impl BandedLu {
         let (mut size, mut phase) = (0.0, c64::ONE);
         for k in 0..self.dimension {
             let inverse = self.upper[k * width + self.half_bandwidth];
-            let sign = if self.pivots[k] == k { 1.0 } else { -1.0 };
+            let sign = if self.pivots[k] == k { 1.0 } else { -1.0 }; // Each exchange turns the sign.
             size -= inverse.norm().ln();
             phase *= inverse.conj() * (sign / inverse.norm());
         }

@@ -207,6 +207,7 @@ impl<'a> Branch<'a> {
             Parameter::FrictionCoefficient => heading.scalars()[2],
             _ => 0.0,
         };
+        // How each slack changes along the heading.
         let with_rate = |(event, slack): (Event, f64)| {
             let i = event.point();
             let normal = heading.normal()[i];
@@ -234,6 +235,7 @@ impl<'a> Branch<'a> {
             unreachable!("branches of one wave have one frequency");
         };
         [0, 1].map(|row| {
+            // A convolution over the phase: products of harmonics.
             let columns = linear.columns[row].each_ref().map(|column| self.wave.harmonics(column));
             let mut rate = self.wave.values(
                 (0..columns[0].len())
@@ -257,6 +259,7 @@ impl<'a> Branch<'a> {
     ) -> (f64, Goal) {
         let mut best = (LONGEST_STEP, Goal::Length);
         for &(event, slack, rate) in inequalities {
+            // slack + length rate = 0.
             if Some(event) != flipped && rate < -1e-13 * self.force_scale {
                 let length = slack.max(0.0) / -rate;
                 if length < best.0 {

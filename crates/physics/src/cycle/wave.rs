@@ -45,6 +45,7 @@ pub struct Wave<'a> {
 /// rising `k_2 > 0`.
 pub fn orders([first, second]: [usize; 2]) -> Vec<[isize; 2]> {
     let [most, rows] = [first, second].map(|side| (side / 2) as isize);
+    // One of each conjugate pair.
     let row = |k_2: isize| (if k_2 == 0 { 0 } else { -most }..=most).map(move |k_1| [k_1, k_2]);
     (0..=rows).flat_map(row).collect()
 }
@@ -78,6 +79,7 @@ impl<'a> Wave<'a> {
         [0, 1].map(|phase| {
             let step = TAU / self.sides[phase] as f64;
             let angle = self.orders[k][phase] as f64 * step;
+            // Central differences over four neighbours in place of i k.
             (8.0 * angle.sin() - (2.0 * angle).sin()) / (6.0 * step)
         })
     }
@@ -87,6 +89,7 @@ impl<'a> Wave<'a> {
         [0, 1].map(|phase| {
             let step = TAU / self.sides[phase] as f64;
             let back = c64::from_polar(1.0, -(self.orders[k][phase] as f64) * step);
+            // The difference to the point before, as in the laws of contact.
             (1.0 - back) / step
         })
     }
@@ -163,7 +166,7 @@ impl<'a> Wave<'a> {
             let (own, conjugate) = (self.place([k_1, k_2]), self.place([-k_1, -k_2]));
             spectrum[own] = value * scale;
             if conjugate == own {
-                spectrum[own].im = 0.0;
+                spectrum[own].im = 0.0; // The mean, and what is its own conjugate, is real.
             } else {
                 spectrum[conjugate] = spectrum[own].conj();
             }
@@ -211,7 +214,7 @@ impl HarmonicResponse {
     fn new(wave: &Wave<'_>, k: usize, state: &WaveState, parameter: Parameter) -> Self {
         let still = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
         let rate = wave.rate(k, state.frequencies());
-        let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order));
+        let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order)); // d(i k w) / dw_1 and d / dw_2.
         let damping = &state.point.damping;
         let mut by_damping = still;
         match parameter {
@@ -252,7 +255,7 @@ fn displacements(
     let mut moved: Vec<[[c64; 2]; 4]> =
         moved.map(|(k, own)| own.displacement([forces[0][k], forces[1][k]])).collect();
     if parameter == Parameter::FrictionCoefficient {
-        let change = wave.harmonics(&state.slipping_normal());
+        let change = wave.harmonics(&state.slipping_normal()); // dT / dmu = drag N where points slip.
         for ((moved, own), change) in moved.iter_mut().zip(responses).zip(change) {
             moved[3] = own.displacement([c64::ZERO, change])[0];
         }
@@ -279,8 +282,7 @@ impl Linearization {
         let surface_speed = contact.rotation_speed * wave.body.radius;
         slip.iter_mut().for_each(|slip| *slip -= surface_speed);
 
-        // How they change with each frequency and the parameter.
-        let phases = &state.phases;
+        let phases = &state.phases; // How they change with each frequency and the parameter.
         let scalars = || (1..=phases.len()).chain([3]);
         let slip_change = |k: usize, which: usize| {
             slip_rate(k, 0) * moved[k][which][1] + slip_rate(k, which) * moved[k][0][1]

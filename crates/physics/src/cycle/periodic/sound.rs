@@ -148,7 +148,6 @@ impl Sound {
         let steps = map.steps();
         let audible = (AUDIBLE * state.period) as usize;
         let count = audible.clamp(1, MOST_HARMONICS).min((steps - 1) / 2);
-        // Which places of the field move each face along its normal.
         let operator = map.run.operator();
         let rows = faces
             .iter()
