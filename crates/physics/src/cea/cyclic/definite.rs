@@ -60,7 +60,7 @@ struct TestSpace<'a> {
 
 impl<'a> TestSpace<'a> {
     fn new(tangent: &'a HarmonicTangent, tangential: &'a [usize], center: f64) -> Option<Self> {
-        let rest = BandedFactor::new(&tangent.stiffness[0], &tangent.mass[0], center);
+        let rest = BandedFactor::new(&tangent.stiffness[0], &tangent.mass[0], center); // K_0 - kappa_0 M_0 must be definite for a start.
         if rest.negative_count() > 0 {
             return None;
         }
@@ -74,7 +74,7 @@ impl<'a> TestSpace<'a> {
             for column in tangent.mass[0].columns(row) {
                 let k = tangent.stiffness.get(1).map_or(0.0, |k| k.get(row, column));
                 let m = tangent.mass.get(1).map_or(0.0, |m| m.get(row, column));
-                psi[column] = center * m - k;
+                psi[column] = center * m - k; // - row_t of (K_1 - kappa_0 M_1).
             }
             rest.solve(&mut psi);
             stiffness.push(products(&psi, &tangent.stiffness));
@@ -142,7 +142,7 @@ impl<'a> TestSpace<'a> {
             for i in 0..=j {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
                 let own = 0.5 * (lines[i][0][tj] + lines[j][0][ti].conj());
-                upper[i * count + j - i] = own - dot(&borders[i], &solved);
+                upper[i * count + j - i] = own - dot(&borders[i], &solved); // H_tt - H_ti H_ii^-1 H_it.
             }
         }
         count == 0 || BandedFactor::of(count - 1, upper).is_definite()
@@ -159,7 +159,7 @@ impl<'a> TestSpace<'a> {
         ];
         for (matrices, tested, factor) in terms {
             for (k, matrix) in matrices.iter().enumerate() {
-                let plain = factor * UNITS[k] * weights[k];
+                let plain = factor * UNITS[k] * weights[k]; // z^k A_k, and z times that from the row T adds.
                 for other in matrix.columns(place) {
                     row[other] += plain * matrix.get(place, other);
                     column[other] += plain * matrix.get(other, place);

@@ -146,7 +146,7 @@ impl HarmonicProblem {
         let (m, k) = (form(&at.now.matrices.mass), form(&at.now.stiffness_at(theta)));
         let Some(damping) = self.damping(at) else { return (k / m, -m) };
         let c = form(damping);
-        let root = (c * c - m * k * 4.0).sqrt();
+        let root = (c * c - m * k * 4.0).sqrt(); // m theta^2 + c theta + k = 0; without damping k - theta m = 0.
         let candidates = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];
         let distance = |candidate: c64| (candidate - theta).norm();
         let nearest = if distance(candidates[0]) <= distance(candidates[1]) { 0 } else { 1 };

@@ -108,7 +108,7 @@ impl WavePair {
         if change.matrices.mass.len() != self.right.len() * (2 * h + 1) {
             return None;
         }
-        let changed = dot(&self.left, &change.apply(self.root, &self.right, false));
+        let changed = dot(&self.left, &change.apply(self.root, &self.right, false)); // y^H (lambda^2 dM + lambda dC + dK) x.
         let step = -changed / self.slope;
         let own = self.own_slope.map(|own| own_frequency_step(step, own));
         Some(self.waves.own(own.unwrap_or(step)))
