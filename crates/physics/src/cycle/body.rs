@@ -178,8 +178,7 @@ impl WaveBody {
         for i in (0..self.masses.len()).rev() {
             let mass = Receptance::identity() * c64::new(self.masses[i], 0.0);
             let diagonal = complex(&blocks.diagonal[i]);
-            // K_ii (1 + beta i w) + m (alpha i w - w^2), and its derivatives.
-            let mut matrix = diagonal * at.stiffness + mass * at.mass;
+            let mut matrix = diagonal * at.stiffness + mass * at.mass; // K_ii (1 + beta i w) + m (alpha i w - w^2), and its derivatives.
             let mut slopes = changes.map(|change| diagonal * change.stiffness + mass * change.mass);
             if let Some(support) = self.support_at(i) {
                 matrix += support(at);

@@ -259,9 +259,8 @@ impl<'a> Branch<'a> {
     ) -> (f64, Goal) {
         let mut best = (LONGEST_STEP, Goal::Length);
         for &(event, slack, rate) in inequalities {
-            // slack + length rate = 0.
             if Some(event) != flipped && rate < -1e-13 * self.force_scale {
-                let length = slack.max(0.0) / -rate;
+                let length = slack.max(0.0) / -rate; // slack + length rate = 0.
                 if length < best.0 {
                     best = (length, Goal::Event(event));
                 }

@@ -89,8 +89,7 @@ impl<'a> Wave<'a> {
         [0, 1].map(|phase| {
             let step = TAU / self.sides[phase] as f64;
             let back = c64::from_polar(1.0, -(self.orders[k][phase] as f64) * step);
-            // The difference to the point before, as in the laws of contact.
-            (1.0 - back) / step
+            (1.0 - back) / step // The difference to the point before, as in the laws of contact.
         })
     }
 
@@ -300,8 +299,7 @@ impl Linearization {
                 by: scalars().map(|which| share * moved[k][which][1]).collect(),
             }
         });
-        // The interference and the speed of the surface move them directly.
-        let [by_gap, by_slip] = &mut by[phases.len()];
+        let [by_gap, by_slip] = &mut by[phases.len()]; // The interference and the speed of the surface move them directly.
         match parameter {
             Parameter::RotationSpeed | Parameter::Speed => by_slip.fill(-wave.body.radius),
             Parameter::Interference => by_gap.fill(-1.0),

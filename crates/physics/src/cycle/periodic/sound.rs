@@ -171,7 +171,6 @@ impl Sound {
                 own.iter_mut().zip(&velocity).for_each(|(sum, v)| *sum += turn * v);
             }
         }
-        // What all faces radiate at each harmonic.
         let powers = amplitudes.iter().enumerate().map(|(k, own)| {
             let frequency = TAU * (k + 1) as f64 / state.period;
             let mut first = 0;
