@@ -38,7 +38,7 @@ impl AssemblyBody {
     /// The bodies of some materials with their surfaces paired: at nodes where the mass is lumped.
     ///
     /// # Errors
-    /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
+    /// [`PrestressError::Asked`] names the tie or contact whose surfaces do not meet.
     pub fn assembled<'a>(
         &'a self,
         materials: &'a dyn MaterialField,

@@ -120,12 +120,12 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
             place[node as usize] = Some(0);
         }
     }
-    let mut count = 0;
+    let mut count = 0; // New numbers, in the old order.
     for place in place.iter_mut().flatten() {
         *place = count;
         count += 1;
     }
-    let unused = file.points.len() - count as usize;
+    let unused = file.points.len() - count as usize; // Most files have none to drop.
     if unused == 0 {
         return;
     }
@@ -139,7 +139,7 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
         if unused == 1 { "is" } else { "are" },
         file.labels[first]
     ));
-    let is_used = |node: usize| place[node].is_some();
+    let is_used = |node: usize| place[node].is_some(); // Nodes, and all that names them by number.
     let mut node = 0..;
     file.points.retain(|_| node.next().is_some_and(is_used));
     let mut node = 0..;

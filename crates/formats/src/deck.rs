@@ -1,6 +1,6 @@
 //! Lines of a text file with their places, the files that it includes among them.
 
-use super::file_mesh::MeshFileError;
+use super::file_mesh::{MeshFileError, Result};
 use frictionsim_bounds::{Budget, MESH, MESSAGE, shortened};
 
 /// What marks the begin and the end of included text, behind the sign of a comment.
@@ -36,7 +36,7 @@ impl<'a> Deck<'a> {
     ///
     /// # Errors
     /// More lines than may be read.
-    pub fn new(text: &'a str, comment: &str, keeps_empty: bool) -> Result<Self, MeshFileError> {
+    pub fn new(text: &'a str, comment: &str, keeps_empty: bool) -> Result<Self> {
         let is_kept = |line: &&str| keeps_empty || !line.trim().is_empty();
         let mut budget = Budget::new(MESH);
         let count = text.lines().filter(is_kept).count();

@@ -22,7 +22,6 @@ impl ElementKind {
 
     /// Descriptor of dataset 2412 of universal files, plane elements in plane strain, and the nodes of an element in the order
     /// there; none for a kind that these files do not have.
-    #[inline]
     pub fn universal(self, nodes: &[u32]) -> Option<(usize, Vec<u32>)> {
         let listing = &self.row().universal;
         let in_plane = usize::from(self.dimension() == 2);
@@ -40,7 +39,6 @@ impl ElementKind {
     }
 
     /// Its name in messages and tables, such as `tet10`.
-    #[inline]
     pub fn name(self) -> &'static str {
         self.row().name
     }
@@ -58,7 +56,6 @@ impl ElementKind {
     }
 
     /// The kind of the same dimension with so many corners; where it has mid-side nodes or not as asked.
-    #[inline]
     pub fn with_corners(self, corners: usize, is_quadratic: bool) -> Self {
         let is_asked =
             |row: &Row| row.dimension == self.dimension() && row.has(corners, is_quadratic);
@@ -82,7 +79,6 @@ impl ElementKind {
     }
 
     /// Local nodes of edge `edge`: its ends, counter-clockwise in the plane, then its middle where it has one.
-    #[inline]
     pub fn edge(self, edge: usize) -> (usize, usize, Option<usize>) {
         let row = self.row();
         let [start, end] = row.edges[edge];
@@ -102,14 +98,12 @@ impl ElementKind {
     /// Lines: those of the ends, and the bubble between. Quad4: `N_I = (1 + xi_I xi)(1 + eta_I eta) / 4`. Quad8: the serendipity functions. Tri3, Tet4: the area or volume
     /// coordinates `L`. Tri6, Tet10: `L (2 L - 1)` at corners, `4 L_I L_J` at the middle of an edge. Hex8, Hex20, Wedge6,
     /// Wedge15: trilinear and serendipity functions. Pyramid5, Pyramid13: rational ones.
-    #[inline]
     pub fn shape_functions(self, at: [f64; 3]) -> Vec<Shape> {
         (self.row().shapes)(at)
     }
 
     /// `dx_j / dxi_i` at a point of the parent element, row `i`, of an element with nodes at `points`; in the plane the third parent
     /// axis is z.
-    #[inline]
     pub fn jacobian(
         self,
         at: [f64; 3],
@@ -128,34 +122,29 @@ impl ElementKind {
     /// Quadrature of the mass: full, exact for the mass of an undistorted element: 3 points for Tri3, 6 (degree 4, Dunavant 1985) for Tri6,
     /// 2 x 2 Gauss points for Quad4, 3 x 3 for Quad8; 4 for Tet4, 14 (degree 5, Walkington 2000) for Tet10; Gauss points on
     /// bricks, reduced ones for Hex20R, triangle times line on wedges, square times line to the apex on pyramids.
-    #[inline]
     pub fn quadrature(self) -> Vec<QuadraturePoint> {
         (self.row().quadrature)()
     }
 
     /// Quadrature of the stiffness: that of [`Self::quadrature`], but 1 point for Tet4 and 4 for Tet10, which are exact on
     /// straight edges.
-    #[inline]
     pub fn stiffness_quadrature(self) -> Vec<QuadraturePoint> {
         let row = self.row();
         row.stiffness_quadrature.unwrap_or(row.quadrature)()
     }
 
     /// Points at which the stress of a displacement element is most accurate (Zienkiewicz and Zhu 1992).
-    #[inline]
     pub fn superconvergent_points(self) -> Vec<[f64; 3]> {
         (self.row().superconvergent)()
     }
 
     /// Local mid-side nodes, each with the corners at the ends of its edge.
-    #[inline]
     pub fn middles(self) -> impl Iterator<Item = (usize, [usize; 2])> {
         let edges = self.edges().iter().filter(move |_| self.is_quadratic());
         (self.corner_count()..).zip(edges.copied())
     }
 
     /// Local nodes around the outline of a plane element, mid-side nodes between their corners.
-    #[inline]
     pub fn outline(self) -> Vec<usize> {
         (0..self.edges().len())
             .flat_map(|edge| {
@@ -166,7 +155,6 @@ impl ElementKind {
     }
 
     /// Parent coordinates of each node.
-    #[inline]
     pub fn node_places(self) -> Vec<[f64; 3]> {
         let corners = self.row().corners;
         let middle = |(_, [start, end]): (usize, [usize; 2])| {

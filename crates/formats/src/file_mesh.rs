@@ -15,6 +15,9 @@ pub struct MeshFileError {
     pub message: String,
 }
 
+/// What comes of reading a file or a part of it.
+pub(crate) type Result<T, E = MeshFileError> = std::result::Result<T, E>;
+
 /// Edge of a physical curve, as indices into the nodes: its ends and, where quadratic, its middle.
 pub type CurveEdge = (u32, u32, Option<u32>);
 

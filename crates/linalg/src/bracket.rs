@@ -44,17 +44,17 @@ impl Bracket {
     ) -> Result<(f64, f64), E> {
         self.steps += 1;
         let [(first, before), (second, after)] = self.ends;
-        let share = before / (before - after);
+        let share = before / (before - after); // The root of the straight line between the ends.
         let share = match share.is_finite() && !self.steps.is_multiple_of(3) {
             true => share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE),
             false => 0.5,
         };
         let place = first + share * (second - first);
         let value = value_at(place)?;
-        let moved = usize::from((value > 0.0) == self.rises);
+        let moved = usize::from((value > 0.0) == self.rises); // The end with a value of the same sign moves.
         self.ends[moved] = (place, value);
         if self.last.replace(moved) == Some(moved) {
-            self.ends[1 - moved].1 *= 0.5;
+            self.ends[1 - moved].1 *= 0.5; // The Illinois rule.
         }
         Ok((place, value))
     }

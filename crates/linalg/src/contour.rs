@@ -51,11 +51,12 @@ pub fn count_zeros<E>(
     ln: &mut dyn FnMut(Vec<c64>) -> Result<Vec<c64>, E>,
 ) -> Result<ZeroCount, Uncounted<E>> {
     let mut samples = |points: &[c64]| samples(points, step, ln);
+    // Four sides to begin with, each with its middle.
     let middles = [0, 1, 2, 3].map(|i| 0.5 * (corners[i] + corners[(i + 1) % 4]));
     let ends = samples(&[corners.as_slice(), &middles].concat())?;
     let mut open: Vec<[Sample; 3]> =
         (0..4).map(|i| [ends[i], ends[4 + i], ends[(i + 1) % 4]]).collect();
-    let (mut sums, mut pieces) = ([c64::new(0.0, 0.0); 2], open.len());
+    let (mut sums, mut pieces) = ([c64::ZERO; 2], open.len());
     while !open.is_empty() {
         let mut rough = Vec::new();
         for piece in open {
@@ -112,7 +113,7 @@ fn samples<E>(
     let found = ln(sides.collect())?;
     let pairs = points.iter().zip(found.chunks(2));
     let sample = |(&at, ends): (&c64, &[c64])| {
-        let change = least(ends[1] - ends[0]);
+        let change = least(ends[1] - ends[0]); // (ln f)' = f' / f, with steps too short for a full turn.
         Sample { at, ln: ends[0] + 0.5 * change, slope: change / step(at) }
     };
     Ok(pairs.map(sample).collect())
@@ -130,17 +131,17 @@ fn least(change: c64) -> c64 {
 fn integral(piece: &[Sample; 3]) -> Option<[c64; 2]> {
     let [from, middle, to] = piece;
     let whole = to.at - from.at;
-    let mut sums = [c64::new(0.0, 0.0); 2];
+    let mut sums = [c64::ZERO; 2];
     let halves = [([from, middle, to], [5.0, 8.0, -1.0]), ([middle, to, from], [8.0, 5.0, -1.0])];
     for ([near, far, other], weights) in halves {
         let slopes = near.slope * weights[0] + far.slope * weights[1] + other.slope * weights[2];
-        let predicted = whole * slopes / 24.0;
+        let predicted = whole * slopes / 24.0; // int (ln f)' over the half.
         let error = least(far.ln - near.ln - predicted);
         if error.norm().is_nan() || error.norm() > AGREEMENT {
             return None;
         }
         let change = predicted + error;
-        let length = far.at - near.at;
+        let length = far.at - near.at; // int z d ln f = [z ln f] - int ln f dz, trapezoid with end correction.
         sums[0] += change;
         sums[1] +=
             0.5 * (near.at + far.at) * change - length * length * (near.slope - far.slope) / 12.0;

@@ -7,7 +7,6 @@ use faer::traits::ComplexField;
 use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par, concat};
 
 /// `a b`.
-#[inline]
 pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut c = Mat::zeros(a.nrows(), b.ncols());
     matmul(c.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
@@ -15,19 +14,16 @@ pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 }
 
 /// `a^T b`.
-#[inline]
 pub fn transpose_product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     product(a.transpose(), b)
 }
 
 /// `c += factor a b`.
-#[inline]
 pub fn add_product(c: MatMut<'_, f64>, factor: f64, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
     matmul(c, Accum::Add, a, b, factor, Par::Seq);
 }
 
 /// Columns `a` followed by columns `b`.
-#[inline]
 pub fn join_columns(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     concat![[a, b]]
 }
@@ -42,19 +38,16 @@ pub struct GrowingColumns {
 
 impl GrowingColumns {
     /// No columns of length `rows`.
-    #[inline]
     pub fn new(rows: usize) -> Self {
         Self { storage: Mat::zeros(rows, 0), room: 0 }
     }
 
     /// Number of columns.
-    #[inline]
     pub fn count(&self) -> usize {
         self.storage.ncols()
     }
 
     /// The columns.
-    #[inline]
     pub fn columns(&self) -> MatRef<'_, f64> {
         self.storage.as_ref()
     }
@@ -76,7 +69,6 @@ impl GrowingColumns {
     }
 
     /// Takes the columns' place by their combinations, see [`combine`].
-    #[inline]
     pub fn combine(&mut self, coefficients: MatRef<'_, f64>) {
         combine(&mut self.storage, coefficients);
     }
@@ -100,7 +92,6 @@ pub fn combine(a: &mut Mat<f64>, coefficients: MatRef<'_, f64>) {
 }
 
 /// Rows `a` above rows `b`.
-#[inline]
 pub fn join_rows(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     concat![[a], [b]]
 }
@@ -109,34 +100,29 @@ pub fn join_rows(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 ///
 /// # Panics
 /// If the rows of the view are not contiguous.
-#[inline]
 pub fn column<T>(a: MatRef<'_, T>, j: usize) -> &[T] {
     let column = a.col(j).try_as_col_major();
     column.expect("columns are contiguous").as_slice()
 }
 
 /// Column `j` of an owned matrix as a slice to write.
-#[inline]
 pub fn column_mut(a: &mut Mat<f64>, j: usize) -> &mut [f64] {
     let column = a.col_mut(j).try_as_col_major_mut();
     column.expect("owned columns are contiguous").as_slice_mut()
 }
 
 /// The columns of `a`, each by itself.
-#[inline]
 pub fn columns_of(a: &Mat<f64>) -> Vec<Vec<f64>> {
     (0..a.ncols()).map(|j| column(a.as_ref(), j).to_vec()).collect()
 }
 
 /// The matrix of `rows` rows with these columns, if they are of that length.
-#[inline]
 pub fn from_columns(columns: &[Vec<f64>], rows: usize) -> Option<Mat<f64>> {
     let is_whole = columns.iter().all(|column| column.len() == rows);
     is_whole.then(|| Mat::from_fn(rows, columns.len(), |i, j| columns[j][i]))
 }
 
 /// Columns `columns` of `a`, in that order.
-#[inline]
 pub fn pick_columns(a: &Mat<f64>, columns: &[usize]) -> Mat<f64> {
     let mut picked = Mat::zeros(a.nrows(), columns.len());
     for (slot, &j) in columns.iter().enumerate() {
@@ -200,7 +186,7 @@ pub fn orthogonalize<T: ComplexField<Real = f64> + Copy>(
     let mut shares = vec![T::zero_impl(); basis.len()];
     for _ in 0..2 {
         for (unit, share) in basis.iter().zip(&mut shares) {
-            let part = dot(unit, vector);
+            let part = dot(unit, vector); // v -= q (q^H v).
             *share += part;
             add(vector, -part, unit);
         }
@@ -212,7 +198,6 @@ pub fn orthogonalize<T: ComplexField<Real = f64> + Copy>(
 const SMALLEST_SQUARES: f64 = 1e-280;
 
 /// Euclidean norm, from the plain sum of squares where this neither overflows nor underflows.
-#[inline]
 pub fn norm(a: &[f64]) -> f64 {
     let squares = dot(a, a);
     if (SMALLEST_SQUARES..=f64::MAX).contains(&squares) {
@@ -222,7 +207,6 @@ pub fn norm(a: &[f64]) -> f64 {
 }
 
 /// Euclidean norm of each column.
-#[inline]
 pub fn column_norms(a: MatRef<'_, f64>) -> Vec<f64> {
     (0..a.ncols()).map(|j| norm(column(a, j))).collect()
 }
@@ -259,7 +243,6 @@ pub struct Orthonormalized {
 ///
 /// Block classical Gram-Schmidt, twice, then modified Gram-Schmidt, twice, within the block; both once more for a column of which little is
 /// left then. A column that keeps less than `drop_below` of its length is left out: its coefficients stand, its remainder is lost.
-#[inline]
 pub fn orthonormalize(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Orthonormalized {
     orthonormalize_down_to(basis, w, |length| drop_below * length)
 }
@@ -274,6 +257,7 @@ fn orthonormalize_down_to(
     bound: impl Fn(f64) -> f64,
 ) -> Orthonormalized {
     let lengths = column_norms(w.as_ref());
+    // w -= V (V^T w), twice: once leaves round-off of what was large.
     let mut against = transpose_product(basis, w.as_ref());
     add_product(w.as_mut(), -1.0, basis, against.as_ref());
     let correction = transpose_product(basis, w.as_ref());
@@ -296,13 +280,13 @@ fn orthonormalize_down_to(
                 (0..basis.ncols()).for_each(|i| against[(i, j)] += overlap[(i, 0)]);
             }
             for (slot, &k) in kept.iter().enumerate() {
-                let (q, v) = two_columns(&mut w, k, j);
+                let (q, v) = two_columns(&mut w, k, j); // v -= q (q . v).
                 let overlap = dot(q, v);
                 within[(slot, j)] += overlap;
                 add(v, -overlap, q);
             }
         }
-        let norm = norm(column(w.as_ref(), j));
+        let norm = norm(column(w.as_ref(), j)); // What is left of it is a new column, unless it is short.
         if norm > bound(lengths[j]) && norm > 0.0 {
             within[(kept.len(), j)] = norm;
             w.col_mut(j).iter_mut().for_each(|v| *v /= norm);
@@ -318,7 +302,6 @@ fn orthonormalize_down_to(
 pub const UNIT_REMAINDER: f64 = 0.5;
 
 /// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`, down to the length `drop_below` (absolute).
-#[inline]
 pub fn orthonormal_complement(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Mat<f64> {
     let new = orthonormalize_down_to(basis, w, |_| drop_below).columns;
     // Scaled to unit length, short remainders hold the round-off of long ones along the basis: once more.

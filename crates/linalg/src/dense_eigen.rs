@@ -33,7 +33,6 @@ pub struct RealEigen {
 
 /// Eigenvalues, rising, and orthonormal eigenvectors of a symmetric matrix, of which the lower triangle is read; nothing where
 /// the iteration fails.
-#[inline]
 pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
     interruption::check();
     let n = matrix.nrows();
@@ -220,7 +219,7 @@ fn order_conjugate_pairs(
         if values[i].im < 0.0 {
             values.swap(i, i + 1);
             for vectors in [Some(&mut *right), left.as_deref_mut()].into_iter().flatten() {
-                column_mut(vectors, i + 1).iter_mut().for_each(|v| *v = -*v);
+                column_mut(vectors, i + 1).iter_mut().for_each(|v| *v = -*v); // p - i q belongs to the other one.
             }
         }
         i += 2;
@@ -251,6 +250,7 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
         let vector = complex_column(values, vectors, j);
         let image = complex_column(values, &images, j);
         let pairs = image.iter().zip(&vector);
+        // |A x - lambda x|, and what x has beyond sound vectors of the same lambda.
         let error = pairs.map(|(a, x)| (a - values[j] * x).norm_sqr()).sum::<f64>().sqrt();
         let mut beyond = vector.clone();
         project_out(&mut beyond, &orthonormal(alike(values, vectors, &sound, j)));
@@ -262,7 +262,7 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
         }
     }
     for j in unsound {
-        let known = orthonormal(alike(values, vectors, &sound, j));
+        let known = orthonormal(alike(values, vectors, &sound, j)); // Each new vector is one more that the next ones keep off.
         let vector = inverse_iteration(matrix, values[j], &known, j as u64);
         for (i, v) in vector.iter().enumerate() {
             vectors[(i, j)] = v.re;
@@ -292,12 +292,13 @@ fn inverse_iteration(
     // Off the eigenvalue by more than its round-off, by far less than its distance to others.
     let shift = value * (1.0 + 1e-11);
     let shifted = Mat::from_fn(n, n, |i, j| {
-        c64::new(matrix[(i, j)], 0.0) - if i == j { shift } else { c64::new(0.0, 0.0) }
+        c64::new(matrix[(i, j)], 0.0) - if i == j { shift } else { c64::ZERO }
     });
     let lu = ComplexDenseLu::factorize(shifted);
     let start = random_columns(n, 1, seed);
     let mut x = Mat::from_fn(n, 1, |i, _| c64::new(start[(i, 0)], 0.0));
     for _ in 0..3 {
+        // (A - s)^-1 of what is orthogonal to the known ones.
         let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
         project_out(&mut vector, known);
         let vector = normalized(vector);
@@ -315,7 +316,7 @@ fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
     if values[j].im == 0.0 {
         return real.iter().map(|&v| c64::new(v, 0.0)).collect();
     }
-    let imaginary = column(vectors.as_ref(), j + 1);
+    let imaginary = column(vectors.as_ref(), j + 1); // A pair has p + i q in two columns.
     real.iter().zip(imaginary).map(|(&p, &q)| c64::new(p, q)).collect()
 }
 
@@ -353,7 +354,7 @@ mod tests {
         let entry = |i: usize, j: usize| c64::new(re[(i, j)], im[(i, j)]);
         let triangle = Mat::from_fn(12, 12, |i, j| match i <= j {
             true => entry(i, j),
-            false => c64::new(0.0, 0.0),
+            false => c64::ZERO,
         });
         let found = complex_eigenvalues(triangle.as_ref()).unwrap();
         assert_eq!(found.len(), 12);

@@ -34,6 +34,7 @@ pub(super) fn nested_dissection(pattern: &SparsityPattern) -> Option<Vec<usize>>
     let mut adjacent: Vec<(usize, Vec<usize>)> =
         vertices.into_iter().map(|(others, vertex)| (vertex, others)).collect();
     adjacent.sort_unstable();
+    // The graph of the vertices by columns, as METIS takes it.
     let (mut pointers, mut others) = (vec![0_i32], Vec::<i32>::new());
     for (vertex, unknowns) in adjacent {
         let mut own: Vec<usize> = unknowns.into_iter().map(|unknown| vertex_of[unknown]).collect();

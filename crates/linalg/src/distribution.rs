@@ -30,7 +30,6 @@ pub enum Distribution {
 
 impl Distribution {
     /// Probability of a value below `x`.
-    #[inline]
     pub fn below(&self, x: f64) -> f64 {
         match *self {
             Self::Normal { mean, deviation } => normal_below((x - mean) / deviation),
@@ -41,7 +40,6 @@ impl Distribution {
     }
 
     /// The value below which others lie with a probability strictly between 0 and 1.
-    #[inline]
     pub fn quantile(&self, probability: f64) -> f64 {
         match *self {
             Self::Normal { mean, deviation } => mean + deviation * normal_quantile(probability),
@@ -65,10 +63,11 @@ fn normal_quantile(probability: f64) -> f64 {
     let numerator = 2.515_517 + t * (0.802_853 + t * 0.010_328);
     let mut x = numerator / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308))) - t;
     for _ in 0..3 {
-        let density = (-0.5 * x * x).exp() / (2.0 * PI).sqrt();
+        let density = (-0.5 * x * x).exp() / (2.0 * PI).sqrt(); // Halley: x -= u / (1 + x u / 2), u = (P(x) - p) / P'(x).
         let newton = (normal_below(x) - tail) / density;
         x -= newton / (1.0 + 0.5 * x * newton);
     }
+    // The upper tail is the mirror image of the lower one.
     if probability > 0.5 { -x } else { x }
 }
 

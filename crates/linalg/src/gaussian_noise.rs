@@ -24,7 +24,6 @@ pub struct GaussianNoise(u64);
 
 impl GaussianNoise {
     /// The stream of a seed.
-    #[inline]
     pub fn new(mut seed: u64) -> Self {
         // All streams are parts of one sequence, `state + k increment`. A state that is linear in the seed would let neighbouring seeds run
         // through the same numbers a few places apart; a scrambled one puts each seed at a random place among 2^64.
@@ -32,7 +31,6 @@ impl GaussianNoise {
     }
 
     /// The next value.
-    #[inline]
     pub fn draw(&mut self) -> c64 {
         // 1 - u lies in (0, 1], where the logarithm exists.
         let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();

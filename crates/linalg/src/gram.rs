@@ -25,8 +25,8 @@ pub struct GramFactors {
 ///
 /// Source: Y. Yamamoto, Y. Nakatsukasa, Y. Yanagisawa, T. Fukaya, Roundoff error analysis of the CholeskyQR2 algorithm,
 /// Electron. Trans. Numer. Anal. 44 (2015); here with pivots.
-#[inline]
 pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
+    // w = Q_1 R_1, Q_1 = Q_2 R_2: w = Q_2 (R_2 R_1), orthonormal to round-off.
     let first = Pass::of(w.as_ref(), 0.0);
     if first.kept.len() < w.ncols() {
         return Err(w);
@@ -39,7 +39,6 @@ pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
 
 /// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`: remainders shorter than `shortest`,
 /// or than a millionth of their own length, are left out.
-#[inline]
 pub fn complement(basis: MatRef<'_, f64>, mut w: Mat<f64>, shortest: f64) -> Mat<f64> {
     // Always twice: a very stiff contact turns what round-off is left along the basis into modes of its own.
     for shortest in [shortest, UNIT_REMAINDER] {
@@ -66,11 +65,12 @@ impl Pass {
         let lengths = column_norms(w);
         let raw = transpose_product(w, w);
         let count = w.ncols();
+        // Of unit columns.
         let gram = Mat::from_fn(count, count, |i, j| raw[(i, j)] / (lengths[i] * lengths[j]));
         // Not a number where a column is zero: the comparison with its floor is false then.
         let floors = lengths.iter().map(|length| (shortest / length).max(DEPENDENT).powi(2));
         let (kept, upper) = pivoted_cholesky(gram, &floors.collect::<Vec<_>>());
-        let inverse = inverse_of_upper(&kept, &upper);
+        let inverse = inverse_of_upper(&kept, &upper); // Q = w D^-1 R^-1, with D the lengths.
         let mut coefficients = Mat::zeros(count, kept.len());
         let mut within = Mat::zeros(kept.len(), count);
         for (slot, &j) in kept.iter().enumerate() {
@@ -105,6 +105,7 @@ fn pivoted_cholesky(gram: Mat<f64>, floors: &[f64]) -> (Vec<usize>, Mat<f64>) {
         let row = kept.len();
         upper[(row, pivot)] = remainders[pivot].sqrt();
         for &j in &open {
+            // r_pj = (g_pj - sum_i r_ip r_ij) / r_pp.
             let known: f64 = (0..row).map(|i| upper[(i, pivot)] * upper[(i, j)]).sum();
             upper[(row, j)] = (gram[(pivot, j)] - known) / upper[(row, pivot)];
             remainders[j] -= upper[(row, j)] * upper[(row, j)];
@@ -120,7 +121,7 @@ fn inverse_of_upper(kept: &[usize], upper: &Mat<f64>) -> Mat<f64> {
     for k in 0..count {
         for i in (0..=k).rev() {
             let known: f64 = (i + 1..=k).map(|j| upper[(i, kept[j])] * inverse[(j, k)]).sum();
-            let right = f64::from(i == k);
+            let right = f64::from(i == k); // R R^-1 = 1, column by column from below.
             inverse[(i, k)] = (right - known) / upper[(i, kept[i])];
         }
     }

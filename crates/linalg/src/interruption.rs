@@ -23,13 +23,11 @@ pub struct Stopped;
 
 impl Stop {
     /// Asks the computation to stop.
-    #[inline]
     pub fn ask(&self) {
         self.0.store(true, Ordering::SeqCst);
     }
 
     /// Makes the work of the calling thread from now on part of the computation.
-    #[inline]
     pub fn enter(&self) {
         OWN.with_borrow_mut(|own| *own = Some(self.clone()));
     }
@@ -53,7 +51,6 @@ pub fn check() {
 }
 
 /// Takes the request back where the computation ends in an order of its own, with its results so far.
-#[inline]
 pub fn acknowledge() {
     OWN.with_borrow(|own| {
         if let Some(stop) = own {

@@ -65,7 +65,7 @@ impl LinearFamily {
             self.directions.push(next);
             let count = self.directions.len();
             for ((images, forms), own) in self.images.iter_mut().zip(&mut self.projected).zip(own) {
-                images.push(own);
+                images.push(own); // A_p v_j, and v_i . A_p v_j.
                 forms.resize_with(count, count, |i, j| dot(&self.directions[i], &images[j]));
             }
             taken += 1;
@@ -75,6 +75,7 @@ impl LinearFamily {
     /// What the space has of the solution, and the residual.
     fn projected_at(&self, mu: f64) -> (Vec<f64>, Vec<f64>) {
         let (count, [fixed, moving]) = (self.directions.len(), &self.projected);
+        // V^T (A_0 + mu A_1) V s = V^T b, x = V s.
         let mut shares = Mat::from_fn(count, 1, |i, _| dot(&self.directions[i], &self.right_side));
         let forms = Mat::from_fn(count, count, |i, j| fixed[(i, j)] + mu * moving[(i, j)]);
         DenseLu::factorize(forms).solve_in_place(shares.as_mut());

@@ -45,7 +45,7 @@ pub fn newton_root<E>(
                 *step *= (LITTLE / (2.0 * reach)).min(1.0);
             }
         }
-        let mut change = Mat::from_fn(count, 1, |i, _| values[i]);
+        let mut change = Mat::from_fn(count, 1, |i, _| values[i]); // S dx = f: the step of Newton's method.
         DenseLu::factorize(slopes).solve_in_place(change.as_mut());
         if !change.norm_max().is_finite() {
             break;

@@ -127,7 +127,6 @@ impl SparsityPattern {
     }
 
     /// Values sorted by rows.
-    #[inline]
     pub fn by_rows(&self, values: &[f64]) -> Vec<f64> {
         let positions = self.row_positions.iter();
         positions.map(|&position| values[position as usize]).collect()
@@ -175,6 +174,7 @@ impl SparsityPattern {
             Some(order) => order.arrays().0.to_vec(),
             None => (0..self.dimension()).collect(),
         };
+        // The same order, in which the last ones come last.
         let (mut unknowns, end): (Vec<_>, Vec<_>) = order.into_iter().partition(|&own| !last[own]);
         unknowns.extend(end);
         self.analysed_in(unknowns).map(Some)
@@ -213,7 +213,6 @@ impl SparsityPattern {
     }
 
     /// A matrix of this pattern with `values`, one for each nonzero.
-    #[inline]
     pub fn matrix<'a, T>(&'a self, values: &'a [T]) -> SparseColMatRef<'a, usize, T> {
         SparseColMatRef::new(self.symbolic.as_ref(), values)
     }
@@ -225,12 +224,12 @@ fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<u32>, Vec
     assert!(u32::try_from(count).is_ok(), "{count} nonzeros are too many");
     let mut pointers = vec![0; dimension + 1];
     for &row in symbolic.row_idx() {
-        pointers[row + 1] += 1;
+        pointers[row + 1] += 1; // How many nonzeros each row has, then where it begins.
     }
     for row in 0..dimension {
         pointers[row + 1] += pointers[row];
     }
-    let mut next = pointers.clone();
+    let mut next = pointers.clone(); // Columns in turn: each row gets its columns ascending.
     let (mut positions, mut columns) = (vec![0; count], vec![0; count]);
     for column in 0..dimension {
         let range = symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1];

@@ -43,7 +43,6 @@ fn lane_sums<const N: usize>(
 
 impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
-    #[inline]
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         let [y] = self.multiply_sorted([&self.by_rows(values)], x);
         y
@@ -65,7 +64,6 @@ impl SparsityPattern {
     }
 
     /// `A^T x` for each column of `x` and each of several matrices, given by their nonzeros in the order of the pattern.
-    #[inline]
     pub fn multiply_transpose_each<const N: usize>(
         &self,
         values: [&[f64]; N],
@@ -75,7 +73,6 @@ impl SparsityPattern {
     }
 
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows ([`Self::by_rows`]).
-    #[inline]
     pub fn multiply_sum(&self, values: [&[f64]; 2], vectors: [MatRef<'_, f64>; 2]) -> Mat<f64> {
         let [sum] = self.by_lanes(vectors, |[x, y], index| {
             let mut sum = [0.0; LANES];
@@ -90,7 +87,6 @@ impl SparsityPattern {
     }
 
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
-    #[inline]
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         let [y] = self.multiply_transpose_each([values], x);
         y
@@ -110,7 +106,7 @@ impl SparsityPattern {
         inputs.resize(M * n, [0.0; LANES]);
         let mut strips = [[[0.0; LANES]; STRIP]; N];
         for first in (0..columns).step_by(LANES) {
-            let width = LANES.min(columns - first);
+            let width = LANES.min(columns - first); // Interleave the entries of so many vectors.
             for (x, input) in blocks.iter().zip(inputs.chunks_exact_mut(n.max(1))) {
                 for lane in 0..width {
                     for (entry, value) in input.iter_mut().zip(column(*x, first + lane)) {
@@ -120,7 +116,7 @@ impl SparsityPattern {
             }
             let own: [&[[f64; LANES]]; M] = std::array::from_fn(|m| &inputs[m * n..(m + 1) * n]);
             for start in (0..n).step_by(STRIP) {
-                let rows = start..n.min(start + STRIP);
+                let rows = start..n.min(start + STRIP); // A strip of rows of the results, then their columns from it.
                 for index in rows.clone() {
                     let sums = kernel(own, index);
                     for (strip, sum) in strips.iter_mut().zip(sums) {

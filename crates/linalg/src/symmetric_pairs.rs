@@ -49,6 +49,7 @@ pub fn symmetric_pairs(
     let mut basis = complement(Mat::zeros(n, 0).as_ref(), found.vectors, 0.0);
     let momenta = pencil.mass_times(basis.as_ref());
     let (squares, mut turn) = decomposed(transpose_product(basis.as_ref(), momenta.as_ref()))?;
+    // V^T M V = T S T^T: V T S^-1/2 is orthonormal in M.
     for (j, square) in squares.iter().enumerate() {
         turn.col_mut(j).iter_mut().for_each(|v| *v /= square.sqrt());
     }
@@ -57,6 +58,7 @@ pub fn symmetric_pairs(
     // The pairs in their space.
     let momenta = pencil.mass_times(basis.as_ref());
     let images = pencil.apply(basis.as_ref());
+    // V^T M A^-1 M V y = theta y.
     let (rising, ritz) = decomposed(transpose_product(momenta.as_ref(), images.as_ref()))?;
     let falling: Vec<usize> = (0..rising.len()).rev().take(wanted).collect();
     let ritz = pick_columns(&ritz, &falling);

@@ -5,11 +5,7 @@ pub use crate::dense::dot;
 use crate::c64;
 use crate::dense::product_sum;
 
-/// Zero.
-pub const ZERO: c64 = c64::new(0.0, 0.0);
-
 /// `a^T x`.
-#[inline]
 pub fn product(a: &[c64], x: &[c64]) -> c64 {
     product_sum(a, x, |a, x| a * x)
 }

@@ -1,7 +1,7 @@
 //! Keyword lines of an input file, each with its data lines.
 
 use crate::deck::{Deck, Place, quoted, real};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::{MeshFileError, Result};
 
 /// A keyword with its parameters and its data.
 pub(super) struct Block<'a> {
@@ -36,22 +36,13 @@ impl Block<'_> {
     }
 
     /// The value of a parameter that must be there.
-    pub fn required(&self, name: &str) -> Result<&str, MeshFileError> {
+    pub fn required(&self, name: &str) -> Result<&str> {
         let found = self.parameter(name).filter(|value| !value.is_empty());
         found.ok_or_else(|| fault!(self; "*{} needs {name}=", self.keyword))
     }
 
-    /// The numbers of all data lines; empty fields are 0.
-    pub fn numbers(&self) -> Result<Vec<f64>, MeshFileError> {
-        self.numbers_of(self.data.len())
-    }
-
-    /// The numbers of the first data line.
-    pub fn first_numbers(&self) -> Result<Vec<f64>, MeshFileError> {
-        self.numbers_of(1)
-    }
-
-    fn numbers_of(&self, lines: usize) -> Result<Vec<f64>, MeshFileError> {
+    /// The numbers of the first data lines, at most so many; empty fields are 0.
+    pub fn numbers(&self, lines: usize) -> Result<Vec<f64>> {
         let lines = self.data.iter().take(lines);
         let all = lines.flat_map(|&(place, line)| fields(line).map(move |field| (place, field)));
         let numbers = all.map(|(place, field)| match field {
@@ -71,11 +62,6 @@ pub(super) fn fields(line: &str) -> impl Iterator<Item = &str> {
     line.strip_suffix(',').unwrap_or(line).split(',').map(str::trim)
 }
 
-/// A name without its quotes.
-fn unquoted(text: &str) -> &str {
-    text.trim().trim_matches('"')
-}
-
 /// Splits a keyword line at commas outside quotes.
 fn parts(line: &str) -> Vec<&str> {
     let mut is_quoted = false;
@@ -87,7 +73,7 @@ fn parts(line: &str) -> Vec<&str> {
 }
 
 /// All keywords of an input file.
-pub(super) fn blocks<'a>(deck: &'a Deck<'a>) -> Result<Vec<Block<'a>>, MeshFileError> {
+pub(super) fn blocks<'a>(deck: &'a Deck<'a>) -> Result<Vec<Block<'a>>> {
     let mut blocks: Vec<Block<'a>> = Vec::new();
     let is_comment = |line: &str| line.starts_with("**");
     let lines = deck.lines.iter();
@@ -111,7 +97,7 @@ pub(super) fn blocks<'a>(deck: &'a Deck<'a>) -> Result<Vec<Block<'a>>, MeshFileE
         let keyword: Vec<&str> = words.next().unwrap_or_default().split_whitespace().collect();
         let parameters = words.filter(|word| !word.is_empty()).map(|word| {
             let (name, value) = word.split_once('=').unwrap_or((word, ""));
-            (name.trim().to_uppercase(), unquoted(value).to_owned())
+            (name.trim().to_uppercase(), value.trim().trim_matches('"').to_owned())
         });
         blocks.push(Block {
             deck,

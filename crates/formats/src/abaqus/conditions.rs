@@ -5,7 +5,7 @@ use super::block::{Block, fields};
 use super::interactions::unique;
 use crate::collection::{dimension, used_nodes};
 use crate::deck::{Place, quoted, real};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use crate::model_data::{FileCondition, FileConditionKind, FileMotion};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -33,13 +33,14 @@ type Pressures = BTreeMap<String, (f64, Place)>;
 
 impl Reader<'_, '_> {
     /// Reads what holds, loads and turns the bodies. Steps follow each other: each changes what is there, `OP=NEW` begins anew.
-    pub(super) fn read_conditions(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_conditions(&mut self) -> Result<()> {
         let (mut held, mut pressures) = (Held::new(), Pressures::new());
         let transformed = self.transformed()?;
         let mut step = 0;
         for &(scope, block) in self.blocks {
             match block.keyword.as_str() {
                 "STEP" => step += 1,
+                // What holds: displacements of zero, of no other kind.
                 "BOUNDARY" => {
                     if block.is("OP", "NEW") {
                         held.clear();
@@ -51,6 +52,7 @@ impl Reader<'_, '_> {
                     }
                     self.boundary(scope, block, &mut held)?;
                 }
+                // What loads: pressures on faces or surfaces.
                 keyword @ ("DLOAD" | "DSLOAD") => {
                     if block.is("OP", "NEW") {
                         pressures.clear();
@@ -67,6 +69,7 @@ impl Reader<'_, '_> {
                 "conditions, pressures and friction are those at the end of {step} {plural}"
             ));
         }
+        // What is left at the end; equations need to know which nodes are held.
         let referred = self.read_equations(&held)?;
         self.take_held(held, &transformed, &referred);
         for (boundary, (pressure, place)) in pressures {
@@ -78,7 +81,7 @@ impl Reader<'_, '_> {
     }
 
     /// Nodes whose degrees of freedom are along axes of their own.
-    fn transformed(&mut self) -> Result<BTreeSet<u32>, MeshFileError> {
+    fn transformed(&mut self) -> Result<BTreeSet<u32>> {
         let mut nodes = BTreeSet::new();
         for (scope, block) in self.blocks_of("TRANSFORM") {
             let name = block.required("NSET")?;
@@ -90,12 +93,7 @@ impl Reader<'_, '_> {
         Ok(nodes)
     }
 
-    fn boundary(
-        &mut self,
-        scope: usize,
-        block: &Block<'_>,
-        held: &mut Held,
-    ) -> Result<(), MeshFileError> {
+    fn boundary(&mut self, scope: usize, block: &Block<'_>, held: &mut Held) -> Result<()> {
         for &(place, line) in &block.data {
             let entry: Vec<&str> = fields(line).collect();
             let (target, what) = (entry[0], entry.get(1).copied().unwrap_or_default());
@@ -139,7 +137,7 @@ impl Reader<'_, '_> {
         place: Place,
         target: &str,
         axes: [bool; 3],
-    ) -> Result<(usize, String), MeshFileError> {
+    ) -> Result<(usize, String)> {
         let key = self.key(scope, target);
         if self.nodes.sets.contains_key(&key) {
             return Ok(key);
@@ -152,8 +150,7 @@ impl Reader<'_, '_> {
         let letters = ["_1", "_2", "_3"].into_iter().zip(axes);
         let letters: String = letters.filter(|(_, is_held)| *is_held).map(|l| l.0).collect();
         let single = format!("{SINGLE_NODES}{letters}");
-        let named = self.named(0, &single);
-        self.nodes.add(named, nodes, false);
+        self.nodes.add(Some(self.named(0, &single)), nodes, false);
         Ok((0, single.to_uppercase()))
     }
 
@@ -173,25 +170,18 @@ impl Reader<'_, '_> {
                 set.items.iter().copied().filter(|node| used.contains(node)).collect();
             let is_whole = axes == [true, true, !in_plane];
             if !axes.contains(&true) {
-                self.leave_out(
-                    &keyword,
-                    place,
-                    "rotations of nodes have no meaning in solid elements",
-                );
+                let reason = "rotations of nodes have no meaning in solid elements";
+                self.leave_out(&keyword, place, reason);
             } else if nodes.is_empty() && set.items.iter().all(|node| referred.contains(node)) {
                 // Its part is played in the equations.
             } else if nodes.is_empty() {
-                self.leave_out(
-                    &keyword,
-                    place,
-                    "none of its nodes belongs to a solid (plane) element",
-                );
+                let reason = "none of its nodes belongs to a solid (plane) element";
+                self.leave_out(&keyword, place, reason);
             } else if !is_whole && nodes.iter().any(|node| transformed.contains(node)) {
                 let reason = "its directions are those of *TRANSFORM: hold it in the case (condition = \"guide\" or \"fixed\")";
                 self.lose_part(&keyword, place, reason);
             } else {
-                let taken = &self.file;
-                let is_other = |name: &str| taken.surfaces.contains_key(name);
+                let is_other = |name: &str| self.file.surfaces.contains_key(name);
                 let boundary = match is_other(&set.name) {
                     true => unique(&format!("{}_nodes", set.name), is_other),
                     false => set.name.clone(),
@@ -211,7 +201,7 @@ impl Reader<'_, '_> {
         block: &Block<'_>,
         keyword: &str,
         pressures: &mut Pressures,
-    ) -> Result<(), MeshFileError> {
+    ) -> Result<()> {
         for &(place, line) in &block.data {
             let entry: Vec<&str> = fields(line).collect();
             let kind = entry.get(1).copied().unwrap_or_default().to_uppercase();
@@ -248,9 +238,8 @@ impl Reader<'_, '_> {
         place: Place,
         set: &str,
         side: &str,
-    ) -> Result<String, MeshFileError> {
-        let elements = self.entry(&self.elements, scope, place, set)?;
-        let elements = elements.ok_or_else(|| self.unknown(place, "element set", set))?;
+    ) -> Result<String> {
+        let elements = self.items(&self.elements, scope, place, set)?;
         let (there, name) = self.resolved(scope, set);
         let full = match self.elements.sets.get(&self.key(scope, set)) {
             Some(known) => format!("{}_{side}", known.name),
@@ -263,7 +252,7 @@ impl Reader<'_, '_> {
     }
 
     /// `*MOTION, ROTATION`: the speed at which nodes pass, of the regions that it covers.
-    fn motion(&mut self, scope: usize, block: &Block<'_>) -> Result<(), MeshFileError> {
+    fn motion(&mut self, scope: usize, block: &Block<'_>) -> Result<()> {
         if !block.has("ROTATION") {
             self.leave_out("*MOTION without ROTATION", block.place, "");
             return Ok(());
@@ -276,8 +265,7 @@ impl Reader<'_, '_> {
                 refuse!(self.deck, place;
                     "a speed and two points of the axis (3 + 3 numbers) expected");
             };
-            let nodes = self.entry(&self.nodes, scope, place, target)?;
-            let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
+            let nodes = self.items(&self.nodes, scope, place, target)?;
             let nodes: BTreeSet<u32> = nodes.into_iter().collect();
             let elements = self.collected.iter();
             let is_inside = elements.map(|e| e.nodes.iter().all(|node| nodes.contains(node)));
@@ -315,7 +303,7 @@ impl Reader<'_, '_> {
     }
 
     /// `*DLOAD`, `CENTRIF`: the squared speed at which elements turn, a point of the axis and its direction.
-    fn centrifugal(&mut self, scope: usize, place: Place, line: &str) -> Result<(), MeshFileError> {
+    fn centrifugal(&mut self, scope: usize, place: Place, line: &str) -> Result<()> {
         let mut entry = fields(line);
         let target = entry.next().unwrap_or_default();
         let numbers: Option<Vec<f64>> = entry.skip(1).map(real).collect();
@@ -327,8 +315,7 @@ impl Reader<'_, '_> {
         if square < 0.0 {
             refuse!(self.deck, place; "CENTRIF: the square of a speed is not negative");
         }
-        let elements = self.entry(&self.elements, scope, place, target)?;
-        let elements = elements.ok_or_else(|| self.unknown(place, "element set", target))?;
+        let elements = self.items(&self.elements, scope, place, target)?;
         let mut is_inside = vec![false; self.collected.len()];
         elements.into_iter().for_each(|e| is_inside[e] = true);
         let axis = [[a, b, c], [a + d, b + e, c + f]];

@@ -5,7 +5,7 @@ use super::block::{Block, fields};
 use super::conditions::Held;
 use crate::collection::{dimension, used_nodes};
 use crate::deck::{Place, real};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use std::collections::BTreeSet;
 
 /// A term: its nodes, an axis, a coefficient.
@@ -14,7 +14,7 @@ type Term = (Vec<u32>, usize, f64);
 impl Reader<'_, '_> {
     /// Reads the equations, and returns the nodes without elements that are part of them: such a node must be held, and takes no
     /// part then.
-    pub(super) fn read_equations(&mut self, held: &Held) -> Result<BTreeSet<u32>, MeshFileError> {
+    pub(super) fn read_equations(&mut self, held: &Held) -> Result<BTreeSet<u32>> {
         let used = used_nodes(&self.collected);
         let is_held = |reader: &Self, node: u32, axis: usize| {
             let mut sets = held.iter().filter(|(_, (axes, _))| axes[axis]);
@@ -35,6 +35,7 @@ impl Reader<'_, '_> {
                         (node, *axis, *factor)
                     });
                     let (own, beside): (Vec<_>, Vec<_>) = all.partition(|t| used.contains(&t.0));
+                    // Nodes without elements vanish from it if they are held.
                     for (node, axis, _) in beside {
                         if !is_held(self, node, axis) {
                             let label = self.file.labels[node as usize];
@@ -49,6 +50,7 @@ impl Reader<'_, '_> {
                 }
             }
         }
+        // A plane body has no use for them.
         if dimension(&self.collected) == 2 && !self.file.equations.is_empty() {
             self.file.equations.clear();
             let first = self.blocks_of("EQUATION").next();
@@ -59,11 +61,7 @@ impl Reader<'_, '_> {
     }
 
     /// The equations of a block: the number of terms, then node or set, axis and coefficient of each, over any lines.
-    fn equation_terms(
-        &self,
-        scope: usize,
-        block: &Block<'_>,
-    ) -> Result<Vec<(Place, Vec<Term>)>, MeshFileError> {
+    fn equation_terms(&self, scope: usize, block: &Block<'_>) -> Result<Vec<(Place, Vec<Term>)>> {
         let mut equations = Vec::new();
         let mut lines = block.data.iter();
         while let Some(&(place, line)) = lines.next() {
@@ -88,12 +86,7 @@ impl Reader<'_, '_> {
         Ok(equations)
     }
 
-    fn equation_term(
-        &self,
-        scope: usize,
-        place: Place,
-        term: &[&str],
-    ) -> Result<Term, MeshFileError> {
+    fn equation_term(&self, scope: usize, place: Place, term: &[&str]) -> Result<Term> {
         let wrong = || {
             fault!(self.deck, place;
             "*EQUATION: a node or node set, a direction 1 to 3 and a coefficient expected")
@@ -105,8 +98,6 @@ impl Reader<'_, '_> {
         let (Some(axis), Some(factor)) = (axis, real(factor)) else {
             return Err(wrong());
         };
-        let nodes = self.entry(&self.nodes, scope, place, target)?;
-        let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
-        Ok((nodes, axis - 1, factor))
+        Ok((self.items(&self.nodes, scope, place, target)?, axis - 1, factor))
     }
 }

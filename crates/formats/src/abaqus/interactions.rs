@@ -3,13 +3,13 @@
 use super::Reader;
 use super::block::{Block, fields};
 use crate::deck::{Place, quoted};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use crate::model_data::{FileContact, FileTie};
 use std::collections::BTreeMap;
 
 impl Reader<'_, '_> {
     /// Reads ties and contact pairs.
-    pub(super) fn read_interactions(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_interactions(&mut self) -> Result<()> {
         let interactions = self.interactions()?;
         for (scope, block) in self.blocks_of("TIE") {
             let name = block.parameter("NAME").filter(|name| !name.is_empty());
@@ -28,10 +28,7 @@ impl Reader<'_, '_> {
     }
 
     /// Contact pairs.
-    fn read_pairs(
-        &mut self,
-        interactions: &BTreeMap<String, FileContact>,
-    ) -> Result<(), MeshFileError> {
+    fn read_pairs(&mut self, interactions: &BTreeMap<String, FileContact>) -> Result<()> {
         for (scope, block) in self.blocks_of("CONTACT PAIR") {
             let name = block.required("INTERACTION")?;
             let Some(interaction) = interactions.get(&name.to_uppercase()) else {
@@ -64,11 +61,7 @@ impl Reader<'_, '_> {
     }
 
     /// Pairs of surfaces of all data lines; those of which one was left out are left out too.
-    fn pairs(
-        &mut self,
-        scope: usize,
-        block: &Block<'_>,
-    ) -> Result<Vec<(Place, [String; 2])>, MeshFileError> {
+    fn pairs(&mut self, scope: usize, block: &Block<'_>) -> Result<Vec<(Place, [String; 2])>> {
         let mut pairs = Vec::new();
         for &(place, line) in &block.data {
             let names: Vec<&str> = fields(line).filter(|name| !name.is_empty()).collect();
@@ -112,7 +105,7 @@ impl Reader<'_, '_> {
     }
 
     /// Surface interactions by name, as the last step leaves them, of no surfaces yet.
-    fn interactions(&mut self) -> Result<BTreeMap<String, FileContact>, MeshFileError> {
+    fn interactions(&mut self) -> Result<BTreeMap<String, FileContact>> {
         let mut found: BTreeMap<String, FileContact> = BTreeMap::new();
         let mut current = None;
         for &(_, block) in self.blocks {
@@ -141,12 +134,8 @@ impl Reader<'_, '_> {
         Ok(found)
     }
 
-    fn friction(
-        &mut self,
-        block: &Block<'_>,
-        interaction: &mut FileContact,
-    ) -> Result<(), MeshFileError> {
-        let numbers = block.first_numbers()?;
+    fn friction(&mut self, block: &Block<'_>, interaction: &mut FileContact) -> Result<()> {
+        let numbers = block.numbers(1)?;
         let is_other = ["ROUGH", "USER", "ANISOTROPIC"].into_iter().any(|kind| block.has(kind));
         if is_other || block.data.len() > 1 {
             let reason =
@@ -171,14 +160,10 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn behavior(
-        &mut self,
-        block: &Block<'_>,
-        interaction: &mut FileContact,
-    ) -> Result<(), MeshFileError> {
+    fn behavior(&mut self, block: &Block<'_>, interaction: &mut FileContact) -> Result<()> {
         let kind = block.parameter("PRESSURE-OVERCLOSURE").unwrap_or("HARD").to_uppercase();
         match kind.as_str() {
-            "LINEAR" => interaction.normal_stiffness = block.first_numbers()?.first().copied(),
+            "LINEAR" => interaction.normal_stiffness = block.numbers(1)?.first().copied(),
             "HARD" => interaction.normal_stiffness = None,
             _ => {
                 let keyword = format!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={kind}");

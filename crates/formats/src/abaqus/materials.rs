@@ -3,7 +3,7 @@
 use super::Reader;
 use super::block::{Block, fields};
 use crate::deck::real;
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 impl Reader<'_, '_> {
     /// Reads materials and sections: each element gets its region, each region its material.
-    pub(super) fn read_materials(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_materials(&mut self) -> Result<()> {
         let definitions = self.definitions()?;
         let orientations = self.orientations()?;
         let mut is_sectioned = vec![false; self.collected.len()];
@@ -20,6 +20,7 @@ impl Reader<'_, '_> {
             let Some(set) = self.elements.sets.get(&self.key(scope, name)).cloned() else {
                 return Err(self.unknown(block.place, "element set", name));
             };
+            // The set is the region of its elements, each of which has one section.
             let region: Arc<str> = set.name.as_str().into();
             for &element in &set.items.iter().copied().collect::<BTreeSet<usize>>() {
                 let known = &mut self.collected[element];
@@ -30,6 +31,7 @@ impl Reader<'_, '_> {
                 }
                 known.region = Some(Arc::clone(&region));
             }
+            // Its material by name, in any case of letters.
             let Some(material) = block.parameter("MATERIAL") else {
                 self.leave_out("*SOLID SECTION without MATERIAL", block.place, "");
                 continue;
@@ -64,7 +66,7 @@ impl Reader<'_, '_> {
     }
 
     /// Materials by name, of no region yet.
-    fn definitions(&mut self) -> Result<BTreeMap<String, FileMaterial>, MeshFileError> {
+    fn definitions(&mut self) -> Result<BTreeMap<String, FileMaterial>> {
         let mut definitions: BTreeMap<String, FileMaterial> = BTreeMap::new();
         let mut current: Option<String> = None;
         for &(_, block) in self.blocks {
@@ -97,7 +99,7 @@ impl Reader<'_, '_> {
                         self.leave_out("*ELASTIC with more than one line", block.place, reason);
                     }
                 }
-                "DENSITY" => definition.density = block.first_numbers()?.first().copied(),
+                "DENSITY" => definition.density = block.numbers(1)?.first().copied(),
                 _ => damping(block, definition)?,
             }
         }
@@ -105,7 +107,7 @@ impl Reader<'_, '_> {
     }
 
     /// `*ORIENTATION` by scope and name.
-    fn orientations(&mut self) -> Result<BTreeMap<(usize, String), MaterialAxes>, MeshFileError> {
+    fn orientations(&mut self) -> Result<BTreeMap<(usize, String), MaterialAxes>> {
         let mut found = BTreeMap::new();
         for (scope, block) in self.blocks_of("ORIENTATION") {
             let name = block.required("NAME")?;
@@ -114,13 +116,14 @@ impl Reader<'_, '_> {
             {
                 return Err(wrong("only DEFINITION=COORDINATES is supported"));
             }
-            let numbers = block.first_numbers()?;
+            let numbers = block.numbers(1)?; // Two points a and b; a third, the origin, is zero where it is not given.
             let Some(&[a, b, c, d, e, f]) = numbers.get(..6).and_then(|n| n.first_chunk::<6>())
             else {
                 return Err(wrong("six numbers expected: two points"));
             };
             let [p, q] = [Vector3::new(a, b, c), Vector3::new(d, e, f)];
             let system = block.parameter("SYSTEM").unwrap_or("RECTANGULAR").to_uppercase();
+            // The second line turns about one of the axes.
             let extra = match block.data.get(1) {
                 Some(&(_, line)) => fields(line).filter_map(real).collect(),
                 None => Vec::new(),
@@ -131,6 +134,7 @@ impl Reader<'_, '_> {
                     [[0.0; 3], v.into()].map(|point| Vector3::from(scope_of.place(point)));
                 (to - from).into()
             };
+            // Axes turn with the instance.
             let axes = match system.as_str() {
                 "RECTANGULAR" | "R" => {
                     let Some([first, second]) = turned_axes(p, q, &extra) else {
@@ -171,14 +175,15 @@ fn turned_axes(a: Vector3<f64>, b: Vector3<f64>, extra: &[f64]) -> Option<[Vecto
 }
 
 /// `*ELASTIC`; whether it has lines for other temperatures.
-fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool, MeshFileError> {
+fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
     let kind = block.parameter("TYPE").unwrap_or("ISOTROPIC").to_uppercase();
-    let numbers = block.numbers()?;
+    let numbers = block.numbers(usize::MAX)?;
     let name = &definition.name;
     let few = |count: usize| {
         let what = format!("*ELASTIC, TYPE={kind} of material {name}");
         fault!(block; "{what} needs {count} numbers")
     };
+    // What one temperature takes: one line, or two of more than eight numbers.
     let (elasticity, lines) = match kind.as_str() {
         "ISOTROPIC" | "ISO" => {
             let &[young_modulus, poisson_ratio, ..] = numbers.as_slice() else {
@@ -190,6 +195,7 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool, Mes
             let &[e1, e2, e3, n12, n13, n23, g12, g13, g23, ..] = numbers.as_slice() else {
                 return Err(few(9));
             };
+            // E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
             let constants = FileElasticity::Orthotropic {
                 young_moduli: [e1, e2, e3],
                 poisson_ratios: [n12, n13, n23],
@@ -218,12 +224,12 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool, Mes
                  CONSTANTS");
         }
     };
-    definition.elasticity = Some(elasticity);
+    definition.elasticity = Some(elasticity); // Further lines are of other temperatures.
     Ok(block.data.len() > lines)
 }
 
 /// `*DAMPING`, its values parameters.
-fn damping(block: &Block<'_>, definition: &mut FileMaterial) -> Result<(), MeshFileError> {
+fn damping(block: &Block<'_>, definition: &mut FileMaterial) -> Result<()> {
     for (name, value) in &block.parameters {
         let number = real(value);
         let slot = match name.as_str() {

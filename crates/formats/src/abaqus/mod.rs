@@ -22,7 +22,7 @@ mod surfaces;
 
 use super::collection::{CollectedElement, finished};
 use super::deck::{Deck, Place};
-use super::file_mesh::{FileMesh, MeshFileError};
+use super::file_mesh::{FileMesh, MeshFileError, Result};
 use block::{Block, blocks};
 use frictionsim_bounds::Budget;
 use scope::{Layout, Scope, layout};
@@ -66,8 +66,9 @@ impl<T: Copy + Eq + Hash> Numbered<T> {
         Self { what, known, skipped, sets }
     }
 
-    /// Adds members to a set under its key and its full name.
-    fn add(&mut self, (key, name): (Key, String), items: Vec<T>, is_internal: bool) {
+    /// Adds members to a set under its key and its full name, if they have one.
+    fn add(&mut self, named: Option<(Key, String)>, items: Vec<T>, is_internal: bool) {
+        let Some((key, name)) = named else { return };
         let new = || Set { name, items: Vec::new(), is_internal: false, known: HashSet::new() };
         let set = self.sets.entry(key).or_insert_with(new);
         set.add(items);
@@ -131,7 +132,7 @@ const OUTPUTS: [&str; 14] = [
 ];
 
 /// Reads an input file; the files that it includes stand in it ([`included_text`](super::included_text)).
-pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     let text = String::from_utf8_lossy(bytes);
     let deck = Deck::new(&text, "**", false)?;
     let all = blocks(&deck)?;
@@ -186,7 +187,7 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     /// Refuses what would change the mesh, and lists the keywords that are not used.
-    fn refuse_and_list(&mut self) -> Result<(), MeshFileError> {
+    fn refuse_and_list(&mut self) -> Result<()> {
         for (_, block) in self.blocks {
             let keyword = block.keyword.as_str();
             if GENERATORS.contains(&keyword) {
@@ -245,8 +246,13 @@ impl<'d, 'a> Reader<'d, 'a> {
         (key, full)
     }
 
+    /// Those of the set that a parameter of a block names, if it does.
+    fn named_by(&self, scope: usize, block: &Block<'_>, parameter: &str) -> Option<(Key, String)> {
+        block.parameter(parameter).map(|name| self.named(scope, name))
+    }
+
     /// The scope of a block of sets: that of the parameter `INSTANCE`, or its own.
-    fn scope_of(&self, scope: usize, block: &Block<'_>) -> Result<usize, MeshFileError> {
+    fn scope_of(&self, scope: usize, block: &Block<'_>) -> Result<usize> {
         let Some(name) = block.parameter("INSTANCE") else {
             return Ok(scope);
         };

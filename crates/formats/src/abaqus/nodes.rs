@@ -6,7 +6,7 @@ use super::element::{ElementType, element_type};
 use crate::ElementKind;
 use crate::collection::CollectedElement;
 use crate::deck::{Place, quoted, real};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use std::sync::Arc;
 
 impl Reader<'_, '_> {
@@ -15,7 +15,7 @@ impl Reader<'_, '_> {
         (1..self.scopes.len()).chain([0]).collect()
     }
 
-    fn label(&self, place: Place, field: &str, what: &str) -> Result<usize, MeshFileError> {
+    fn label(&self, place: Place, field: &str, what: &str) -> Result<usize> {
         let number = field.trim().parse::<usize>().ok();
         number
             .filter(|&number| number > 0)
@@ -23,7 +23,7 @@ impl Reader<'_, '_> {
     }
 
     /// Reads all nodes. Numbers of each instance follow those of the instances before.
-    pub(super) fn read_nodes(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_nodes(&mut self) -> Result<()> {
         let mut offset = 0;
         for scope in self.numbering() {
             let mut largest = 0;
@@ -39,12 +39,8 @@ impl Reader<'_, '_> {
                     let label = self.node(scope, place, line, offset)?;
                     largest = largest.max(label);
                 }
-                if let Some(name) = block.parameter("NSET") {
-                    let items = (first..self.file.points.len()).map(|node| node as u32);
-                    let set = items.collect();
-                    let named = self.named(scope, name);
-                    self.nodes.add(named, set, false);
-                }
+                let items = (first..self.file.points.len()).map(|node| node as u32);
+                self.nodes.add(self.named_by(scope, block, "NSET"), items.collect(), false);
             }
             if largest > 0 && offset > 0 && scope > 0 {
                 self.file.model.remarks.push(format!(
@@ -59,13 +55,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn node(
-        &mut self,
-        scope: usize,
-        place: Place,
-        line: &str,
-        offset: usize,
-    ) -> Result<usize, MeshFileError> {
+    fn node(&mut self, scope: usize, place: Place, line: &str, offset: usize) -> Result<usize> {
         let mut fields = fields(line);
         let label = self.label(place, fields.next().unwrap_or_default(), "a node number")?;
         let mut point = [0.0; 3];
@@ -92,7 +82,7 @@ impl Reader<'_, '_> {
     }
 
     /// Reads all elements; of types that have no counterpart here the numbers alone.
-    pub(super) fn read_elements(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_elements(&mut self) -> Result<()> {
         let types = self.blocks_of("ELEMENT").filter_map(|(_, block)| block.parameter("TYPE"));
         let known = types.filter_map(|name| element_type(&name.to_uppercase()));
         let dimension = known.map(|known| known.kind.dimension()).max();
@@ -122,12 +112,7 @@ impl Reader<'_, '_> {
     }
 
     /// Elements of a type that is not used.
-    fn skipped_block(
-        &mut self,
-        scope: usize,
-        block: &Block<'_>,
-        name: &str,
-    ) -> Result<usize, MeshFileError> {
+    fn skipped_block(&mut self, scope: usize, block: &Block<'_>, name: &str) -> Result<usize> {
         let mut largest = 0;
         let mut goes_on = false;
         for &(place, line) in &block.data {
@@ -143,20 +128,12 @@ impl Reader<'_, '_> {
             let reason = "elements other than solids (of plane bodies CPE and CPS) are not used";
             self.leave_out(&keyword, place, reason);
         }
-        if let Some(name) = block.parameter("ELSET") {
-            let named = self.named(scope, name);
-            self.elements.add(named, Vec::new(), false);
-        }
+        self.elements.add(self.named_by(scope, block, "ELSET"), Vec::new(), false);
         Ok(largest)
     }
 
     /// Keeps what a type of elements says: what is different here, plane strain or plane stress.
-    fn note_type(
-        &mut self,
-        block: &Block<'_>,
-        name: &str,
-        known: &ElementType,
-    ) -> Result<(), MeshFileError> {
+    fn note_type(&mut self, block: &Block<'_>, name: &str, known: &ElementType) -> Result<()> {
         if !known.difference.is_empty() {
             let remark = format!("elements {name} are {}", known.difference);
             if !self.file.model.remarks.contains(&remark) {
@@ -180,7 +157,7 @@ impl Reader<'_, '_> {
         block: &Block<'_>,
         known: &ElementType,
         offset: usize,
-    ) -> Result<usize, MeshFileError> {
+    ) -> Result<usize> {
         let name = block.parameter("TYPE").unwrap_or_default().to_uppercase();
         self.note_type(block, &name, known)?;
         let region = block.parameter("ELSET");
@@ -212,11 +189,8 @@ impl Reader<'_, '_> {
             refuse!(self.deck, start;
                 "element {label} has too few nodes for {name}, which has {}", count - 1);
         }
-        if let Some(name) = block.parameter("ELSET") {
-            let items = (first..self.collected.len()).collect();
-            let named = self.named(scope, name);
-            self.elements.add(named, items, false);
-        }
+        let items = (first..self.collected.len()).collect();
+        self.elements.add(self.named_by(scope, block, "ELSET"), items, false);
         Ok(largest)
     }
 
@@ -226,7 +200,7 @@ impl Reader<'_, '_> {
         known: &ElementType,
         numbers: &[usize],
         (offset, region): (usize, Option<&Arc<str>>),
-    ) -> Result<(), MeshFileError> {
+    ) -> Result<()> {
         let label = numbers[0];
         let mut nodes = Vec::with_capacity(numbers.len() - 1);
         for node in &numbers[1..] {

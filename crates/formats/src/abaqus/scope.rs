@@ -2,7 +2,7 @@
 
 use super::block::{Block, fields};
 use crate::deck::{Deck, Place, quoted, real};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use nalgebra::{Rotation3, Unit, Vector3};
 use std::collections::BTreeMap;
 
@@ -48,10 +48,7 @@ pub(super) struct Layout<'b, 'a> {
 type Parts<'b, 'a> = BTreeMap<String, (Place, bool, Vec<&'b Block<'a>>)>;
 
 /// Sorts the blocks of a file by part and instance.
-pub(super) fn layout<'b, 'a>(
-    deck: &Deck<'_>,
-    blocks: &'b [Block<'a>],
-) -> Result<Layout<'b, 'a>, MeshFileError> {
+pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result<Layout<'b, 'a>> {
     let mut layout =
         Layout { scopes: vec![Scope::default()], blocks: Vec::new(), unused_parts: Vec::new() };
     let mut parts: Parts<'b, 'a> = BTreeMap::new();
@@ -59,6 +56,7 @@ pub(super) fn layout<'b, 'a>(
     let mut instance: Option<usize> = None;
     for block in blocks {
         match block.keyword.as_str() {
+            // Parts keep their blocks until an instance asks for them.
             "PART" => {
                 let name = block.required("NAME")?.to_uppercase();
                 if parts.contains_key(&name) {
@@ -68,6 +66,7 @@ pub(super) fn layout<'b, 'a>(
                 part = Some((name, block.place));
             }
             "END PART" => part = None,
+            // An instance has a scope of its own, with all blocks of its part.
             "INSTANCE" => {
                 let name = block.required("PART")?;
                 let found = parts.get_mut(&name.to_uppercase());
@@ -85,6 +84,7 @@ pub(super) fn layout<'b, 'a>(
             }
             "END INSTANCE" => instance = None,
             "ASSEMBLY" | "END ASSEMBLY" => {}
+            // All else belongs to where it stands: 0 is the assembly and what is outside.
             _ => match (&part, instance) {
                 (Some((name, _)), _) => {
                     if let Some((_, _, own)) = parts.get_mut(name) {
@@ -105,7 +105,7 @@ pub(super) fn layout<'b, 'a>(
 }
 
 /// The scope of an instance: its data lines say how it is moved, first by a vector, then about the line through two points.
-fn placed(block: &Block<'_>) -> Result<Scope, MeshFileError> {
+fn placed(block: &Block<'_>) -> Result<Scope> {
     let name = block.required("NAME")?.to_owned();
     let mut rows = Vec::new();
     for &(place, line) in &block.data {

@@ -3,7 +3,7 @@
 use super::block::{Block, fields};
 use super::{Numbered, Reader};
 use crate::deck::{Place, quoted};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use frictionsim_bounds::Budget;
 use std::collections::{BTreeSet, HashMap};
 
@@ -15,7 +15,7 @@ type Members<T> = Result<Vec<T>, (Place, String)>;
 
 impl Reader<'_, '_> {
     /// Reads all sets; one may name sets that are defined after it.
-    pub(super) fn read_sets(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_sets(&mut self) -> Result<()> {
         let is_set = |block: &Block<'_>| matches!(block.keyword.as_str(), "NSET" | "ELSET");
         let sets = self.blocks.iter().copied().filter(|(_, block)| is_set(block));
         let mut open: Vec<(usize, &Block<'_>)> = sets.collect();
@@ -44,10 +44,10 @@ impl Reader<'_, '_> {
     }
 
     /// Reads a set; what it names before that is defined, if so.
-    fn set(&mut self, scope: usize, block: &Block<'_>) -> Result<Missing, MeshFileError> {
+    fn set(&mut self, scope: usize, block: &Block<'_>) -> Result<Missing> {
         let name = block.required(&block.keyword)?;
         let inside = self.scope_of(scope, block)?;
-        let (named, is_internal) = (self.named(scope, name), block.has("INTERNAL"));
+        let (named, is_internal) = (Some(self.named(scope, name)), block.has("INTERNAL"));
         let mut budget = self.budget.clone();
         let found = match block.keyword.as_str() {
             "NSET" => self
@@ -67,7 +67,7 @@ impl Reader<'_, '_> {
         scope: usize,
         block: &Block<'_>,
         budget: &mut Budget,
-    ) -> Result<Members<u32>, MeshFileError> {
+    ) -> Result<Members<u32>> {
         let Some(set) = block.parameter("ELSET") else {
             return self.members(&self.nodes, scope, block, budget);
         };
@@ -86,7 +86,7 @@ impl Reader<'_, '_> {
         scope: usize,
         block: &Block<'_>,
         budget: &mut Budget,
-    ) -> Result<Members<T>, MeshFileError> {
+    ) -> Result<Members<T>> {
         if block.has("GENERATE") {
             return self.generated(scope, block, &all.known).map(Ok);
         }
@@ -110,7 +110,7 @@ impl Reader<'_, '_> {
         scope: usize,
         place: Place,
         field: &str,
-    ) -> Result<Option<Vec<T>>, MeshFileError> {
+    ) -> Result<Option<Vec<T>>> {
         let (there, name) = self.resolved(scope, field);
         let Ok(label) = name.parse::<usize>() else {
             let set = all.sets.get(&self.key(scope, field));
@@ -125,13 +125,25 @@ impl Reader<'_, '_> {
         }
     }
 
+    /// What an entry means where a set of its name must be known.
+    pub(super) fn items<T: Copy>(
+        &self,
+        all: &Numbered<T>,
+        scope: usize,
+        place: Place,
+        field: &str,
+    ) -> Result<Vec<T>> {
+        let found = self.entry(all, scope, place, field)?;
+        found.ok_or_else(|| self.unknown(place, &format!("{} set", all.what), field))
+    }
+
     /// Items with the numbers first, first + step, ... up to last of each line; numbers without an item are passed over.
     fn generated<T: Copy>(
         &self,
         scope: usize,
         block: &Block<'_>,
         known: &HashMap<(usize, usize), T>,
-    ) -> Result<Vec<T>, MeshFileError> {
+    ) -> Result<Vec<T>> {
         let mut items = Vec::new();
         for &(place, line) in &block.data {
             let numbers: Option<Vec<usize>> = fields(line).map(|f| f.parse().ok()).collect();

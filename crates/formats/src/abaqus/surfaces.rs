@@ -5,11 +5,11 @@ use super::block::{Block, fields};
 use crate::SurfaceFace;
 use crate::collection::free_faces;
 use crate::deck::{Place, quoted};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 
 impl Reader<'_, '_> {
     /// Reads all surfaces: faces of elements, and sets of nodes.
-    pub(super) fn read_surfaces(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_surfaces(&mut self) -> Result<()> {
         for (scope, block) in self.blocks_of("SURFACE") {
             let name = block.required("NAME")?.to_owned();
             let key = self.key(scope, &name);
@@ -46,21 +46,16 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn surface_nodes(&self, scope: usize, block: &Block<'_>) -> Result<Vec<u32>, MeshFileError> {
+    fn surface_nodes(&self, scope: usize, block: &Block<'_>) -> Result<Vec<u32>> {
         let mut nodes = Vec::new();
         for &(place, line) in &block.data {
             let field = fields(line).next().unwrap_or_default();
-            let found = self.entry(&self.nodes, scope, place, field)?;
-            nodes.extend(found.ok_or_else(|| self.unknown(place, "node set", field))?);
+            nodes.extend(self.items(&self.nodes, scope, place, field)?);
         }
         Ok(nodes)
     }
 
-    fn element_faces(
-        &mut self,
-        scope: usize,
-        block: &Block<'_>,
-    ) -> Result<Vec<SurfaceFace>, MeshFileError> {
+    fn element_faces(&mut self, scope: usize, block: &Block<'_>) -> Result<Vec<SurfaceFace>> {
         let mut faces = Vec::new();
         for &(place, line) in &block.data {
             let mut entry = fields(line);
@@ -68,10 +63,7 @@ impl Reader<'_, '_> {
             let side = entry.next().unwrap_or_default().to_uppercase();
             let elements = match set {
                 "" => (0..self.collected.len()).collect(),
-                _ => {
-                    let found = self.entry(&self.elements, scope, place, set)?;
-                    found.ok_or_else(|| self.unknown(place, "element set", set))?
-                }
+                _ => self.items(&self.elements, scope, place, set)?,
             };
             match side.as_str() {
                 "" if elements.is_empty() => {}
@@ -88,12 +80,7 @@ impl Reader<'_, '_> {
     }
 
     /// Face `S<number>` of an element (`P<number>` in loads).
-    pub(super) fn side(
-        &self,
-        element: usize,
-        side: &str,
-        place: Place,
-    ) -> Result<SurfaceFace, MeshFileError> {
+    pub(super) fn side(&self, element: usize, side: &str, place: Place) -> Result<SurfaceFace> {
         let element = &self.collected[element];
         let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse::<usize>().ok());
         let face = number.and_then(|number| element.faces().nth(number.checked_sub(1)?));

@@ -27,13 +27,11 @@ pub(super) const THREE_TO_APEX: [(f64, f64); 3] = [
 ];
 
 /// Gauss points of a line.
-#[inline]
 pub(super) fn line(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     points.iter().map(|&(x, w)| ([x, 0.0, 0.0], w)).collect()
 }
 
 /// Gauss points of a square.
-#[inline]
 pub(super) fn square(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     points
         .iter()
@@ -42,13 +40,11 @@ pub(super) fn square(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
 }
 
 /// Gauss points of a cube.
-#[inline]
 pub(super) fn cube(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     prism(&square(points), points)
 }
 
 /// A rule of the section times one of the line.
-#[inline]
 pub(super) fn prism(section: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     line.iter()
         .flat_map(|&(z, v)| section.iter().map(move |&([x, y, _], w)| ([x, y, z], w * v)))
@@ -56,7 +52,6 @@ pub(super) fn prism(section: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<Qua
 }
 
 /// A rule of the square in each section of a pyramid times one over the distance `c` to the apex, whose weight is `c^2`.
-#[inline]
 pub(super) fn pyramid(section: &[(f64, f64)], to_apex: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     to_apex
         .iter()
@@ -68,20 +63,17 @@ pub(super) fn pyramid(section: &[(f64, f64)], to_apex: &[(f64, f64)]) -> Vec<Qua
 }
 
 /// The places of a rule.
-#[inline]
 pub(super) fn places(rule: Vec<QuadraturePoint>) -> Vec<[f64; 3]> {
     rule.into_iter().map(|point| point.0).collect()
 }
 
 /// Three points, exact for polynomials of degree 2.
-#[inline]
 pub(super) fn triangle_three() -> Vec<QuadraturePoint> {
     const SIX: f64 = 1.0 / 6.0;
     vec![([SIX, SIX, 0.0], SIX), ([4.0 * SIX, SIX, 0.0], SIX), ([SIX, 4.0 * SIX, 0.0], SIX)]
 }
 
 /// Two triples of points, each the orbit of one; exact for polynomials of degree 4 (Dunavant 1985).
-#[inline]
 pub(super) fn triangle_six() -> Vec<QuadraturePoint> {
     let root = 10.0_f64.sqrt();
     let spread = (38.0 - 44.0 * 0.4_f64.sqrt()).sqrt();
@@ -95,7 +87,6 @@ pub(super) fn triangle_six() -> Vec<QuadraturePoint> {
 }
 
 /// The centre, exact for degree 1.
-#[inline]
 pub(super) fn tetrahedron_one() -> Vec<QuadraturePoint> {
     vec![([0.25; 3], 1.0 / 6.0)]
 }
@@ -107,13 +98,11 @@ fn vertex_orbit(a: f64, weight: f64) -> [QuadraturePoint; 4] {
 }
 
 /// Four points, exact for degree 2.
-#[inline]
 pub(super) fn tetrahedron_four() -> Vec<QuadraturePoint> {
     vertex_orbit((5.0 - 5.0_f64.sqrt()) / 20.0, 1.0 / 24.0).to_vec()
 }
 
 /// Fourteen points with positive weights, exact for degree 5 (Walkington 2000, Grundmann and Moeller's count).
-#[inline]
 pub(super) fn tetrahedron_fourteen() -> Vec<QuadraturePoint> {
     const SIXTH: f64 = 1.0 / 6.0;
     let corners = vertex_orbit(0.092_735_250_310_891_23, SIXTH * 0.073_493_043_116_361_95);

@@ -39,7 +39,6 @@ pub(super) const BRICK: [[f64; 3]; 8] = [
 pub(super) const LINE: [[f64; 3]; 2] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
 
 /// Area coordinates of a triangle, `N = 3`, volume coordinates of a tetrahedron, `N = 4`.
-#[inline]
 pub(super) fn simplex<const N: usize>(at: [f64; 3]) -> [Shape; N] {
     let is_own = |axis: usize| axis + 1 < N;
     std::array::from_fn(|node| match node {
@@ -99,7 +98,6 @@ pub(super) fn tensor(
 }
 
 /// Linear functions of a wedge, `L_I (1 -+ zeta) / 2`.
-#[inline]
 pub(super) fn wedge(at: [f64; 3]) -> Vec<Shape> {
     let layer = |sign: f64| {
         let along = 0.5 * (1.0 + sign * at[2]);
@@ -142,7 +140,6 @@ const NEAR_APEX: f64 = 1e-100;
 ///
 /// Source: G. Bedrosian, Shape functions and integration formulas for three-dimensional finite element analysis, Int. J.
 /// Numer. Meth. Engng. 35 (1992).
-#[inline]
 pub(super) fn pyramid([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
     let c = (1.0 - zeta).max(NEAR_APEX);
     let base = PYRAMID[..4].iter().map(|&[a, b, _]| {

@@ -1,6 +1,6 @@
 //! Numbers of a mesh file, from text or from bytes.
 
-use super::MeshFileError;
+use super::{MeshFileError, Result};
 use crate::deck::quoted;
 use frictionsim_bounds::{MESSAGE, shortened};
 
@@ -37,7 +37,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Refuses a file that ends here.
-    pub fn refuse_end(&self) -> Result<(), MeshFileError> {
+    pub fn refuse_end(&self) -> Result<()> {
         match self.bytes[self.at..].iter().all(u8::is_ascii_whitespace) {
             false => Ok(()),
             true => Err(self.error(
@@ -49,7 +49,7 @@ impl<'a> Cursor<'a> {
 
     /// A count of things that take at least `smallest` bytes each: more than the file can hold is an error, so
     /// that nothing is reserved for what is not there.
-    pub fn count(&mut self, what: &str, smallest: usize) -> Result<usize, MeshFileError> {
+    pub fn count(&mut self, what: &str, smallest: usize) -> Result<usize> {
         let count = self.size(what)?;
         if count > self.remaining() / smallest.max(1) {
             refuse!(self;
@@ -81,7 +81,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes over a section that is not read.
-    pub fn skip_section(&mut self, name: &str) -> Result<(), MeshFileError> {
+    pub fn skip_section(&mut self, name: &str) -> Result<()> {
         let end = format!("$End{name}");
         let found =
             self.bytes[self.at..].windows(end.len()).position(|window| window == end.as_bytes());
@@ -95,7 +95,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Checks the end of a section that was read.
-    pub fn end(&mut self, name: &str) -> Result<(), MeshFileError> {
+    pub fn end(&mut self, name: &str) -> Result<()> {
         let expected = format!("$End{name}");
         loop {
             let Some(line) = self.text_line() else {
@@ -110,7 +110,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    fn word(&mut self, what: &str) -> Result<&'a str, MeshFileError> {
+    fn word(&mut self, what: &str) -> Result<&'a str> {
         while let Some(byte) = self.bytes.get(self.at).filter(|b| b.is_ascii_whitespace()) {
             self.line += usize::from(*byte == b'\n');
             self.at += 1;
@@ -128,12 +128,12 @@ impl<'a> Cursor<'a> {
         Ok(word)
     }
 
-    fn parsed<T: std::str::FromStr>(&mut self, what: &str) -> Result<T, MeshFileError> {
+    fn parsed<T: std::str::FromStr>(&mut self, what: &str) -> Result<T> {
         let word = self.word(what)?;
         word.parse().map_err(|_| fault!(self; "{what} expected, found {}", quoted(word)))
     }
 
-    fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N], MeshFileError> {
+    fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N]> {
         let found = self.bytes.get(self.at..self.at + N).and_then(|b| b.try_into().ok());
         let Some(mut bytes): Option<[u8; N]> = found else {
             refuse!(self; "{what} expected: the file is truncated");
@@ -146,7 +146,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// An integer of 32 bits.
-    pub fn int(&mut self, what: &str) -> Result<i64, MeshFileError> {
+    pub fn int(&mut self, what: &str) -> Result<i64> {
         if self.is_binary {
             return Ok(i64::from(i32::from_le_bytes(self.raw(what)?)));
         }
@@ -154,7 +154,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A count or a tag of 64 bits.
-    pub fn size(&mut self, what: &str) -> Result<usize, MeshFileError> {
+    pub fn size(&mut self, what: &str) -> Result<usize> {
         if self.is_binary {
             let value = u64::from_le_bytes(self.raw(what)?);
             return usize::try_from(value)
@@ -164,7 +164,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A count that MSH 2.2 writes as text even in binary files.
-    pub fn text_count(&mut self, what: &str, smallest: usize) -> Result<usize, MeshFileError> {
+    pub fn text_count(&mut self, what: &str, smallest: usize) -> Result<usize> {
         let is_binary = std::mem::replace(&mut self.is_binary, false);
         let count = self.count(what, smallest);
         if is_binary && count.is_ok() {
@@ -175,7 +175,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A finite coordinate.
-    pub fn number(&mut self, what: &str) -> Result<f64, MeshFileError> {
+    pub fn number(&mut self, what: &str) -> Result<f64> {
         let value =
             if self.is_binary { f64::from_le_bytes(self.raw(what)?) } else { self.parsed(what)? };
         if !value.is_finite() {

@@ -7,7 +7,7 @@ mod version2;
 mod version4;
 
 use super::ElementKind;
-use super::file_mesh::{FileElement, FileMesh, MeshFileError, SurfaceFace};
+use super::file_mesh::{FileElement, FileMesh, MeshFileError, Result, SurfaceFace};
 use cursor::Cursor;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -24,6 +24,7 @@ impl FileMesh {
         if !bytes.starts_with(b"$MeshFormat") {
             return Err(cursor.error(foreign(bytes)));
         }
+        // The format: version, binary or not, size of a number; of a binary file the order of bytes.
         cursor.text_line();
         let version = cursor.text_line().unwrap_or_default();
         let words: Vec<&str> = version.split_whitespace().collect();
@@ -47,6 +48,7 @@ impl FileMesh {
             };
         }
         cursor.end("MeshFormat")?;
+        // Sections in their order, those of other content skipped.
         let mut reader = Reader { cursor, ..Reader::default() };
         let is_new = words[0] == "4.1";
         while let Some(section) = reader.cursor.section() {
@@ -65,6 +67,7 @@ impl FileMesh {
             }
             reader.cursor.end(&section)?;
         }
+        // A file of names alone has nothing to compute with.
         if reader.file.points.is_empty() {
             refuse!(reader.cursor; "the file has no $Nodes");
         }
@@ -118,7 +121,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
-    fn finished(self) -> Result<FileMesh, MeshFileError> {
+    fn finished(self) -> Result<FileMesh> {
         let mut file = self.file;
         let dimensions = file.elements.iter().map(|element| element.kind.dimension());
         let dimension = dimensions.max().unwrap_or(2);
@@ -134,7 +137,7 @@ impl Reader<'_> {
         Ok(FileMesh { dimension, ..file })
     }
 
-    fn physical_names(&mut self) -> Result<(), MeshFileError> {
+    fn physical_names(&mut self) -> Result<()> {
         // Text in binary files too.
         let is_binary = std::mem::replace(&mut self.cursor.is_binary, false);
         let count = self.cursor.count("physical names", 5)?;
@@ -159,7 +162,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn node(&mut self, label: usize) -> Result<(), MeshFileError> {
+    fn node(&mut self, label: usize) -> Result<()> {
         let [x, y, z] = [0; 3].map(|_| self.cursor.number("coordinate"));
         let point = [x?, y?, z?];
         let index = self.file.points.len() as u32;
@@ -190,7 +193,7 @@ impl Reader<'_> {
         (label, entity): (usize, i64),
         groups: &[i64],
         labels: &[usize],
-    ) -> Result<(), MeshFileError> {
+    ) -> Result<()> {
         let mut nodes = Vec::with_capacity(labels.len());
         for node in labels {
             let Some(&index) = self.index_of.get(node) else {
@@ -221,11 +224,7 @@ impl Reader<'_> {
     }
 
     /// Node count and, for all but points, the kind of an element type that can be used.
-    fn shape_of(
-        &self,
-        number: i64,
-        label: usize,
-    ) -> Result<(usize, Option<ElementKind>), MeshFileError> {
+    fn shape_of(&self, number: i64, label: usize) -> Result<(usize, Option<ElementKind>)> {
         let known =
             ElementKind::listed(|row| row.gmsh.names.iter().any(|&kind| i64::from(kind) == number));
         if let Some(kind) = known {

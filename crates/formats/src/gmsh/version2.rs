@@ -1,9 +1,9 @@
 //! Nodes and elements of MSH 2.2.
 
-use super::{MeshFileError, Reader};
+use super::{Reader, Result};
 
 impl Reader<'_> {
-    pub(super) fn nodes_2(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn nodes_2(&mut self) -> Result<()> {
         let count = self.cursor.text_count("nodes", 8)?;
         for _ in 0..count {
             let label = self.node_number()?;
@@ -12,7 +12,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    pub(super) fn elements_2(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn elements_2(&mut self) -> Result<()> {
         let count = self.cursor.text_count("elements", 6)?;
         let mut read = 0;
         while read < count {
@@ -41,9 +41,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn element_2(&mut self, kind: i64, label: usize, tags: i64) -> Result<(), MeshFileError> {
-        let tags: Result<Vec<i64>, _> = (0..tags).map(|_| self.cursor.int("tag")).collect();
-        let tags = tags?;
+    fn element_2(&mut self, kind: i64, label: usize, tags: i64) -> Result<()> {
+        let tags = (0..tags).map(|_| self.cursor.int("tag")).collect::<Result<Vec<i64>>>()?;
         let (node_count, kind) = self.shape_of(kind, label)?;
         let nodes: Result<Vec<usize>, _> = (0..node_count).map(|_| self.node_number()).collect();
         // The first tag is the physical group, 0 for none; the second the entity.
@@ -53,7 +52,7 @@ impl Reader<'_> {
         self.element(kind, (label, entity), &physical, &nodes?)
     }
 
-    fn node_number(&mut self) -> Result<usize, MeshFileError> {
+    fn node_number(&mut self) -> Result<usize> {
         let number = self.cursor.int("node number")?;
         usize::try_from(number)
             .ok()

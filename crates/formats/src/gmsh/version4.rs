@@ -1,12 +1,12 @@
 //! Entities, nodes and elements of MSH 4.1.
 
-use super::{MeshFileError, Reader};
+use super::{Reader, Result};
 
 /// Physical groups that one entity may belong to: every element of it is kept in each.
 const MOST_GROUPS: usize = 64;
 
 impl Reader<'_> {
-    pub(super) fn entities(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn entities(&mut self) -> Result<()> {
         let mut counts = [0; 4];
         for (count, what) in counts.iter_mut().zip(["points", "curves", "surfaces", "volumes"]) {
             *count = self.cursor.count(what, 8)?;
@@ -36,7 +36,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    pub(super) fn nodes_4(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn nodes_4(&mut self) -> Result<()> {
         let blocks = self.cursor.count("node blocks", 6)?;
         for what in ["nodes", "smallest node", "largest node"] {
             self.cursor.size(what)?;
@@ -60,7 +60,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    pub(super) fn elements_4(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn elements_4(&mut self) -> Result<()> {
         let blocks = self.cursor.count("element blocks", 8)?;
         for what in ["elements", "smallest element", "largest element"] {
             self.cursor.size(what)?;

@@ -1,7 +1,7 @@
 //! Cards of bulk data in small, large and free fields, and the case control before them.
 
 use crate::deck::{Deck, Place, quoted, real};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::{MeshFileError, Result};
 use std::collections::BTreeMap;
 
 /// One card: its name in capitals and its fields behind it, eight for each of its lines.
@@ -40,7 +40,7 @@ impl<'a> Card<'a> {
         number: usize,
         what: &str,
         parsed: impl Fn(&str) -> Option<T>,
-    ) -> Result<Option<T>, MeshFileError> {
+    ) -> Result<Option<T>> {
         match self.field(number) {
             "" => Ok(None),
             field => parsed(field).map(Some).ok_or_else(|| {
@@ -51,12 +51,12 @@ impl<'a> Card<'a> {
     }
 
     /// A whole number; none where the field is empty.
-    pub fn optional_int(&self, number: usize) -> Result<Option<i64>, MeshFileError> {
+    pub fn optional_int(&self, number: usize) -> Result<Option<i64>> {
         self.optional(number, "a whole number", |field| field.parse().ok())
     }
 
     /// The number of something, above 0.
-    pub fn number(&self, field: usize) -> Result<usize, MeshFileError> {
+    pub fn number(&self, field: usize) -> Result<usize> {
         let value = self.optional_int(field)?.and_then(|value| usize::try_from(value).ok());
         value.filter(|&value| value > 0).ok_or_else(
             || fault!(self; "{}: a number above 0 expected in field {}", self.name, field + 2),
@@ -64,12 +64,12 @@ impl<'a> Card<'a> {
     }
 
     /// A real number; none where the field is empty.
-    pub fn optional_real(&self, number: usize) -> Result<Option<f64>, MeshFileError> {
+    pub fn optional_real(&self, number: usize) -> Result<Option<f64>> {
         self.optional(number, "a number", short_real)
     }
 
     /// A real number, 0 where the field is empty.
-    pub fn real(&self, number: usize) -> Result<f64, MeshFileError> {
+    pub fn real(&self, number: usize) -> Result<f64> {
         Ok(self.optional_real(number)?.unwrap_or(0.0))
     }
 }
@@ -104,7 +104,7 @@ fn fields_of(line: &str) -> (&str, Vec<&str>) {
 }
 
 /// The cards of a file and its case control.
-pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control), MeshFileError> {
+pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control)> {
     let is_bulk = |line: &str| {
         let line = line.trim_start();
         line.get(..10).is_some_and(|start| start.eq_ignore_ascii_case("BEGIN BULK"))

@@ -2,7 +2,7 @@
 
 use super::card::Card;
 use crate::deck::{Deck, Place};
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -69,7 +69,7 @@ pub(super) struct Coordinates<'d, 'a> {
 
 impl<'d, 'a> Coordinates<'d, 'a> {
     /// The systems that cards define.
-    pub fn new(deck: &'d Deck<'a>, cards: &[Card<'_>]) -> Result<Self, MeshFileError> {
+    pub fn new(deck: &'d Deck<'a>, cards: &[Card<'_>]) -> Result<Self> {
         let mut definitions = BTreeMap::new();
         for card in cards {
             let Some(rest) = card.name.strip_prefix("CORD") else {
@@ -106,12 +106,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
     }
 
     /// A point of a system in basic coordinates; system 0 is the basic one. `place` asks for it.
-    pub fn point(
-        &mut self,
-        system: usize,
-        point: [f64; 3],
-        place: Place,
-    ) -> Result<[f64; 3], MeshFileError> {
+    pub fn point(&mut self, system: usize, point: [f64; 3], place: Place) -> Result<[f64; 3]> {
         match system {
             0 => Ok(point),
             _ => Ok(self.system(system, place)?.place(point)),
@@ -119,7 +114,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
     }
 
     /// A system by its number, after those that define it: a chain of them is as long as the file likes.
-    pub fn system(&mut self, number: usize, place: Place) -> Result<System, MeshFileError> {
+    pub fn system(&mut self, number: usize, place: Place) -> Result<System> {
         let (mut open, mut is_open) = (vec![(number, place)], BTreeSet::from([number]));
         while let Some(&(number, place)) = open.last() {
             if !self.known.contains_key(&number) {
@@ -148,11 +143,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
     }
 
     /// The three points of a system, each with the system that it is given in and the place that gives it.
-    fn defining_points(
-        &self,
-        number: usize,
-        place: Place,
-    ) -> Result<(Place, [Given; 3]), MeshFileError> {
+    fn defining_points(&self, number: usize, place: Place) -> Result<(Place, [Given; 3])> {
         let Some(&(_, definition, defined)) = self.definitions.get(&number) else {
             refuse!(self.deck, place; "no coordinate system has the number {number}");
         };
@@ -174,7 +165,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
     }
 
     /// The system of three points in basic coordinates.
-    fn placed(&self, number: usize, points: [[f64; 3]; 3]) -> Result<System, MeshFileError> {
+    fn placed(&self, number: usize, points: [[f64; 3]; 3]) -> Result<System> {
         let (kind, _, defined) = self.definitions[&number];
         let [origin, on_axis, in_plane] = points.map(Vector3::from);
         let third = (on_axis - origin).try_normalize(0.0);

@@ -4,11 +4,11 @@ use super::Reader;
 use super::card::Card;
 use crate::ElementKind;
 use crate::collection::{CollectedElement, outer_faces, sorted};
-use crate::file_mesh::{MeshFileError, SurfaceFace};
+use crate::file_mesh::{Result, SurfaceFace};
 use std::collections::{BTreeMap, HashMap};
 
 impl Reader<'_, '_> {
-    pub(super) fn read_elements(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_elements(&mut self) -> Result<()> {
         for card in self.cards {
             // What changes the body where it is left out is refused, not listed.
             if card.name == "CHACAB" {
@@ -26,11 +26,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn element(
-        &mut self,
-        card: &Card<'_>,
-        [linear, quadratic]: [ElementKind; 2],
-    ) -> Result<(), MeshFileError> {
+    fn element(&mut self, card: &Card<'_>, [linear, quadratic]: [ElementKind; 2]) -> Result<()> {
         let label = card.number(0)?;
         let property = card.optional_int(1)?.unwrap_or(label as i64);
         let fields = &card.fields[2..card.fields.len().max(2)];
@@ -72,7 +68,7 @@ impl Reader<'_, '_> {
     }
 
     /// Shells and `BSURFS` that cover faces of solids become surfaces.
-    pub(super) fn read_skins(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_skins(&mut self) -> Result<()> {
         let is_skin =
             |card: &&Card<'_>| card.name.starts_with("CTRIA") || card.name.starts_with("CQUAD");
         let faces = match self.cards.iter().any(|card| is_skin(&card)) {
@@ -107,7 +103,7 @@ impl Reader<'_, '_> {
     }
 
     /// Faces of solids by three of their nodes.
-    fn read_bsurfs(&mut self) -> Result<(), MeshFileError> {
+    fn read_bsurfs(&mut self) -> Result<()> {
         for card in self.cards_of("BSURFS") {
             let name = format!("BSURFS_{}", card.number(0)?);
             // Element and three of its nodes in turns, from the fifth field on.
@@ -131,7 +127,7 @@ impl Reader<'_, '_> {
     }
 
     /// The place of a solid element by its number.
-    pub(super) fn solid(&self, label: usize, card: &Card<'_>) -> Result<usize, MeshFileError> {
+    pub(super) fn solid(&self, label: usize, card: &Card<'_>) -> Result<usize> {
         self.elements.get(&label).copied().ok_or_else(|| {
             fault!(card;
             "{} names element {label}, which is no solid element of the file", card.name)

@@ -4,7 +4,7 @@ use super::Reader;
 use super::card::Card;
 use crate::collection::{CollectedElement, used_nodes};
 use crate::deck::{Place, quoted};
-use crate::file_mesh::{MeshFileError, SurfaceFace};
+use crate::file_mesh::{Result, SurfaceFace};
 use crate::model_data::{FileCondition, FileConditionKind};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +21,7 @@ impl Reader<'_, '_> {
         named: &[usize],
         known: &BTreeSet<usize>,
         combined: &'static str,
-    ) -> Result<Option<BTreeSet<usize>>, MeshFileError> {
+    ) -> Result<Option<BTreeSet<usize>>> {
         let mut active: BTreeSet<usize> = named.iter().copied().collect();
         for card in self.cards_of(combined) {
             let own = card.number(0)?;
@@ -52,7 +52,7 @@ impl Reader<'_, '_> {
     }
 
     /// Supports.
-    pub(super) fn read_supports(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_supports(&mut self) -> Result<()> {
         let mut held = Held::new();
         for card in self.cards_of("SPC1") {
             self.nodes_of_spc1(card, &mut held)?;
@@ -79,7 +79,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn directions(&self, card: &Card<'_>, field: usize) -> Result<String, MeshFileError> {
+    fn directions(&self, card: &Card<'_>, field: usize) -> Result<String> {
         let text = card.field(field);
         let is_right = |c: char| ('0'..='6').contains(&c);
         if text.is_empty() || !text.chars().all(is_right) {
@@ -88,7 +88,7 @@ impl Reader<'_, '_> {
         Ok(text.chars().filter(|c| ('1'..='3').contains(c)).collect())
     }
 
-    fn nodes_of_spc1(&self, card: &Card<'_>, held: &mut Held) -> Result<(), MeshFileError> {
+    fn nodes_of_spc1(&self, card: &Card<'_>, held: &mut Held) -> Result<()> {
         let set = card.number(0)?;
         let directions = self.directions(card, 1)?;
         let (nodes, _) = held.entry((set, directions)).or_insert((BTreeSet::new(), card.place));
@@ -145,12 +145,13 @@ impl Reader<'_, '_> {
     }
 
     /// Pressures on faces.
-    pub(super) fn read_pressures(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_pressures(&mut self) -> Result<()> {
         let mut sets: BTreeMap<usize, Pressed> = BTreeMap::new();
         for card in self.cards_of("PLOAD4") {
             let set = card.number(0)?;
             let element = self.solid(card.number(1)?, card)?;
             let pressure = card.real(2)?;
+            // Pressures of the other corners, a direction, a line load: only what is one pressure is taken.
             let others = [3, 4, 5].map(|field| card.optional_real(field));
             let mut is_plain =
                 card.fields.get(8..).unwrap_or_default().iter().all(|field| field.is_empty());
@@ -163,12 +164,13 @@ impl Reader<'_, '_> {
                 continue;
             }
             let face = self.loaded_face(card, element)?;
-            let known = sets.entry(set).or_default();
+            let known = sets.entry(set).or_default(); // Faces of one set with one pressure are one boundary.
             match known.iter_mut().find(|known| known.0 == pressure) {
                 Some(known) => known.1.push(face),
                 None => known.push((pressure, vec![face], card.place)),
             }
         }
+        // Those that the subcases name act; a boundary has its name in any case.
         let known = sets.keys().copied().collect();
         let named = self.control.load.clone();
         let active = self.active(&named, &known, "LOAD")?;
@@ -204,7 +206,7 @@ impl Reader<'_, '_> {
 
     /// The face that `G1` and `G3` or `G4` name: opposite corners of a quadrilateral; of a triangular face of a wedge `G1` alone,
     /// of a pyramid its two corners on the base; of a tetrahedron a corner of the face and the corner that is not on it.
-    fn loaded_face(&self, card: &Card<'_>, element: usize) -> Result<SurfaceFace, MeshFileError> {
+    fn loaded_face(&self, card: &Card<'_>, element: usize) -> Result<SurfaceFace> {
         let element = &self.collected[element];
         let first = self.node(card.number(6)?, "PLOAD4", card.place)?;
         let second = match card.optional_int(7)? {

@@ -16,7 +16,7 @@ mod properties;
 
 use super::collection::{CollectedElement, finished};
 use super::deck::{Deck, Place};
-use super::file_mesh::{FileMesh, MeshFileError};
+use super::file_mesh::{FileMesh, Result};
 use card::{Card, Control, cards};
 use coordinates::Coordinates;
 use std::collections::{BTreeSet, HashMap};
@@ -51,7 +51,7 @@ struct Reader<'d, 'a> {
 }
 
 /// Reads bulk data; the files that it includes stand in it ([`included_text`](super::included_text)).
-pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     let text = String::from_utf8_lossy(bytes);
     let deck = Deck::new(&text, "$", false)?;
     let (cards, control) = cards(&deck)?;
@@ -121,7 +121,7 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     /// Nodes in basic coordinates.
-    fn read_nodes(&mut self) -> Result<(), MeshFileError> {
+    fn read_nodes(&mut self) -> Result<()> {
         let default = self.cards_of("GRDSET").next();
         let of_default = |field: usize| match default {
             Some(card) => card.optional_int(field),
@@ -165,7 +165,7 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     /// The place of a node by its number; `owner` names it.
-    fn node(&self, label: usize, owner: &str, place: Place) -> Result<u32, MeshFileError> {
+    fn node(&self, label: usize, owner: &str, place: Place) -> Result<u32> {
         self.nodes.get(&label).copied().ok_or_else(
             || fault!(self.deck, place; "{owner} names node {label}, which the file does not have"),
         )

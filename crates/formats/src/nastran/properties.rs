@@ -2,21 +2,22 @@
 
 use super::Reader;
 use super::card::Card;
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
 use nalgebra::Matrix3;
 
 impl Reader<'_, '_> {
     /// Materials of the regions that have elements.
-    pub(super) fn read_properties(&mut self) -> Result<(), MeshFileError> {
+    pub(super) fn read_properties(&mut self) -> Result<()> {
         for card in self.cards_of("PSOLID") {
             let property = card.number(0)?;
             let number = card.number(1)?;
-            let region = self.region(property);
+            let region = self.region(property); // Of no elements that are read there is no region.
             let elements = self.collected.iter();
             if !elements.filter_map(|e| e.region.as_deref()).any(|other| other == region) {
                 continue;
             }
+            // CORDM says along which axes MAT9 has its stiffness.
             let axes = match card.optional_int(2)?.unwrap_or(0) {
                 0 => MaterialAxes::Global,
                 system if system > 0 => {
@@ -37,6 +38,7 @@ impl Reader<'_, '_> {
                     MaterialAxes::Global
                 }
             };
+            // MID is the number of its material.
             let is_meant = |card: &&Card<'_>| {
                 matches!(card.name.as_str(), "MAT1" | "MAT9") && card.field(0).parse() == Ok(number)
             };
@@ -54,7 +56,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn isotropic(&self, card: &Card<'_>, region: String) -> Result<FileMaterial, MeshFileError> {
+    fn isotropic(&self, card: &Card<'_>, region: String) -> Result<FileMaterial> {
         let [e, g, nu] = [card.optional_real(1)?, card.optional_real(2)?, card.optional_real(3)?];
         // Two of the three give the third: E = 2 G (1 + nu).
         let (young_modulus, poisson_ratio) = match (e, g, nu) {
@@ -74,7 +76,7 @@ impl Reader<'_, '_> {
         card: &Card<'_>,
         region: String,
         axes: MaterialAxes,
-    ) -> Result<FileMaterial, MeshFileError> {
+    ) -> Result<FileMaterial> {
         // The upper triangle by rows, over x, y, z, xy, yz, zx.
         let mut stiffness = [[0.0; 6]; 6];
         let mut field = 1;
@@ -108,7 +110,7 @@ impl Reader<'_, '_> {
         region: String,
         elasticity: FileElasticity,
         (density, damping): (usize, usize),
-    ) -> Result<FileMaterial, MeshFileError> {
+    ) -> Result<FileMaterial> {
         let damping = card.optional_real(damping)?;
         Ok(FileMaterial {
             region,

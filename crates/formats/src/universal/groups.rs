@@ -2,12 +2,12 @@
 
 use super::{ELEMENT, Entity, Group, NODE, Reader};
 use crate::SurfaceFace;
-use crate::file_mesh::MeshFileError;
+use crate::file_mesh::Result;
 use std::collections::HashMap;
 use std::sync::Arc;
 
 impl Reader<'_, '_> {
-    pub(super) fn groups(&mut self, dataset: usize) -> Result<(), MeshFileError> {
+    pub(super) fn groups(&mut self, dataset: usize) -> Result<()> {
         while let Some(head) = self.inner()? {
             let numbers = self.ints(head)?;
             let count = self.must(numbers.last().copied())?;
@@ -41,7 +41,7 @@ impl Reader<'_, '_> {
         &mut self,
         group: &Group,
         outer: &HashMap<Vec<u32>, SurfaceFace>,
-    ) -> Result<(), MeshFileError> {
+    ) -> Result<()> {
         let region: Arc<str> = group.name.as_str().into();
         let (mut nodes, mut faces, mut lost) = (Vec::new(), Vec::new(), 0);
         let mut is_region = false;

@@ -13,7 +13,7 @@ pub use nodes::{universal_fields, universal_node};
 use super::ElementKind;
 use super::collection::{CollectedElement, dimension, finished, outer_faces, sorted};
 use super::deck::{Deck, Place, quoted, real};
-use super::file_mesh::{FileMesh, MeshFileError};
+use super::file_mesh::{FileMesh, Result};
 use std::collections::{BTreeSet, HashMap};
 
 /// Datasets of groups, by the entities that one line lists.
@@ -58,7 +58,7 @@ struct Group {
 }
 
 /// Reads a universal file.
-pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     let text = String::from_utf8_lossy(bytes);
     let deck = Deck::new(&text, "\0", true)?;
     let mut reader = Reader {
@@ -94,7 +94,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// The next line inside a dataset; none at its end.
-    fn inner(&mut self) -> Result<Option<(Place, &'a str)>, MeshFileError> {
+    fn inner(&mut self) -> Result<Option<(Place, &'a str)>> {
         match self.line() {
             Some((_, line)) if line.trim() == "-1" => Ok(None),
             Some(line) => Ok(Some(line)),
@@ -104,7 +104,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Whole numbers of a line.
-    fn ints(&self, (place, line): (Place, &str)) -> Result<Vec<usize>, MeshFileError> {
+    fn ints(&self, (place, line): (Place, &str)) -> Result<Vec<usize>> {
         let numbers = line.split_whitespace().map(|word| {
             let number = word.parse::<i64>().ok();
             // Colours and tags may be negative; they are not used.
@@ -115,12 +115,12 @@ impl<'a> Reader<'_, 'a> {
         numbers.collect()
     }
 
-    fn must<T>(&self, value: Option<T>) -> Result<T, MeshFileError> {
+    fn must<T>(&self, value: Option<T>) -> Result<T> {
         let place = self.deck.lines.get(self.at.saturating_sub(1)).map_or(self.deck.end(), |l| l.0);
         value.ok_or_else(|| self.deck.error(place, "the dataset is too short here"))
     }
 
-    fn datasets(&mut self) -> Result<(), MeshFileError> {
+    fn datasets(&mut self) -> Result<()> {
         while let Some((place, line)) = self.line() {
             if line.trim().is_empty() {
                 continue;
@@ -152,7 +152,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Dataset 164: units, whose factor of lengths is said where it is not 1.
-    fn units(&mut self) -> Result<(), MeshFileError> {
+    fn units(&mut self) -> Result<()> {
         let _ = self.inner()?;
         if let Some((_, line)) = self.inner()? {
             let factor = line.split_whitespace().next().and_then(real);
@@ -167,7 +167,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Nodes, one line for each or two.
-    fn nodes(&mut self, lines: usize) -> Result<(), MeshFileError> {
+    fn nodes(&mut self, lines: usize) -> Result<()> {
         while let Some(first) = self.inner()? {
             let next = if lines == 1 { Some(first) } else { self.inner()? };
             let (place, last) = self.must(next)?;
@@ -183,7 +183,7 @@ impl<'a> Reader<'_, 'a> {
         Ok(())
     }
 
-    fn elements(&mut self) -> Result<(), MeshFileError> {
+    fn elements(&mut self) -> Result<()> {
         while let Some(head) = self.inner()? {
             let numbers = self.ints(head)?;
             let (Some(&label), Some(&descriptor), Some(&count)) =
@@ -221,7 +221,7 @@ impl<'a> Reader<'_, 'a> {
         place: Place,
         (label, descriptor): (usize, usize),
         nodes: &[u32],
-    ) -> Result<(), MeshFileError> {
+    ) -> Result<()> {
         let entity = match ElementKind::listed(|row| row.universal.names.contains(&descriptor)) {
             Some(kind) => {
                 if nodes.len() != kind.node_count() {

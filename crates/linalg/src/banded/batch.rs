@@ -20,7 +20,6 @@ impl Lanes {
     pub const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
 
     /// The number `value(lane)` in each system.
-    #[inline]
     pub fn from_fn(value: impl Fn(usize) -> c64) -> Self {
         let mut result = Self::ZERO;
         for lane in 0..LANES {
@@ -72,7 +71,7 @@ impl Lanes {
     fn inverse(&self) -> Self {
         let mut result = Self::ZERO;
         for lane in 0..LANES {
-            let square = self.re[lane] * self.re[lane] + self.im[lane] * self.im[lane];
+            let square = self.re[lane] * self.re[lane] + self.im[lane] * self.im[lane]; // 1 / z = conj(z) / |z|^2.
             result.re[lane] = self.re[lane] / square;
             result.im[lane] = -self.im[lane] / square;
         }
@@ -112,7 +111,6 @@ pub struct Quality {
 
 impl BandedBatch {
     /// Space for the systems.
-    #[inline]
     pub fn new(dimension: usize, half_bandwidth: usize) -> Self {
         let zeros = vec![Lanes::ZERO; dimension * (2 * half_bandwidth + 1)];
         Self {
@@ -125,7 +123,6 @@ impl BandedBatch {
     }
 
     /// Sets `A = sum_t factor_t band_t` from bands laid out like [`super::BandedMatrix::values`].
-    #[inline]
     pub fn assemble(&mut self, terms: &[(Lanes, &[c64])]) {
         for (place, value) in self.values.iter_mut().enumerate() {
             *value = Lanes::ZERO;
@@ -136,13 +133,11 @@ impl BandedBatch {
     }
 
     /// Band of one system.
-    #[inline]
     pub fn system(&self, lane: usize) -> Vec<c64> {
         self.values.iter().map(|value| value.get(lane)).collect()
     }
 
     /// Solves `A x = e_unknown` in each system.
-    #[inline]
     pub fn solve(&mut self, unknown: usize) -> [Quality; LANES] {
         interruption::check();
         self.solution.fill(Lanes::ZERO);
@@ -154,7 +149,6 @@ impl BandedBatch {
     }
 
     /// The unknowns that [`Self::solve`] found.
-    #[inline]
     pub fn solution(&self) -> &[Lanes] {
         &self.solution
     }
@@ -167,7 +161,7 @@ impl BandedBatch {
             let columns = last - k;
             let (above, below) = self.factors.split_at_mut((k + 1) * width);
             let top = &mut above[k * width + h..][..=columns];
-            top[0] = top[0].inverse();
+            top[0] = top[0].inverse(); // row_i -= (a_ik / a_kk) row_k, the right side with it.
             let (known, unknown) = self.solution.split_at_mut(k + 1);
             for i in k + 1..=last {
                 let start = (i - k - 1) * width + k + h - i;
@@ -187,7 +181,7 @@ impl BandedBatch {
         for k in (0..n).rev() {
             let columns = (k + h).min(n - 1) - k;
             let row = &self.factors[k * width + h..][..=columns];
-            let mut sum = self.solution[k];
+            let mut sum = self.solution[k]; // x_k = (b_k - sum_j u_kj x_j) / u_kk.
             for (value, known) in row[1..].iter().zip(&self.solution[k + 1..]) {
                 sum.subtract_product(value, known);
             }
@@ -209,7 +203,7 @@ impl BandedBatch {
             let mut sum = [0.0; LANES];
             let entries = &row[first + h - i..=last + h - i];
             for (value, x) in entries.iter().zip(&self.solution[first..=last]) {
-                residual.subtract_product(value, x);
+                residual.subtract_product(value, x); // b - A x, and the row sum of |A|.
                 let sizes = value.sizes();
                 (0..LANES).for_each(|lane| sum[lane] += sizes[lane]);
             }
@@ -218,7 +212,7 @@ impl BandedBatch {
             raise(&mut norms, sum);
         }
         std::array::from_fn(|lane| {
-            let growth = norms[lane] * solutions[lane];
+            let growth = norms[lane] * solutions[lane]; // |A| |x|, with |b| = 1.
             Quality { backward_error: residuals[lane] / growth, growth }
         })
     }
@@ -252,20 +246,20 @@ mod tests {
                     let is_inside = (0..n as isize).contains(&(row as isize + offset));
                     let value = c64::new(entry(seed + 2 * k), entry(seed + 2 * k + 1));
                     let unit = if offset == 0 { diagonal } else { 0.0 };
-                    if is_inside { value + unit } else { c64::new(0.0, 0.0) }
+                    if is_inside { value + unit } else { c64::ZERO }
                 })
                 .collect()
         };
         let (a, b) = (band(3, 4.0), band(1000, 0.0));
         let factor = Lanes::from_fn(|lane| c64::new(0.1 * lane as f64, 0.3));
         let mut batch = BandedBatch::new(n, h);
-        batch.assemble(&[(Lanes::from_fn(|_| c64::new(1.0, 0.0)), &a), (factor, &b)]);
+        batch.assemble(&[(Lanes::from_fn(|_| c64::ONE), &a), (factor, &b)]);
         let quality = batch.solve(5);
         for lane in 0..LANES {
             let mut lu = BandedLu::new(n, h);
             lu.factorize(&batch.system(lane));
-            let mut x = vec![c64::new(0.0, 0.0); n];
-            x[5] = c64::new(1.0, 0.0);
+            let mut x = vec![c64::ZERO; n];
+            x[5] = c64::ONE;
             lu.solve(&mut x);
             for (found, known) in batch.solution().iter().zip(&x) {
                 // Diagonally strong: condition of a few units.

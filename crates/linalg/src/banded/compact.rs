@@ -23,7 +23,7 @@ impl CompactRows {
             let h = matrix.half_bandwidth();
             for (k, &value) in matrix.row(i).iter().enumerate() {
                 if value != 0.0 {
-                    columns.push(i + k - h);
+                    columns.push(i + k - h); // Entry k of a row of the band stands in column i - h + k.
                     values.push(value);
                 }
             }
@@ -33,7 +33,6 @@ impl CompactRows {
     }
 
     /// The entries of `A x`, one after the other.
-    #[inline]
     fn images<T>(&self, x: &[T]) -> impl Iterator<Item = T>
     where
         T: Copy + Mul<f64, Output = T> + Sum,
@@ -49,7 +48,6 @@ impl CompactRows {
     ///
     /// # Panics
     /// If `x` is shorter than the matrix.
-    #[inline]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         self.images(x).collect()
     }
@@ -58,7 +56,6 @@ impl CompactRows {
     ///
     /// # Panics
     /// If a vector is shorter than the matrix.
-    #[inline]
     pub fn form(&self, y: &[c64], x: &[c64]) -> c64 {
         self.images(x).zip(y).map(|(image, y)| y.conj() * image).sum()
     }
@@ -67,7 +64,6 @@ impl CompactRows {
     ///
     /// # Panics
     /// If `x` is shorter than the matrix.
-    #[inline]
     pub fn add_product(&self, factor: c64, x: &[c64], sum: &mut [c64]) {
         self.images(x).zip(sum).for_each(|(image, sum)| *sum += factor * image);
     }
@@ -76,7 +72,6 @@ impl CompactRows {
     ///
     /// # Panics
     /// If the shapes do not fit.
-    #[inline]
     pub fn multiply_columns(&self, x: &Mat<f64>) -> Mat<f64> {
         let mut image = Mat::zeros(self.starts.len() - 1, x.ncols());
         for j in 0..x.ncols() {

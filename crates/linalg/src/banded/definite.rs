@@ -50,7 +50,7 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
                 pivot = f64::MIN_POSITIVE;
             }
             top[0] = T::from_real_impl(&pivot);
-            let inverse = T::from_real_impl(&(1.0 / pivot));
+            let inverse = T::from_real_impl(&(1.0 / pivot)); // a_ij -= conj(a_ki) a_kj / d_k.
             let last = h.min(n - 1 - k);
             for (i, row) in below.chunks_exact_mut(width).take(last).enumerate() {
                 let factor = T::conj_impl(&top[i + 1]) * inverse;
@@ -69,19 +69,16 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
     }
 
     /// Number of negative eigenvalues.
-    #[inline]
     pub fn negative_count(&self) -> usize {
         self.pivots().filter(|d| *d < 0.0).count()
     }
 
     /// Whether all eigenvalues are positive; a pivot of zero, which stands as the least positive one, is none.
-    #[inline]
     pub fn is_definite(&self) -> bool {
         self.pivots().all(|d| d > f64::MIN_POSITIVE)
     }
 
     /// Whether no pivot overflowed or vanished beside the largest, but for rounding.
-    #[inline]
     pub fn is_regular(&self) -> bool {
         let largest = self.pivots().fold(0.0_f64, |m, d| m.max(d.abs()));
         largest.is_finite() && self.pivots().all(|d| d.abs() > 1e-15 * largest)
@@ -93,7 +90,7 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
         for k in 0..n {
             let row = &self.upper[k * width..][..width.min(n - k)];
             let (value, rest) = x[k..].split_first_mut().expect("a row for each unknown");
-            let known = *value;
+            let known = *value; // L y = b, then D: each y_k out of the rows below it.
             row[1..].iter().zip(rest).for_each(|(l, x)| *x -= T::conj_impl(l) * known);
             *value = known * T::from_real_impl(&(1.0 / T::real_part_impl(&row[0])));
         }

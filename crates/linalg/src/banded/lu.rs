@@ -17,14 +17,12 @@ pub struct BandedLu {
 
 impl BandedLu {
     /// Space for a factorization.
-    #[inline]
     pub fn new(dimension: usize, half_bandwidth: usize) -> Self {
-        let zero = c64::new(0.0, 0.0);
         Self {
             dimension,
             half_bandwidth,
-            upper: vec![zero; dimension * (3 * half_bandwidth + 1)],
-            lower: vec![zero; dimension * half_bandwidth],
+            upper: vec![c64::ZERO; dimension * (3 * half_bandwidth + 1)],
+            lower: vec![c64::ZERO; dimension * half_bandwidth],
             pivots: vec![0; dimension],
         }
     }
@@ -36,10 +34,10 @@ impl BandedLu {
         interruption::check();
         let (n, h) = (self.dimension, self.half_bandwidth);
         let (width, stored) = (3 * h + 1, 2 * h + 1);
-        let zero = c64::new(0.0, 0.0);
+        // Rows with space for what exchanges of rows fill in: twice the bandwidth on the right.
         for (row, band) in self.upper.chunks_exact_mut(width).zip(values.chunks_exact(stored)) {
             row[..stored].copy_from_slice(band);
-            row[stored..].fill(zero);
+            row[stored..].fill(c64::ZERO);
         }
         let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.re.abs()).max(v.im.abs()));
         for k in 0..n {
@@ -48,7 +46,7 @@ impl BandedLu {
                 let v = self.upper[i * width + k + h - i];
                 v.re.abs() + v.im.abs()
             };
-            let mut pivot = k;
+            let mut pivot = k; // Partial pivoting among the h rows below.
             for i in k + 1..=last {
                 if size(i) > size(pivot) {
                     pivot = i;
@@ -62,10 +60,10 @@ impl BandedLu {
                 let start = (pivot - k - 1) * width + k + h - pivot;
                 top.swap_with_slice(&mut below[start..start + columns]);
             }
-            if top[0] == zero {
+            if top[0] == c64::ZERO {
                 top[0] = c64::new(f64::EPSILON * largest, 0.0);
             }
-            let inverse = c64::new(1.0, 0.0) / top[0];
+            let inverse = c64::ONE / top[0]; // Below the pivot: row_i -= (a_ik / a_kk) row_k.
             for i in k + 1..=last {
                 let start = (i - k - 1) * width + k + h - i;
                 let row = &mut below[start..start + columns];
@@ -85,7 +83,7 @@ impl BandedLu {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let width = 3 * h + 1;
         for k in 0..n {
-            x.swap(k, self.pivots[k]);
+            x.swap(k, self.pivots[k]); // L y = P b, one exchange after the other.
             let value = x[k];
             let factors = &self.lower[k * h..(k + 1) * h];
             for (unknown, factor) in x[k + 1..].iter_mut().zip(factors) {
@@ -93,7 +91,7 @@ impl BandedLu {
             }
         }
         for k in (0..n).rev() {
-            let columns = (k + 2 * h).min(n - 1) - k + 1;
+            let columns = (k + 2 * h).min(n - 1) - k + 1; // U x = y; the diagonal of U is inverted.
             let row = &self.upper[k * width + h..][..columns];
             let mut sum = x[k];
             for (value, known) in row[1..].iter().zip(&x[k + 1..]) {
@@ -108,7 +106,7 @@ impl BandedLu {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let width = 3 * h + 1;
         for k in 0..n {
-            let columns = (k + 2 * h).min(n - 1) - k + 1;
+            let columns = (k + 2 * h).min(n - 1) - k + 1; // U^H y = b, by columns of U^H.
             let row = &self.upper[k * width + h..][..columns];
             let value = x[k] * row[0].conj();
             x[k] = value;
@@ -117,7 +115,7 @@ impl BandedLu {
             }
         }
         for k in (0..n).rev() {
-            let factors = &self.lower[k * h..(k + 1) * h];
+            let factors = &self.lower[k * h..(k + 1) * h]; // L^H P x = y, from the last exchange back.
             let mut sum = x[k];
             for (known, factor) in x[k + 1..].iter().zip(factors) {
                 sum -= factor.conj() * known;
@@ -128,14 +126,13 @@ impl BandedLu {
     }
 
     /// `ln det A`, up to multiples of `2 pi i`.
-    #[inline]
     pub fn ln_determinant(&self) -> c64 {
         let width = 3 * self.half_bandwidth + 1;
         // Unit phasors multiply without overflow.
-        let (mut size, mut phase) = (0.0, c64::new(1.0, 0.0));
+        let (mut size, mut phase) = (0.0, c64::ONE);
         for k in 0..self.dimension {
             let inverse = self.upper[k * width + self.half_bandwidth];
-            let sign = if self.pivots[k] == k { 1.0 } else { -1.0 };
+            let sign = if self.pivots[k] == k { 1.0 } else { -1.0 }; // Each exchange turns the sign.
             size -= inverse.norm().ln();
             phase *= inverse.conj() * (sign / inverse.norm());
         }
@@ -149,8 +146,8 @@ mod tests {
 
     /// Deterministic, far from symmetric, needs pivoting.
     fn example(n: usize, h: usize) -> (Vec<c64>, Vec<Vec<c64>>) {
-        let mut band = vec![c64::new(0.0, 0.0); n * (2 * h + 1)];
-        let mut dense = vec![vec![c64::new(0.0, 0.0); n]; n];
+        let mut band = vec![c64::ZERO; n * (2 * h + 1)];
+        let mut dense = vec![vec![c64::ZERO; n]; n];
         let mut state = 1.0_f64;
         for i in 0..n {
             for j in i.saturating_sub(h)..=(i + h).min(n - 1) {

@@ -15,7 +15,7 @@ use faer::c64;
 /// `A x`, or `A^H x`, of a complex band with `h` off-diagonals on either side, laid out like [`BandedMatrix::values`].
 pub fn multiply_band(values: &[c64], h: usize, x: &[c64], adjoint: bool) -> Vec<c64> {
     let n = x.len();
-    let mut result = vec![c64::new(0.0, 0.0); n];
+    let mut result = vec![c64::ZERO; n];
     for (row, band) in values.chunks_exact(2 * h + 1).enumerate() {
         let (first, last) = (row.saturating_sub(h), (row + h + 1).min(n));
         let band = &band[first + h - row..last + h - row];
@@ -42,25 +42,21 @@ pub struct BandedMatrix {
 
 impl BandedMatrix {
     /// The zero matrix with `half_bandwidth` off-diagonals on either side.
-    #[inline]
     pub fn zeros(dimension: usize, half_bandwidth: usize) -> Self {
         Self { dimension, half_bandwidth, values: vec![0.0; dimension * (2 * half_bandwidth + 1)] }
     }
 
     /// Number of rows and of columns.
-    #[inline]
     pub fn dimension(&self) -> usize {
         self.dimension
     }
 
     /// Off-diagonals on either side.
-    #[inline]
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
     /// All stored values, row by row, `2 h + 1` for each.
-    #[inline]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -119,7 +115,6 @@ impl BandedMatrix {
     ///
     /// # Panics
     /// If the shapes differ.
-    #[inline]
     pub fn add_scaled(&mut self, factor: f64, other: &Self) {
         assert_eq!((self.dimension, self.half_bandwidth), (other.dimension, other.half_bandwidth));
         for (sum, value) in self.values.iter_mut().zip(&other.values) {
@@ -128,13 +123,11 @@ impl BandedMatrix {
     }
 
     /// Whether all entries vanish.
-    #[inline]
     pub fn is_zero(&self) -> bool {
         self.values.iter().all(|value| *value == 0.0)
     }
 
     /// `A x`.
-    #[inline]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         (0..self.dimension)
             .map(|row| {

@@ -97,7 +97,7 @@ impl Cubic {
     /// A root of the real part in [0, 1], by bisection.
     pub fn root(&self) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
-        let is_positive = self.real_part(low) > 0.0;
+        let is_positive = self.real_part(low) > 0.0; // The half that keeps the sign at its lower end.
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
             if (self.real_part(middle) > 0.0) == is_positive {

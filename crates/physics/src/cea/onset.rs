@@ -94,6 +94,7 @@ pub(super) fn instabilities<B: BranchSolver>(
         let mut start = pair[0].clone();
         for end in search.with_turning_points(&pair[0], &pair[1])? {
             if search.is_growing(&end) != was_growing {
+                // A change of sign is the beginning of an interval or the end of the open one.
                 let is_neutral = search.is_neutral(&start, &end);
                 let root = search.root(&start, &end, is_neutral)?;
                 let before = search.solver.point(&start).friction_coefficient;

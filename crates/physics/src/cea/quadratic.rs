@@ -67,7 +67,7 @@ pub fn quadratic_modes(
         }
     }
     let problem = Problem { matrices: [mass, damping, stiffness] };
-    let ratio = (stiffness.norm_max() / mass.norm_max()).sqrt();
+    let ratio = (stiffness.norm_max() / mass.norm_max()).sqrt(); // Eigenvalues lie about sqrt(K / M): the first window is there.
     let first = if ratio.is_finite() && ratio > 0.0 { 0.7 * ratio } else { 1.0 };
     let mut values = Vec::new();
     let [below, above] = problem.window(first, &mut values)?;
@@ -121,7 +121,7 @@ impl Problem<'_> {
         let (mut below, mut above) = (0, 0);
         let half = WINDOW.sqrt();
         for value in real_eigenvalues(inverse.as_ref())? {
-            let relative = value.inv() + 1.0;
+            let relative = value.inv() + 1.0; // lambda / sigma = 1 + 1 / mu.
             match relative.norm() {
                 size if size < 1.0 / half => below += 1,
                 // Zero stands for infinity.
@@ -145,6 +145,7 @@ impl Problem<'_> {
         for _ in 0..SCALINGS {
             for i in 0..n {
                 let entries = (0..n).map(|j| size[(i, j)] * rows[i] * columns[j]);
+                // The largest entry of each row and column comes to one, to a power of two.
                 rows[i] *= root(entries.fold(0.0, f64::max));
             }
             for j in 0..n {
@@ -183,12 +184,12 @@ impl Problem<'_> {
         let forces = pencil(unit) * &x;
         let sizes = mass.norm_l2() + damping.norm_l2() + stiffness.norm_l2();
         let rate = |i: usize, j: usize| damping[(i, j)] + 2.0 * unit * mass[(i, j)];
-        let slope = (x.adjoint() * (Mat::from_fn(n, n, rate) * &x))[(0, 0)];
+        let slope = (x.adjoint() * (Mat::from_fn(n, n, rate) * &x))[(0, 0)]; // x^H (2 lambda M + C) x.
 
         // Back in the unknowns of the problem, the largest one.
         let own: Vec<c64> = (0..n).map(|i| x[(i, 0)] * columns[i]).collect();
         let longer = |a: c64, b: &c64| if b.norm() > a.norm() { *b } else { a };
-        let largest = own.iter().fold(c64::new(0.0, 0.0), longer);
+        let largest = own.iter().fold(c64::ZERO, longer);
         QuadraticMode {
             eigenvalue,
             residual: forces.norm_l2() / sizes,

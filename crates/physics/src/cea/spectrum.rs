@@ -141,7 +141,7 @@ impl FrictionPoint {
     /// About what it is at a friction coefficient between those of the point `before` and its own.
     fn led_back(&self, before: &Self, friction_coefficient: f64) -> Self {
         let [start, end] = [before, self].map(|point| point.friction_coefficient);
-        let share = (friction_coefficient - start) / (end - start);
+        let share = (friction_coefficient - start) / (end - start); // Linear between the two.
         let mut found = Self { friction_coefficient, ..self.clone() };
         for mode in found.modes.iter_mut().chain(&mut found.above).filter(|own| own.branch > 0) {
             let is_same =
@@ -254,7 +254,7 @@ impl FrictionSweep {
         {
             found.points.insert(0, next.led_back(before, lower));
         }
-        let is_beyond = |mu: Option<f64>| mu.is_none_or(|mu| mu > lower);
+        let is_beyond = |mu: Option<f64>| mu.is_none_or(|mu| mu > lower); // What ended before is no part of it.
         found.ended.retain(|own| own.friction_coefficient >= lower || is_beyond(own.lost_before));
         found.intervals.retain(|own| is_beyond(own.restabilized.map(|(mu, _)| mu)));
         for own in found.intervals.iter_mut().filter(|own| own.critical_friction < lower) {

@@ -163,7 +163,7 @@ impl RigidCounterface {
         let faces = surface.faces.iter();
         let outward = faces.map(|face| (mesh.middle(face.corners()), mesh.area_vector(face)));
         let outward: Vec<(Vector3<f64>, Vector3<f64>)> = outward.collect();
-        let all = surface.faces.iter().flat_map(|face| &face.nodes);
+        let all = surface.faces.iter().flat_map(|face| &face.nodes); // Its nodes, each once.
         let mut nodes: Vec<u32> = all.copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -187,6 +187,7 @@ impl RigidCounterface {
             }
             RigidShape::Cylinder(radius) | RigidShape::Sphere(radius) => radius,
         };
+        // Of a round one the side on which the body lies, and each node's distance from the axis or centre.
         let facing = outward.iter().map(|(at, normal)| self.arm(at).dot(normal));
         placed.sense = if facing.sum::<f64>() < 0.0 { 1.0 } else { -1.0 };
         let radial = |point: [f64; 3]| self.arm(&point.into()).normalize();
@@ -194,6 +195,7 @@ impl RigidCounterface {
         let radii = nodes.iter().map(|&node| (node, self.arm(&position(node)).norm()));
         let mut radii: BTreeMap<u32, f64> = radii.collect();
         Chord::bridge(&chords, &mut radii);
+        // A radius that is not given is the one that all nodes have.
         let radius = match radius {
             Some(radius) => radius,
             None => self.common_radius(mesh, surface, &radii)?,
@@ -231,12 +233,11 @@ impl RigidCounterface {
         let farthest = radii.iter().max_by(|a, b| off(a).total_cmp(&off(b)));
         match farthest {
             Some((&node, &distance)) if (distance - mean).abs() > ROUND * mean => {
-                Err(PairError::NotRound {
-                    surface: surface.name.clone(),
-                    node: mesh.labels[node as usize],
-                    distance,
-                    mean,
-                })
+                Err(PairError(format!(
+                    "surface \"{}\" is not round about the axis or centre of its counterface: node {} lies {distance:.6e} m away, the \
+                     mean is {mean:.6e} m. Correct `center` and `axis`, or give its `radius`",
+                    surface.name, mesh.labels[node as usize]
+                )))
             }
             _ => Ok(mean),
         }
@@ -255,12 +256,15 @@ impl RigidCounterface {
         if off <= ALONG * whole {
             return Ok(());
         }
-        Err(PairError::LeavesPlane {
-            surface: surface.name.clone(),
-            // Without the signs of zeros.
-            normal: normal.map(|x| x + 0.0).into(),
-            is_turning: matches!(self.motion, RigidMotion::Turning(_)),
-        })
+        let [x, y, z]: [f64; 3] = normal.map(|x| x + 0.0).into(); // Without the signs of zeros.
+        let [fault, remedy] = match self.motion {
+            RigidMotion::Turning(_) => ["tilt", "give that normal as `axis`"],
+            RigidMotion::Sliding(_) => ["move along it", "correct `direction`"],
+        };
+        Err(PairError(format!(
+            "the rigid plane under surface \"{}\" has the normal ({x:.6}, {y:.6}, {z:.6}) and would {fault}: {remedy}",
+            surface.name
+        )))
     }
 }
 

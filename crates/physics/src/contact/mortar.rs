@@ -46,6 +46,7 @@ struct Sums {
 /// each of its corners' displacements.
 pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<MortarNode> {
     let mut sums: BTreeMap<u32, Sums> = BTreeMap::new();
+    // Integrals face by face, each with the dual basis of what is covered of it.
     let mut by_face: BTreeMap<usize, Vec<&SegmentPoint>> = BTreeMap::new();
     for point in &pair.points {
         by_face.entry(point.face).or_default().push(point);
@@ -60,10 +61,12 @@ pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<
             middles_of.entry(end).or_default().push(middle);
         }
     }
+    // Nodes with next to no area are none of the contact.
     let largest = sums.values().map(|sum| sum.area).fold(0.0, f64::max);
     sums.iter()
         .filter(|(_, sum)| sum.area > 1e-6 * largest)
         .map(|(&node, sum)| {
+            // What the value of a node lifts: on quadratic faces the middles beside a corner follow it by a fifth.
             let lift = match middles_of.get(&node) {
                 _ if corners_of.contains_key(&node) => vec![(node, 1.0 - 2.0 * CORNER_SHARE)],
                 None => vec![(node, 1.0)],
@@ -72,6 +75,7 @@ pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<
                     std::iter::once((node, 1.0)).chain(shares).collect()
                 }
             };
+            // The value itself, u_i of corners, (u_i - (u_p + u_q) / 5) 5 / 3 of middles.
             let own = match corners_of.get(&node) {
                 None => vec![(node, 1.0)],
                 Some(&[p, q]) => {

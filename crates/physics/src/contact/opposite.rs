@@ -168,6 +168,7 @@ fn mortar(
     let mut sums: BTreeMap<u32, Sums> = BTreeMap::new();
     for edge in edges {
         let length = edge.extent.abs();
+        // ∫ N_i ds over the whole edge.
         for (weight, share) in GAUSS.map(|(share, weight)| (weight * length, share)) {
             for (node, value, _) in edge.shapes(share) {
                 sums.entry(node).or_default().whole += weight * value;
@@ -181,12 +182,14 @@ fn mortar(
             GAUSS.map(|(at, weight)| (other, low + width * at, weight * width * length))
         });
         let points: Vec<(&Edge<'_>, f64, f64)> = points.collect();
+        // The dual basis over what is covered, psi_i at each of the points.
         let bases = points.iter().map(|&(_, share, weight)| {
             (weight, edge.shapes(share).into_iter().map(|shape| shape.1).collect())
         });
         let bases: Vec<(f64, Vec<f64>)> = bases.collect();
         let Some(weights) = dual_weights(edge.face.nodes.len(), &bases) else { continue };
         for (&(other, share, _), weights) in points.iter().zip(weights) {
+            // ∫ psi_i N_j ds of the nodes on the other side, and of the slope along it.
             let met = other.shapes(edge.share_on(other, share, surface));
             for (&node, psi) in edge.face.nodes.iter().zip(weights) {
                 let sum = sums.entry(node).or_default();

@@ -1,6 +1,6 @@
 //! Contact points of two surfaces of which one slides over the other.
 
-use super::mortar::mortar_nodes;
+use super::mortar::{MortarNode, mortar_nodes};
 use super::surface::{SegmentPoint, SurfacePair, SurfacePoint};
 use super::{
     ContactInterface, Counterpart, FrictionDecay, PairError, Point, RigidCounterface, Row,
@@ -80,7 +80,7 @@ pub struct ContactSite {
 }
 
 /// The contact points of two surfaces, in the plane of an edge.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactSurface {
     /// The points.
     pub points: Vec<Point>,
@@ -115,39 +115,37 @@ impl ContactSurface {
         friction: PairFriction,
         (kind, measured): (PointKind, Option<&Topography>),
     ) -> Result<Self, PairError> {
+        // What lies before each other.
         let counter = counterpart.surface().map(|place| &mesh.boundaries[place]);
         let mut pair = match counterpart {
-            Counterpart::Surface(place) => {
-                SurfacePair::of(mesh, surface, &mesh.boundaries[*place])?
-            }
+            Counterpart::Surface(b) => SurfacePair::of(mesh, surface, &mesh.boundaries[*b])?,
             Counterpart::Rigid(rigid) => SurfacePair::on_rigid(mesh, surface, rigid)?,
             Counterpart::Edge(contact) => return Ok(Self::of_edge(mesh, contact)),
         };
         if let Some(measured) = measured {
             measured.widen(&mut pair, &surface.name)?;
         }
+        // How they move: v_B - v_A at a place, and the difference of their rotations.
         let own_motion = motion_of(mesh, surface, motions);
         let counter_motion = counter.and_then(|boundary| motion_of(mesh, boundary, motions));
-        let sliding = |position: [f64; 3]| -> Vector3<f64> {
-            let of = |motion: Option<&Motion>| {
-                motion.map_or(Vector3::zeros(), |own| own.velocity(position).into())
-            };
-            let counter = match counterpart.rigid() {
-                None => of(counter_motion),
-                Some(rigid) => rigid.velocity(position).into(),
-            };
-            counter - of(own_motion)
+        let velocity_of = |motion: Option<&Motion>, at: [f64; 3]| -> Vector3<f64> {
+            motion.map_or(Vector3::zeros(), |own| own.velocity(at).into())
+        };
+        let sliding = |at: [f64; 3]| -> Vector3<f64> {
+            let of_rigid = counterpart.rigid().map(|rigid| rigid.velocity(at).into());
+            of_rigid.unwrap_or_else(|| velocity_of(counter_motion, at))
+                - velocity_of(own_motion, at)
         };
         let spin = |motion: Option<&Motion>| motion.map_or(Vector3::zeros(), Motion::spin_vector);
         let mut found = Self {
-            points: Vec::new(),
-            sites: Vec::new(),
             spin: counterpart.rigid().map_or_else(|| spin(counter_motion), RigidCounterface::spin)
                 - spin(own_motion),
             nodes: nodes_of(pair.points.iter().map(|point| &point.at.own)),
             area: pair.area,
             covered: pair.covered,
+            ..Self::default()
         };
+        // Their points.
         match kind {
             PointKind::Segments => {
                 for SegmentPoint { at, .. } in pair.points {
@@ -161,10 +159,7 @@ impl ContactSurface {
                     if let Counterpart::Rigid(rigid) = counterpart {
                         node.at.normal = rigid.normal(node.at.position, node.at.normal);
                     }
-                    let (velocity, shares) = (sliding(node.at.position), vec![(node.node, 1.0)]);
-                    let jump = |direction| node.jump(mesh, direction);
-                    let lift = row_along(mesh, &node.lift, node.at.normal, 1.0);
-                    found.add((&node.at, shares), (velocity, friction), jump, lift);
+                    found.add_node(mesh, &node, (sliding(node.at.position), friction));
                 }
             }
         }
@@ -172,6 +167,13 @@ impl ContactSurface {
             found.drop_held(mesh);
         }
         found.sliding(surface, counter)
+    }
+
+    /// [`Self::add`] of a node.
+    fn add_node(&mut self, mesh: &Mesh, node: &MortarNode, moving: (Vector3<f64>, PairFriction)) {
+        let lift = row_along(mesh, &node.lift, node.at.normal, 1.0);
+        let shares = vec![(node.node, 1.0)];
+        self.add((&node.at, shares), moving, |direction| node.jump(mesh, direction), lift);
     }
 
     /// The nodes of the contact edge of a plane body as points, for each metre of thickness.
@@ -203,13 +205,24 @@ impl ContactSurface {
 
     /// Refuses points that are all held, or at rest.
     fn sliding(self, surface: &Boundary, counter: Option<&Boundary>) -> Result<Self, PairError> {
-        let name = surface.name.clone();
-        match (counter, self.points.iter().any(|point| point.speed > 0.0)) {
-            (_, true) => Ok(self),
-            _ if self.points.is_empty() => Err(PairError::AllHeld(name)),
-            (None, _) => Err(PairError::AtRest(name)),
-            (Some(counter), _) => Err(PairError::NoSliding([name, counter.name.clone()])),
-        }
+        let name = &surface.name;
+        let problem = match counter {
+            _ if self.points.iter().any(|point| point.speed > 0.0) => return Ok(self),
+            _ if self.points.is_empty() => format!(
+                "all of surface \"{name}\" is held: nothing of it can give way to the rigid counterface; name another surface, or hold \
+                 less"
+            ),
+            None => format!(
+                "nothing slides over surface \"{name}\": its rigid counterface is at rest, or moves along its normal; check its speed, \
+                 direction and axis"
+            ),
+            Some(counter) => format!(
+                "nothing slides between surfaces \"{name}\" and \"{}\": the motion given leaves them at rest to each other. Check the \
+                 axis, the centre and the regions of [motion]",
+                counter.name
+            ),
+        };
+        Err(PairError(problem))
     }
 
     /// Takes out the points that are held along their normals: they cannot give way to a rigid counterface.

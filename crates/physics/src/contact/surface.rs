@@ -169,8 +169,15 @@ impl<'a> Facet<'a> {
     }
 }
 
-fn facets_of<'a>(mesh: &Mesh, boundary: &'a Boundary) -> Vec<Facet<'a>> {
-    boundary.faces.iter().map(|face| Facet::of(mesh, face)).collect()
+/// The facets of a boundary that has some.
+fn facets_of<'a>(mesh: &Mesh, boundary: &'a Boundary) -> Result<Vec<Facet<'a>>, PairError> {
+    match boundary.faces.is_empty() {
+        true => Err(PairError(format!(
+            "surface \"{}\" has no faces on the outside of the bodies",
+            boundary.name
+        ))),
+        false => Ok(boundary.faces.iter().map(|face| Facet::of(mesh, face)).collect()),
+    }
 }
 
 /// Newton steps that find a point on a face at most; plane faces with straight edges take one or two.
@@ -209,12 +216,7 @@ impl SurfacePair {
     /// # Errors
     /// [`PairError`] where no segment is found.
     pub fn of(mesh: &Mesh, surface: &Boundary, counter: &Boundary) -> Result<Self, PairError> {
-        for boundary in [surface, counter] {
-            if boundary.faces.is_empty() {
-                return Err(PairError::NoFaces(boundary.name.clone()));
-            }
-        }
-        let (own, others) = (facets_of(mesh, surface), facets_of(mesh, counter));
+        let (own, others) = (facets_of(mesh, surface)?, facets_of(mesh, counter)?);
         let size = |facets: &[Facet<'_>]| {
             let area: f64 = facets.iter().map(|facet| facet.area).sum();
             (area / facets.len() as f64).sqrt()
@@ -236,14 +238,14 @@ impl SurfacePair {
             }
         }
         if pair.points.is_empty() {
-            let names = [surface, counter].map(|boundary| boundary.name.clone());
+            let names = [surface, counter].map(|boundary| boundary.name.as_str());
             return Err(pair.why_not(names, &own, &others));
         }
         Ok(pair)
     }
 
     /// Why no face has a segment with another: what lies over what, however far.
-    fn why_not(&self, names: [String; 2], own: &[Facet<'_>], others: &[Facet<'_>]) -> PairError {
+    fn why_not(&self, [a, b]: [&str; 2], own: &[Facet<'_>], others: &[Facet<'_>]) -> PairError {
         let (mut distance, mut is_turned) = (f64::INFINITY, false);
         for facet in own {
             let plane = Plane::of(facet);
@@ -258,10 +260,21 @@ impl SurfacePair {
                 }
             }
         }
-        if distance.is_finite() {
-            return PairError::Apart { names, distance, reach: self.reach };
-        }
-        if is_turned { PairError::FacesAway(names) } else { PairError::NeverMeets(names) }
+        PairError(match (distance.is_finite(), is_turned) {
+            (true, _) => format!(
+                "surfaces \"{a}\" and \"{b}\" face each other but stand {distance:.3e} m apart, more than half an element ({:.3e} m). \
+                 Move the bodies together in the mesh, or name other surfaces",
+                self.reach
+            ),
+            (false, true) => format!(
+                "surface \"{a}\" faces away from \"{b}\": where they lie over each other their outward normals point the same way. \
+                 Name the surfaces that touch"
+            ),
+            (false, false) => format!(
+                "surfaces \"{a}\" and \"{b}\" never meet: along its normals no face of the one lies over a face of the other. Name \
+                 the surfaces that touch"
+            ),
+        })
     }
 
     fn add_segment(&mut self, (f, facet): (usize, &Facet<'_>), other: &Facet<'_>, plane: &Plane) {
@@ -269,15 +282,12 @@ impl SurfacePair {
             return;
         }
         let Some(polygon) = shared_polygon(facet, other, plane) else { return };
-        let meet = |target: Vector2<f64>, position: &Vector3<f64>, outward: &Vector3<f64>| {
+        let meet = |target: Vector2<f64>, outward: &Vector3<f64>, at: &mut SurfacePoint| {
             let opposite = other.at(plane, target);
-            let gap = (opposite.position - position).dot(outward);
-            (gap.abs() <= self.reach).then(|| Meeting {
-                counter: nodes_with(other.face, opposite.values()),
-                slopes: nodes_with(other.face, opposite.slopes(outward)),
-                gap,
-                normal: -outward,
-            })
+            at.gap = (opposite.position - Vector3::from(at.position)).dot(outward);
+            at.counter = nodes_with(other.face, opposite.values());
+            at.slopes = nodes_with(other.face, opposite.slopes(outward));
+            at.gap.abs() <= self.reach
         };
         let points = quadrature((f, facet), &polygon, plane, meet);
         self.covered += points.iter().map(|point| point.at.area).sum::<f64>();
@@ -293,24 +303,19 @@ impl SurfacePair {
         surface: &Boundary,
         counterface: &RigidCounterface,
     ) -> Result<Self, PairError> {
-        if surface.faces.is_empty() {
-            return Err(PairError::NoFaces(surface.name.clone()));
-        }
+        let own = facets_of(mesh, surface)?;
         let placed = counterface.placed(mesh, surface)?;
-        let own = facets_of(mesh, surface);
         let points = own.iter().enumerate().flat_map(|(f, facet)| {
             let plane = Plane::of(facet);
             let polygon: Vec<_> = facet.corners().iter().map(|corner| plane.flat(corner)).collect();
-            let meet = |_: Vector2<f64>, position: &Vector3<f64>, _: &Vector3<f64>| {
-                let normal = placed.normal(position);
-                Some(Meeting { counter: Vec::new(), slopes: Vec::new(), gap: 0.0, normal })
+            let meet = |_: Vector2<f64>, _: &Vector3<f64>, at: &mut SurfacePoint| {
+                at.normal = placed.normal(&at.position.into()).into();
+                at.gap = placed.gap(&at.own);
+                true
             };
             quadrature((f, facet), &polygon, &plane, meet)
         });
-        let mut points: Vec<SegmentPoint> = points.collect();
-        for point in &mut points {
-            point.at.gap = placed.gap(&point.at.own);
-        }
+        let points: Vec<SegmentPoint> = points.collect();
         let area: f64 = own.iter().map(|facet| facet.area).sum();
         Ok(Self {
             covered: points.iter().map(|point| point.at.area).sum(),
@@ -321,25 +326,13 @@ impl SurfacePair {
     }
 }
 
-/// What lies before a point of a face.
-struct Meeting {
-    /// Its nodes with their shape functions.
-    counter: Vec<(u32, f64)>,
-    /// The same with their slopes by arc, 1/m.
-    slopes: Vec<(u32, Vector3<f64>)>,
-    /// The gap, m.
-    gap: f64,
-    /// The unit normal from there into the face's own body.
-    normal: Vector3<f64>,
-}
-
-/// The quadrature points of a convex polygon on a face that have something before them: `meet` is asked with the place in the
-/// plane, the position on the face and its outward normal.
+/// The quadrature points of a convex polygon on a face that have something before them: `meet`, asked with the place in the plane and
+/// the outward normal of the face, adds to a point what it meets and says whether that is near enough.
 fn quadrature(
     (f, facet): (usize, &Facet<'_>),
     polygon: &[Vector2<f64>],
     plane: &Plane,
-    meet: impl Fn(Vector2<f64>, &Vector3<f64>, &Vector3<f64>) -> Option<Meeting>,
+    meet: impl Fn(Vector2<f64>, &Vector3<f64>, &mut SurfacePoint) -> bool,
 ) -> Vec<SegmentPoint> {
     let middle = polygon.iter().sum::<Vector2<f64>>() / polygon.len() as f64;
     let mut points = Vec::new();
@@ -351,18 +344,19 @@ fn quadrature(
             let target = parts.sum::<Vector2<f64>>();
             let own = facet.at(plane, target);
             let outward = own.normal();
-            let Some(met) = meet(target, &own.position, &outward) else { continue };
-            let at = SurfacePoint {
+            let mut at = SurfacePoint {
                 position: own.position.into(),
-                normal: met.normal.into(),
+                normal: (-outward).into(),
                 // Area on the surface itself, whose normal leans against the plane's.
                 area: weight * triangle / outward.dot(&facet.normal),
-                gap: met.gap,
+                gap: 0.0,
                 own: nodes_with(facet.face, own.values()),
-                counter: met.counter,
-                slopes: met.slopes,
+                counter: Vec::new(),
+                slopes: Vec::new(),
             };
-            points.push(SegmentPoint { face: f, at });
+            if meet(target, &outward, &mut at) {
+                points.push(SegmentPoint { face: f, at });
+            }
         }
     }
     points

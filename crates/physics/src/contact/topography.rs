@@ -44,13 +44,13 @@ impl Topography {
             let chosen = self.around(&grids, &position, &axes);
             if chosen.is_empty() {
                 let away = |(place, _): &([f64; 3], f64)| (Vector3::from(*place) - position).norm();
-                return Err(PairError::NotMeasured {
-                    surface: surface.to_owned(),
-                    file: self.file.clone(),
-                    position: point.position,
-                    distance: self.points.iter().map(away).fold(f64::INFINITY, f64::min),
-                    reach,
-                });
+                let nearest = self.points.iter().map(away).fold(f64::INFINITY, f64::min);
+                let ([x, y, z], file) = (point.position, &self.file);
+                return Err(PairError(format!(
+                    "no measured point of {file} lies within {reach:.3e} m of ({x:.6}, {y:.6}, {z:.6}) m on surface \"{surface}\". The \
+                     nearest is {nearest:.3e} m away. Give x, y, z in metres, in the coordinates of the mesh, and points over the whole \
+                     surface"
+                )));
             }
             point.gap += self.fitted(&chosen, &position, &axes);
         }

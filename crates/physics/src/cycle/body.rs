@@ -95,7 +95,7 @@ impl WaveBody {
     /// The body of a mesh for a wave of `harmonic` nodal diameters: entry `k` sees circumferential harmonic `k` of the list given.
     ///
     /// # Errors
-    /// [`CycleError::Element`] for elements other than Quad4; [`CycleError::Mesh`].
+    /// [`CycleError::Asked`] for elements other than Quad4; [`CycleError::Mesh`].
     pub fn new(
         specification: &AnnulusSpecification,
         material: &ElasticMaterial,
@@ -103,7 +103,9 @@ impl WaveBody {
         harmonic: isize,
     ) -> Result<Self, CycleError> {
         if specification.element != ElementKind::Quad4 {
-            return Err(CycleError::Element);
+            let problem =
+                "limit cycles need mesh.element = \"quad4\": a contact edge with equal nodes";
+            return Err(CycleError::Asked(problem.to_owned()));
         }
         let strip = Strip::of_annulus(specification)?;
         let stiffness = strip.folded(&assemble_stiffness(&strip.mesh, material));
@@ -176,7 +178,7 @@ impl WaveBody {
         for i in (0..self.masses.len()).rev() {
             let mass = Receptance::identity() * c64::new(self.masses[i], 0.0);
             let diagonal = complex(&blocks.diagonal[i]);
-            let mut matrix = diagonal * at.stiffness + mass * at.mass;
+            let mut matrix = diagonal * at.stiffness + mass * at.mass; // K_ii (1 + beta i w) + m (alpha i w - w^2), and its derivatives.
             let mut slopes = changes.map(|change| diagonal * change.stiffness + mass * change.mass);
             if let Some(support) = self.support_at(i) {
                 matrix += support(at);
@@ -185,6 +187,7 @@ impl WaveBody {
             }
             if let Some(outward) = blocks.outward.get(i) {
                 let outward = complex(outward);
+                // From the outer edge inwards: S_i = D_i - B_i S_i+1^-1 B_i^T.
                 let across = outward * inverses[i + 1] * outward.transpose();
                 matrix -= across * (at.stiffness * at.stiffness);
                 for (slope, (change, rate)) in slopes.iter_mut().zip(changes.iter().zip(&rates)) {
@@ -193,7 +196,7 @@ impl WaveBody {
                 }
             }
             let inverse = inverted(&matrix);
-            rates = slopes.map(|slope| -(inverse * slope * inverse));
+            rates = slopes.map(|slope| -(inverse * slope * inverse)); // d(S^-1) = - S^-1 dS S^-1.
             inverses[i] = inverse;
         }
         (inverses, rates)
@@ -203,14 +206,13 @@ impl WaveBody {
     pub fn profile(&self, k: usize, at: DynamicCoefficients, edge: [c64; 2]) -> Vec<[c64; 2]> {
         let blocks = &self.harmonics[k];
         let (inverses, []) = self.condensed(k, at, []);
-        let unit = c64::new(0.0, 1.0);
         // Real basis: u_theta = i w.
-        let mut current = nalgebra::Vector2::new(edge[0], -unit * edge[1]);
+        let mut current = nalgebra::Vector2::new(edge[0], -c64::I * edge[1]);
         let mut profile = vec![edge];
         for i in 1..inverses.len() {
             let inward = complex(&blocks.outward[i - 1]).transpose();
-            current = -(inverses[i] * inward * current) * at.stiffness;
-            profile.push([current[0], unit * current[1]]);
+            current = -(inverses[i] * inward * current) * at.stiffness; // u_i = - S_i^-1 B_i-1^T u_i-1.
+            profile.push([current[0], c64::I * current[1]]);
         }
         profile
     }
@@ -218,9 +220,8 @@ impl WaveBody {
     /// `u^H (alpha_R M + beta_R K) u` of one sector for the displacement of its nodes at harmonic `k`.
     pub fn damping_form(&self, k: usize, damping: &RayleighDamping, profile: &[[c64; 2]]) -> f64 {
         let blocks = &self.harmonics[k];
-        let unit = c64::new(0.0, 1.0);
         let real: Vec<_> =
-            profile.iter().map(|u| nalgebra::Vector2::new(u[0], -unit * u[1])).collect();
+            profile.iter().map(|u| nalgebra::Vector2::new(u[0], -c64::I * u[1])).collect();
         let mut sum = 0.0;
         for (i, u) in real.iter().enumerate() {
             let force = complex(&blocks.diagonal[i]) * u;
@@ -230,7 +231,7 @@ impl WaveBody {
                 sum += u.dotc(&(complex(&dashpots) * u)).re;
             }
             if let (Some(outward), Some(next)) = (blocks.outward.get(i), real.get(i + 1)) {
-                let force = complex(outward) * next;
+                let force = complex(outward) * next; // Both blocks off the diagonal.
                 sum += 2.0 * damping.stiffness_coefficient * u.dotc(&force).re;
             }
         }
@@ -262,6 +263,5 @@ fn inverted(m: &Matrix2<c64>) -> Matrix2<c64> {
 
 /// From the basis `(u_r, -i u_theta)` to `(u_r, u_theta)`.
 fn polar(m: &Matrix2<c64>) -> Matrix2<c64> {
-    let unit = c64::new(0.0, 1.0);
-    Matrix2::new(m[(0, 0)], -unit * m[(0, 1)], unit * m[(1, 0)], m[(1, 1)])
+    Matrix2::new(m[(0, 0)], -c64::I * m[(0, 1)], c64::I * m[(1, 0)], m[(1, 1)])
 }

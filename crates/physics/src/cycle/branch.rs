@@ -100,6 +100,7 @@ impl<'a> Branch<'a> {
     /// `None` where the curve cannot be followed any further.
     pub fn advance(&mut self, samples: &Values) -> Option<Step> {
         let flipped = self.pending.take().map(|event| self.flip(event));
+        // The tangent, turned so that what has just changed goes on to hold.
         let linear = Linearization::at(self.wave, &self.state, self.parameter);
         let system = System::new(&self.state, self.parameter, self.force_scale);
         let mut heading = system.tangent(&linear, self.heading.as_ref())?;
@@ -115,6 +116,7 @@ impl<'a> Branch<'a> {
             inequalities.iter_mut().for_each(|inequality| inequality.2 *= -1.0);
         }
         self.direction = heading.scalars()[2].signum();
+        // As far as the first inequality that would break along it.
         let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
         // An inequality that breaks on the way after all becomes the goal; each such shortening is progress.
         for _ in 0..12 {
@@ -205,6 +207,7 @@ impl<'a> Branch<'a> {
             Parameter::FrictionCoefficient => heading.scalars()[2],
             _ => 0.0,
         };
+        // How each slack changes along the heading.
         let with_rate = |(event, slack): (Event, f64)| {
             let i = event.point();
             let normal = heading.normal()[i];
@@ -232,6 +235,7 @@ impl<'a> Branch<'a> {
             unreachable!("branches of one wave have one frequency");
         };
         [0, 1].map(|row| {
+            // A convolution over the phase: products of harmonics.
             let columns = linear.columns[row].each_ref().map(|column| self.wave.harmonics(column));
             let mut rate = self.wave.values(
                 (0..columns[0].len())
@@ -256,7 +260,7 @@ impl<'a> Branch<'a> {
         let mut best = (LONGEST_STEP, Goal::Length);
         for &(event, slack, rate) in inequalities {
             if Some(event) != flipped && rate < -1e-13 * self.force_scale {
-                let length = slack.max(0.0) / -rate;
+                let length = slack.max(0.0) / -rate; // slack + length rate = 0.
                 if length < best.0 {
                     best = (length, Goal::Event(event));
                 }

@@ -74,7 +74,7 @@ impl Confirmation {
 /// divided by the period.
 fn telling_periods(leading: Option<&FloquetMultiplier>, e_folds: f64, least: usize) -> usize {
     let growing = leading.filter(|own| own.verdict() != Verdict::Stable);
-    let rate = growing.map(|own| own.growth_rate.abs().max(own.uncertainty));
+    let rate = growing.map(|own| own.growth_rate.abs().max(own.uncertainty)); // So many e-folds of what may grow.
     let wanted = rate.map_or(0, |rate| (e_folds / rate).ceil() as usize);
     least.max(wanted.min(MOST_PERIODS))
 }
@@ -96,6 +96,7 @@ impl MeshStepping<'_> {
         stability: Option<&FloquetMultipliers>,
         periods: usize,
     ) -> Result<Confirmation, CycleError> {
+        // A seed in the direction that grows fastest, and periods in which it would show.
         let leading = stability.and_then(FloquetMultipliers::leading);
         let periods = telling_periods(leading, E_FOLDS * cycle.frequency_hz(), periods);
         let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body.radius;
@@ -203,7 +204,7 @@ fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
     let vibration = map.image(state).vibration;
     let mut noise = GaussianNoise::new(2);
     let half = state.motion.len() / 2;
-    let scale = RANDOM_SEED * vibration / (half as f64).sqrt();
+    let scale = RANDOM_SEED * vibration / (half as f64).sqrt(); // A share of the vibration in the norm of all velocities.
     let mut start = state.clone();
     for value in &mut start.motion[half..] {
         *value += scale * noise.draw().re;
@@ -213,11 +214,11 @@ fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
 
 /// First harmonic over one period of the displacement of each contact node along the counterface.
 fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
-    let mut sums = vec![c64::new(0.0, 0.0); map.run.interface().len()];
+    let mut sums = vec![c64::ZERO; map.run.interface().len()];
     let steps = map.steps();
     for step in 0..steps {
         map.run.advance();
-        let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64);
+        let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64); // sum_n u_n e^{-2 pi i n / N}.
         sums.iter_mut().zip(slips(&map.run)).for_each(|(sum, slip)| *sum += slip * turn);
     }
     sums

@@ -7,24 +7,12 @@ use crate::transient::TransientError;
 /// A limit cycle that cannot be looked for or was not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CycleError {
-    /// The mesh has more than one contact node for each sector.
-    #[error("limit cycles need mesh.element = \"quad4\": a contact edge with equal nodes")]
-    Element,
     /// The mesh cannot be built.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// A harmonic that the mesh cannot carry.
-    #[error(
-        "cycle.harmonics holds {harmonic}: a mesh of {sectors} sectors carries waves of 1 to {limit} nodal diameters"
-    )]
-    Harmonic {
-        /// Given harmonic.
-        harmonic: usize,
-        /// Sectors of the mesh.
-        sectors: usize,
-        /// Highest harmonic.
-        limit: usize,
-    },
+    /// The case asks for what cannot be.
+    #[error("{0}")]
+    Asked(String),
     /// Steady sliding never loses stability to this wave.
     #[error(
         "{0}: steady sliding has no such loss of stability up to a friction coefficient of \
@@ -94,7 +82,7 @@ pub enum CycleError {
 impl CycleError {
     /// Whether elements, mesh, damping or harmonics of the case are to blame, which hold for all cycles, rather than the operating point.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::Element | Self::Mesh(_) | Self::Harmonic { .. } | Self::Undamped(_))
+        matches!(self, Self::Mesh(_) | Self::Asked(_) | Self::Undamped(_))
     }
 
     /// The numbers grow out of all bounds.

@@ -80,7 +80,7 @@ impl MeshStepping<'_> {
         let mut ends = [stable.clone(), unstable.clone()];
         let at = |end: &SteppedCycle| parameter.of(&end.cycle.state.point);
         for _ in 0..HALVINGS {
-            let middle = 0.5 * (at(&ends[0]) + at(&ends[1]));
+            let middle = 0.5 * (at(&ends[0]) + at(&ends[1])); // Halves of the interval between a stable and an unstable cycle.
             let Ok(cycle) = self.solver.continue_to(&ends[0].cycle, parameter, middle) else {
                 break;
             };
@@ -116,7 +116,7 @@ fn leading_multipliers(
     let mut start = unit(unknown_start(period));
     if let Some(known) = known.filter(|known| known.len() == start.len()) {
         for (x, k) in start.iter_mut().zip(known) {
-            *x = UNKNOWN_SHARE * *x + k;
+            *x = UNKNOWN_SHARE * *x + k; // A little of what the neighbour's modes may lack.
         }
     }
     let [reach, least] = NEUTRAL;
@@ -137,6 +137,7 @@ fn leading_multipliers(
              {dimension} periods; let a transient tell (transient.initial = \"limit-cycle\")"
         ))
     })?;
+    // The shift along the cycle neither grows nor decays: what it does is the error.
     let neutral = found.shift.map(|shift| shift.ln() / period.duration);
     let mut modes = vec![0.0; period.dimension()];
     let mut multipliers = Vec::new();
@@ -185,7 +186,7 @@ fn multiplier(
     // In the frame of the wave, harmonic p + k n has the frequency Im lambda + k omega.
     let (n, count) = (period.harmonic, period.harmonic.abs());
     let rest = harmonic.rem_euclid(count);
-    let signed = if 2 * rest > count { rest - count } else { rest };
+    let signed = if 2 * rest > count { rest - count } else { rest }; // The class: the harmonic of least size among p + k n.
     let turns = (harmonic - signed) / n;
     let residual = ritz.residual / period.duration;
     let shift = neutral.map_or(NEUTRAL[0] * omega, |neutral| 0.5 * neutral.norm());
@@ -210,7 +211,7 @@ fn unknown_start(period: &Period<'_>) -> Vec<f64> {
     for sector in 0..sectors {
         let angle = TAU * sector as f64 / sectors as f64;
         for dof in 0..per {
-            let depth = (dof / 2) as f64 / (per / 2) as f64;
+            let depth = (dof / 2) as f64 / (per / 2) as f64; // Waves of all low harmonics that bend over the depth.
             let component = dof % 2;
             start[half + sector * per + dof] = (0..START_HARMONICS)
                 .map(|m| {

@@ -7,11 +7,11 @@ use super::wave::Wave;
 use super::{CycleError, Family, LARGEST_FRICTION};
 use crate::cea::cyclic;
 use crate::cea::{ModeLimit, SweepRequest, UnstableInterval};
-use crate::contact::{ContactStiffness, SlidingContact};
+use crate::contact::SlidingContact;
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::c64;
 use crate::mesh::AnnulusSpecification;
-use crate::prestress::{DampingModel, TangentOptions};
+use crate::prestress::TangentOptions;
 use std::f64::consts::TAU;
 
 /// Modes of lowest frequency whose onsets are looked for where no limit is given, `+n` and `-n` counted singly.
@@ -55,13 +55,7 @@ impl DiscModel {
         highest_friction: f64,
         limit: ModeLimit,
     ) -> Result<Vec<Onset>, CycleError> {
-        let options = TangentOptions {
-            mass: MassKind::Lumped,
-            geometric_stiffness: false,
-            damping: self.damping,
-            damping_model: DampingModel::WholeTangent,
-            contact: ContactStiffness::default(),
-        };
+        let options = TangentOptions::of_free(MassKind::Lumped, self.damping);
         let contact = unloaded(&self.specification);
         let (mesh, material) = (&self.specification, &self.material);
         // As many as it has at least.

@@ -11,7 +11,6 @@ use super::state::PointState;
 use super::wave::Wave;
 use super::{CycleError, Family, Onset, WaveBody};
 use crate::cea::Unwatched;
-use crate::mesh::{AnnulusSpecification, ElementKind};
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 
@@ -77,18 +76,24 @@ impl CycleSolver {
         points: Option<usize>,
     ) -> Result<Self, CycleError> {
         let (specification, material) = (&model.specification, &model.material);
-        check_mesh(specification, family.harmonic)?;
+        let (sectors, harmonic) = (specification.circumferential_elements, family.harmonic);
+        let limit = sectors / 2;
+        if !(1..=limit).contains(&harmonic) {
+            return Err(CycleError::Asked(format!(
+                "cycle.harmonics holds {harmonic}: a mesh of {sectors} sectors carries waves of 1 to {limit} nodal diameters"
+            )));
+        }
         if onset.friction_coefficient <= 0.0 {
             return Err(CycleError::Undamped(family));
         }
         // A wave with the rotor is one of `-n` in the phase that rises with time.
-        let harmonic = family.harmonic as isize * -isize::from(onset.direction);
+        let harmonic = harmonic as isize * -isize::from(onset.direction);
         let body = |highest: usize| {
             let harmonics = (0..=highest as isize).map(|k| k * harmonic);
             WaveBody::new(specification, material, harmonics, harmonic)
         };
         let node_frequency = body(0)?.node_frequency;
-        let nodes = specification.circumferential_elements as f64 / family.harmonic as f64;
+        let nodes = sectors as f64 / family.harmonic as f64;
         let grid = PhaseGrid::new(onset.frequency, node_frequency, nodes, points);
         Ok(Self { family, onset: *onset, body: body(grid.points / 2)?, grid, model: *model })
     }
@@ -315,18 +320,6 @@ impl Way for Half<'_> {
         let is_beyond = !(state.point.contact.friction_coefficient < self.highest);
         Ok(is_beyond.then_some(BranchEnd::Lost))
     }
-}
-
-fn check_mesh(specification: &AnnulusSpecification, harmonic: usize) -> Result<(), CycleError> {
-    let sectors = specification.circumferential_elements;
-    let limit = sectors / 2;
-    if specification.element != ElementKind::Quad4 {
-        return Err(CycleError::Element);
-    }
-    if harmonic == 0 || harmonic > limit {
-        return Err(CycleError::Harmonic { harmonic, sectors, limit });
-    }
-    Ok(())
 }
 
 fn check(point: &OperatingPoint) -> Result<(), CycleError> {

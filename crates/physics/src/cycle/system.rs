@@ -115,6 +115,7 @@ impl<'a> System<'a> {
         let points = state.contact.len();
         let forces = contact.iter().copied().chain(stick.iter().map(|i| points + i));
         let own = state.phases.iter().enumerate();
+        // Forces in units of the mean one, frequencies of a hundredth, the parameter of itself.
         let own = own.map(|(wave, own)| (2 * points + wave, 0.01 * own.frequency));
         let last = (2 * points + 2, parameter.of(&state.point).abs().max(1e-12));
         let unknowns = forces.map(|place| (place, force_scale)).chain(own).chain([last]);
@@ -144,6 +145,7 @@ impl<'a> System<'a> {
     fn lag(&self, from: usize, to: usize) -> usize {
         let lags = self.state.phases.iter().map(|own| {
             let [from, to] = [from, to].map(|i| own.place(i));
+            // All points are alike: a response depends on how far apart they are.
             own.stride * if to >= from { to - from } else { to + own.points - from }
         });
         lags.sum()
@@ -160,6 +162,7 @@ impl<'a> System<'a> {
     ) -> Equation {
         let friction = self.state.point.contact.friction_coefficient;
         let pressed = self.contact.iter();
+        // A slipping point's normal force brings mu N along.
         let pressed = pressed.map(|&i| (i, [1.0, friction * self.state.contact[i].drag()]));
         let sheared = self.stick.iter().map(|&i| (i, [0.0, 1.0]));
         let force = scale * self.force_scale;
@@ -224,7 +227,7 @@ impl<'a> System<'a> {
             Closure::Plane(heading, through) => {
                 let row = self.scaled(heading);
                 let offset = self.scaled(&Heading::between(through, self.state, self.parameter));
-                let residual = row.iter().zip(&offset).map(|(a, b)| a * b).sum();
+                let residual = row.iter().zip(&offset).map(|(a, b)| a * b).sum(); // heading . (state - through) = 0.
                 Equation { row, residual }
             }
         }
@@ -250,6 +253,7 @@ impl<'a> System<'a> {
             _ => 0.0,
         };
         let sheared = self.contact.len() + place(&self.stick);
+        // mu N - drag T = 0.
         let factors = [(place(&self.contact), friction), (sheared, -drag), (self.size() - 1, rise)];
         self.equation_of(&factors, (friction * force - drag * shear) / self.force_scale)
     }
@@ -303,7 +307,7 @@ impl<'a> System<'a> {
         let closure = previous.map_or(Closure::AlongParameter, Closure::Along);
         let (matrix, _) = self.assemble(linear, closure);
         let mut right_side = vec![0.0; self.size()];
-        right_side[self.size() - 1] = 1.0;
+        right_side[self.size() - 1] = 1.0; // All equations stay as they are but for the closure.
         let solution = self.solved(matrix, right_side)?;
         let mut length = self.length(&solution);
         // The closure may have picked the plane at an angle beyond a right one.
@@ -348,7 +352,7 @@ impl<'a> System<'a> {
         for &i in &self.contact {
             let drag = self.state.contact[i].drag();
             if drag != 0.0 {
-                values[points + i] = drag * friction * values[i];
+                values[points + i] = drag * friction * values[i]; // dT = drag (mu dN + N dmu).
                 values[points + i] += drag * self.state.normal[i] * rise;
             }
         }

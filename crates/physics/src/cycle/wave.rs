@@ -45,6 +45,7 @@ pub struct Wave<'a> {
 /// rising `k_2 > 0`.
 pub fn orders([first, second]: [usize; 2]) -> Vec<[isize; 2]> {
     let [most, rows] = [first, second].map(|side| (side / 2) as isize);
+    // One of each conjugate pair.
     let row = |k_2: isize| (if k_2 == 0 { 0 } else { -most }..=most).map(move |k_1| [k_1, k_2]);
     (0..=rows).flat_map(row).collect()
 }
@@ -78,6 +79,7 @@ impl<'a> Wave<'a> {
         [0, 1].map(|phase| {
             let step = TAU / self.sides[phase] as f64;
             let angle = self.orders[k][phase] as f64 * step;
+            // Central differences over four neighbours in place of i k.
             (8.0 * angle.sin() - (2.0 * angle).sin()) / (6.0 * step)
         })
     }
@@ -87,7 +89,7 @@ impl<'a> Wave<'a> {
         [0, 1].map(|phase| {
             let step = TAU / self.sides[phase] as f64;
             let back = c64::from_polar(1.0, -(self.orders[k][phase] as f64) * step);
-            (1.0 - back) / step
+            (1.0 - back) / step // The difference to the point before, as in the laws of contact.
         })
     }
 
@@ -158,12 +160,12 @@ impl<'a> Wave<'a> {
     /// Values on the points of harmonics, the inverse of [`Self::harmonics`].
     pub fn values(&self, harmonics: impl IntoIterator<Item = c64>) -> Vec<f64> {
         let scale = 1.0 / self.points() as f64;
-        let mut spectrum = vec![c64::new(0.0, 0.0); self.points()];
+        let mut spectrum = vec![c64::ZERO; self.points()];
         for (&[k_1, k_2], value) in self.orders.iter().zip(harmonics) {
             let (own, conjugate) = (self.place([k_1, k_2]), self.place([-k_1, -k_2]));
             spectrum[own] = value * scale;
             if conjugate == own {
-                spectrum[own].im = 0.0;
+                spectrum[own].im = 0.0; // The mean, and what is its own conjugate, is real.
             } else {
                 spectrum[conjugate] = spectrum[own].conj();
             }
@@ -211,7 +213,7 @@ impl HarmonicResponse {
     fn new(wave: &Wave<'_>, k: usize, state: &WaveState, parameter: Parameter) -> Self {
         let still = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
         let rate = wave.rate(k, state.frequencies());
-        let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order));
+        let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order)); // d(i k w) / dw_1 and d / dw_2.
         let damping = &state.point.damping;
         let mut by_damping = still;
         match parameter {
@@ -219,8 +221,7 @@ impl HarmonicResponse {
             Parameter::StiffnessDamping => by_damping.stiffness_coefficient = 1.0,
             _ => {}
         }
-        let none = c64::new(0.0, 0.0);
-        let changes = [(first, &still), (second, &still), (none, &by_damping)];
+        let changes = [(first, &still), (second, &still), (c64::ZERO, &by_damping)];
         let (receptance, [by_first, by_second, by_parameter]) = wave.body.receptance(
             k,
             DynamicCoefficients::new(rate, damping),
@@ -231,7 +232,7 @@ impl HarmonicResponse {
         let [first, second] = wave.contact_orders(k);
         Self {
             receptances: [receptance, by_first, by_second, by_parameter],
-            slip_rates: [wave.contact_rate(k, state.frequencies()), first, second, none],
+            slip_rates: [wave.contact_rate(k, state.frequencies()), first, second, c64::ZERO],
         }
     }
 
@@ -253,9 +254,9 @@ fn displacements(
     let mut moved: Vec<[[c64; 2]; 4]> =
         moved.map(|(k, own)| own.displacement([forces[0][k], forces[1][k]])).collect();
     if parameter == Parameter::FrictionCoefficient {
-        let change = wave.harmonics(&state.slipping_normal());
+        let change = wave.harmonics(&state.slipping_normal()); // dT / dmu = drag N where points slip.
         for ((moved, own), change) in moved.iter_mut().zip(responses).zip(change) {
-            moved[3] = own.displacement([c64::new(0.0, 0.0), change])[0];
+            moved[3] = own.displacement([c64::ZERO, change])[0];
         }
     }
     moved
@@ -267,34 +268,28 @@ impl Linearization {
         let responses: Vec<HarmonicResponse> = (0..wave.body.harmonic_count())
             .map(|k| HarmonicResponse::new(wave, k, state, parameter))
             .collect();
-        let enumerated = || responses.iter().enumerate();
-        let gap_column = |j: usize| {
-            wave.values(enumerated().map(|(k, r)| wave.look_ahead(k) * r.receptances[0][(0, j)]))
-        };
-        let slip_column = |j: usize| {
-            wave.values(enumerated().map(|(_, r)| r.slip_rates[0] * r.receptances[0][(1, j)]))
-        };
-        let moved = displacements(wave, state, parameter, &responses);
-        let gap_of = |which: usize| {
-            wave.values(enumerated().map(|(k, _)| wave.look_ahead(k) * moved[k][which][0]))
-        };
-        let velocity_change = |which: usize| {
-            wave.values(enumerated().map(|(k, r)| {
-                r.slip_rates[0] * moved[k][which][1] + r.slip_rates[which] * moved[k][0][1]
-            }))
-        };
-        let mut gap = gap_of(0);
-        let mut slip = wave.values(enumerated().map(|(k, r)| r.slip_rates[0] * moved[k][0][1]));
+        let values = |of: &dyn Fn(usize) -> c64| wave.values((0..responses.len()).map(of));
+        let gap_of = |of: &dyn Fn(usize) -> c64| values(&|k| wave.look_ahead(k) * of(k));
+        let slip_rate = |k: usize, which: usize| responses[k].slip_rates[which];
         let contact = &state.point.contact;
+
+        // Gap and slip: the displacements less the interference and the speed of the surface.
+        let moved = displacements(wave, state, parameter, &responses);
+        let mut gap = gap_of(&|k| moved[k][0][0]);
+        let mut slip = values(&|k| slip_rate(k, 0) * moved[k][0][1]);
         gap.iter_mut().for_each(|gap| *gap -= contact.interference);
         let surface_speed = contact.rotation_speed * wave.body.radius;
         slip.iter_mut().for_each(|slip| *slip -= surface_speed);
 
-        // By each frequency and by the parameter.
-        let phases = &state.phases;
+        let phases = &state.phases; // How they change with each frequency and the parameter.
         let scalars = || (1..=phases.len()).chain([3]);
-        let mut by: Vec<[Vec<f64>; 2]> =
-            scalars().map(|which| [gap_of(which), velocity_change(which)]).collect();
+        let slip_change = |k: usize, which: usize| {
+            slip_rate(k, 0) * moved[k][which][1] + slip_rate(k, which) * moved[k][0][1]
+        };
+        let by = scalars()
+            .map(|which| [gap_of(&|k| moved[k][which][0]), values(&|k| slip_change(k, which))]);
+        let mut by: Vec<[Vec<f64>; 2]> = by.collect();
+        // The first harmonic of the slip along each phase, which the choice of its origin fixes.
         let first = phases.iter().enumerate().map(|(number, phase)| {
             let k = wave.first(number);
             let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
@@ -304,13 +299,17 @@ impl Linearization {
                 by: scalars().map(|which| share * moved[k][which][1]).collect(),
             }
         });
-        let [by_gap, by_slip] = &mut by[phases.len()];
+        let [by_gap, by_slip] = &mut by[phases.len()]; // The interference and the speed of the surface move them directly.
         match parameter {
             Parameter::RotationSpeed | Parameter::Speed => by_slip.fill(-wave.body.radius),
             Parameter::Interference => by_gap.fill(-1.0),
             _ => {}
         }
-        let columns = [[gap_column(0), gap_column(1)], [slip_column(0), slip_column(1)]];
+        // And with a normal (j = 0) and a tangential force (j = 1) at one point.
+        let columns = [
+            [0, 1].map(|j| gap_of(&|k| responses[k].receptances[0][(0, j)])),
+            [0, 1].map(|j| values(&|k| slip_rate(k, 0) * responses[k].receptances[0][(1, j)])),
+        ];
         let largest = |own: &Vec<f64>| own.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
         Self {
             gap,

@@ -60,7 +60,7 @@ impl<'a> DiscretizationError<'a> {
         let energies: Vec<Vec<c64>> =
             crate::parallel::map(elements, |e| self.energies((e, &own), &columns, &recovered));
         let regions = self.mesh.regions.len().max(1);
-        let mut forms = vec![vec![c64::new(0.0, 0.0); regions]; pairs.len()];
+        let mut forms = vec![vec![c64::ZERO; regions]; pairs.len()];
         for (e, energy) in energies.iter().enumerate() {
             for (form, energy) in forms.iter_mut().zip(energy) {
                 form[self.mesh.region(e)] += energy;
@@ -115,7 +115,7 @@ impl<'a> DiscretizationError<'a> {
         });
         let nodes: Vec<&[f64]> = nodes.flatten().collect();
         let (count, width) = (self.components(), columns.nrows());
-        let mut energies = vec![c64::new(0.0, 0.0); pairs.len()];
+        let mut energies = vec![c64::ZERO; pairs.len()];
         for (k, point) in points.iter().enumerate() {
             let terms = point.values.iter().copied().zip(nodes.iter().copied());
             let terms = std::iter::once((-1.0, at_point(&own, k, count))).chain(terms);

@@ -42,7 +42,7 @@ pub struct LossGain(pub Option<TabledGain>);
 impl LossGain {
     /// The factor. Motions are real: what belongs to `-f` is the conjugate of what belongs to `f`.
     pub fn at(&self, lambda: c64) -> c64 {
-        let at = |own| self.0.as_ref().map_or(c64::new(0.0, 1.0), |gain| gain.at(own));
+        let at = |own| self.0.as_ref().map_or(c64::I, |gain| gain.at(own));
         if lambda.im < 0.0 { at(lambda.conj()).conj() } else { at(lambda) }
     }
 

@@ -231,7 +231,7 @@ impl RayleighDamping {
     /// The relation to which proportional damping (2) reduces `(lambda^2 M + lambda C + K) x = 0`, which is (1) for `e^{lambda t} x`.
     pub fn eigenvalue(&self, kappa: c64) -> c64 {
         let half = (self.mass_coefficient + self.stiffness_coefficient * kappa) * 0.5;
-        c64::new(0.0, 1.0) * (kappa - half * half).sqrt() - half
+        c64::I * (kappa - half * half).sqrt() - half
     }
 
     /// `d lambda / d kappa` of [`Self::eigenvalue`] at a root `lambda` of `kappa`.

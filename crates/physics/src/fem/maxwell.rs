@@ -53,6 +53,7 @@ impl MaxwellChain {
             .rev()
             .map(|frequency| 1.0 / (TAU * frequency))
             .collect();
+        // K / K_0 = r + sum_j k_j i w t_j / (1 + i w t_j), with t_j = 1 / w_j and r of at least that.
         let least = LEAST_AT_REST * ratio(band_hz[0]).re;
         // Columns: what stays at rest beyond the least, then the elements; real and imaginary parts, each over the modulus.
         let rows = 2 * lines.len();
@@ -61,7 +62,7 @@ impl MaxwellChain {
             let wanted = ratio(*line);
             let size = wanted.norm();
             let parts = |value: c64| [value.re / size, value.im / size];
-            let all = std::iter::once(c64::new(1.0, 0.0));
+            let all = std::iter::once(c64::ONE);
             let all = all.chain(times.iter().map(|time| response(TAU * line, *time)));
             for (j, value) in all.enumerate() {
                 let [re, im] = parts(value);
@@ -70,7 +71,7 @@ impl MaxwellChain {
             let [re, im] = parts(wanted - least);
             (right[2 * k], right[2 * k + 1]) = (re, im);
         }
-        let found = nonnegative_least_squares(&matrix, &right);
+        let found = nonnegative_least_squares(&matrix, &right); // Elements that carry next to nothing go.
         let at_rest = least + found[0];
         let largest = found.iter().skip(1).fold(0.0_f64, |a, b| a.max(*b));
         let elements = times.iter().zip(found.iter().skip(1));

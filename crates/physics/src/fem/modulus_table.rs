@@ -64,7 +64,7 @@ impl ModulusTable {
     /// Derivative of [`Self::ratio`] by the angular frequency, s; 0 beyond the ends.
     pub fn slope(&self, frequency_hz: f64) -> c64 {
         if !self.covers(frequency_hz) || self.rows.len() < 2 {
-            return c64::new(0.0, 0.0);
+            return c64::ZERO;
         }
         let (row, _) = self.place(frequency_hz);
         let row = row.min(self.rows.len() - 2);

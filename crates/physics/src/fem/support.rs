@@ -94,6 +94,7 @@ fn add_support(
             let turn = normal - mesh.frame_angles()[node];
             let is_straight = turn.sin().abs() < 1e-12;
             let (sin, cos) = if is_straight { (0.0, 1.0) } else { turn.sin_cos() };
+            // k_n n n^T + k_t t t^T in the frame of the node, which is turned against the normal.
             for (triplets, [along, across]) in both.iter_mut().zip(laws) {
                 let coupling = length * (along - across) * sin * cos;
                 let first = length * (along * cos * cos + across * sin * sin);
@@ -114,6 +115,7 @@ fn add_support(
             if [normal, tangential, axial] == [0.0; 3] {
                 continue;
             }
+            // k_n n n^T + k_t (1 - n n^T), and along the axis what that has in place of k_t.
             let mut law = across * (normal - tangential) + Matrix3::identity() * tangential;
             law[(2, 2)] += axial - tangential;
             for (&(row, row_frame), p) in nodes.iter().zip(&point.values) {

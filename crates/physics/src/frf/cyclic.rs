@@ -46,7 +46,7 @@ pub fn cyclic_response(
     check_frequencies(frequencies_hz)?;
     let force = system.place(force, "force_node")?;
     let response = system.place(response, "response_node")?;
-    let mut receptance = vec![c64::new(0.0, 0.0); frequencies_hz.len()];
+    let mut receptance = vec![c64::ZERO; frequencies_hz.len()];
     let mut backward_error = 0.0_f64;
     let all: Vec<usize> = (0..=system.tangent.largest_harmonic()).collect();
     for numbers in all.chunks(system.harmonics_at_once(HARMONICS_AT_ONCE, ENTRIES_AT_ONCE)) {
@@ -86,13 +86,12 @@ impl Wave {
         let steps = response.half_steps + 2 * sectors - force.half_steps;
         let turns = (n * steps) % (2 * sectors);
         let angle = PI * turns as f64 / sectors as f64;
-        let i = c64::new(0.0, 1.0);
         let mut factor = c64::from_polar(1.0, angle);
         if response.is_tangential {
-            factor *= i;
+            factor *= c64::I;
         }
         if force.is_tangential {
-            factor *= -i;
+            factor *= -c64::I;
         }
         let is_real = {
             // Proportional damping is as real as what it is proportional to.
@@ -177,7 +176,7 @@ impl<'a> Lines<'a> {
         }
         self.batch.assemble(&terms);
         let quality = self.batch.solve(wave.force);
-        let mut result = [c64::new(0.0, 0.0); LANES];
+        let mut result = [c64::ZERO; LANES];
         let mut largest = 0.0_f64;
         for lane in 0..frequencies.len() {
             let mut growth = quality[lane].growth;
@@ -216,8 +215,8 @@ fn pivoted(band: &[c64], h: usize, force: usize) -> (Vec<c64>, f64, f64) {
     let dimension = band.len() / (2 * h + 1);
     let mut lu = BandedLu::new(dimension, h);
     lu.factorize(band);
-    let mut solution = vec![c64::new(0.0, 0.0); dimension];
-    solution[force] = c64::new(1.0, 0.0);
+    let mut solution = vec![c64::ZERO; dimension];
+    solution[force] = c64::ONE;
     lu.solve(&mut solution);
     let mut residual = multiply_band(band, h, &solution, false);
     residual[force] -= 1.0;

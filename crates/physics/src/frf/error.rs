@@ -27,11 +27,8 @@ pub enum FrfError {
         direction: &'static str,
     },
     /// A frequency that is not positive.
-    #[error("frequency {value} Hz must be positive and finite: check frf.frequencies_hz")]
-    Frequency {
-        /// The value, Hz.
-        value: f64,
-    },
+    #[error("frequency {0} Hz must be positive and finite: check frf.frequencies_hz")]
+    Frequency(f64),
     /// The system is singular at a frequency.
     #[error("at {frequency_hz} Hz: {source}")]
     Factorization {

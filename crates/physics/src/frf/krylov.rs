@@ -60,7 +60,7 @@ impl<T: Entry> KrylovSpace<T> {
 
     /// The first `count` entries of the vector of these coordinates.
     pub fn combined(&self, coordinates: &[c64], count: usize) -> Vec<c64> {
-        let mut sum = vec![c64::new(0.0, 0.0); count];
+        let mut sum = vec![c64::ZERO; count];
         for (coordinate, vector) in coordinates.iter().zip(&self.vectors) {
             sum.iter_mut().zip(vector).for_each(|(sum, b)| *sum += (*b).into() * coordinate);
         }
@@ -85,9 +85,8 @@ impl<T: Entry> KrylovSpace<T> {
     /// Coordinates of the Galerkin solution of `(1 - distance B) x = g`, and its relative residual.
     fn project(&self, distance: c64) -> (Vec<c64>, f64) {
         let m = self.images.len();
-        let zero = c64::new(0.0, 0.0);
         let matrix = Mat::<c64>::from_fn(m, m, |i, j| {
-            let image = self.images[j].get(i).copied().unwrap_or(zero);
+            let image = self.images[j].get(i).copied().unwrap_or(c64::ZERO);
             let unit = if i == j { 1.0 } else { 0.0 };
             c64::new(unit, 0.0) - distance * image
         });

@@ -66,7 +66,7 @@ impl Driven<'_> {
             factors.solve_in_place(MatMut::from_column_major_slice_mut(x, count, 1));
         };
         let mut start = self.force.complex_force(count);
-        start.resize(2 * count, c64::new(0.0, 0.0));
+        start.resize(2 * count, c64::ZERO);
         solve(&mut start[..count]);
         let mut space = KrylovSpace::new(start);
         let distances: Vec<c64> = lines.iter().map(|f| c64::new(TAU * f - omega, 0.0)).collect();

@@ -124,7 +124,7 @@ fn extended(driven: &Driven<'_>, mut basis: Mat<f64>, shift_hz: f64) -> Result<M
     let factors = driven.factors(shift_hz).or_else(|_| driven.factors(BESIDE[1] * shift_hz))?;
     for (start, is_transposed) in [(driven.force, false), (driven.response, true)] {
         let mut right = start.complex_force(n);
-        let mut series: Vec<Vec<c64>> = vec![vec![c64::new(0.0, 0.0); n]];
+        let mut series: Vec<Vec<c64>> = vec![vec![c64::ZERO; n]];
         for moment in 1..=MOMENTS {
             let column = MatMut::from_column_major_slice_mut(&mut right, n, 1);
             match is_transposed {

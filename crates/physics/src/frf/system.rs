@@ -152,7 +152,7 @@ impl FrfSystem {
     /// `(2 omega M - i C) x + M w` from the last two terms `[w, x]` of a series, or the same with `M^T` and `C^T`.
     pub(super) fn slope(&self, omega: f64, terms: &[Vec<c64>], is_transposed: bool) -> Vec<c64> {
         let (MotionMatrices { mass, damping, .. }, w, x) = (&self.matrices, &terms[0], &terms[1]);
-        let mut y = vec![c64::new(0.0, 0.0); x.len()];
+        let mut y = vec![c64::ZERO; x.len()];
         for column in 0..x.len() {
             for (k, row) in self.pattern.column(column) {
                 let [from, to] = if is_transposed { [row, column] } else { [column, row] };
@@ -183,7 +183,7 @@ impl FrfSystem {
 /// Checks that every frequency is positive.
 pub(super) fn check_frequencies(frequencies_hz: &[f64]) -> Result<(), FrfError> {
     match frequencies_hz.iter().find(|f| !(**f > 0.0 && f.is_finite())) {
-        Some(value) => Err(FrfError::Frequency { value: *value }),
+        Some(value) => Err(FrfError::Frequency(*value)),
         None => Ok(()),
     }
 }

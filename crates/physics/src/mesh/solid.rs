@@ -2,7 +2,7 @@
 
 use super::revolution::{SheetElement, SheetNode, Strip, elements_between, revolved};
 use super::sectors::{graded_radii, radius_at};
-use super::specification::validate;
+use super::specification::{at_least, validate};
 use super::{
     AnnulusMesh, AnnulusSpecification, Boundary, BoundaryCondition, ElementKind, Mesh, MeshError,
 };
@@ -274,9 +274,7 @@ impl SolidSpecification {
     pub fn corner_radii(&self) -> Result<Vec<f64>, MeshError> {
         let annulus = self.plane();
         validate(&annulus)?;
-        if self.axial_elements == 0 {
-            return Err(MeshError::TooFewElements { key: "axial_elements", count: 0, minimum: 1 });
-        }
+        at_least(1, self.axial_elements, "axial_elements")?;
         let mut radii = graded_radii(&annulus);
         if let SolidContact::Ring { inner_radius, outer_radius } = self.contact {
             fit(&mut radii, inner_radius, outer_radius)?;
@@ -309,7 +307,10 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
     let beside = [inner > low + slack, outer < high - slack];
     let minimum = 1 + beside.into_iter().map(usize::from).sum::<usize>();
     if last < minimum {
-        return Err(MeshError::NothingUnderRing { count: last, minimum });
+        return Err(MeshError(format!(
+            "{last} elements in mesh.radial_elements: none of them lies under the ring alone, and the contact would have no area. With \
+             these radii of the ring at least {minimum} are needed"
+        )));
     }
     let place = |wanted: f64, radii: &[f64]| match wanted {
         w if w <= low + slack => 0,

@@ -1,4 +1,4 @@
-//! Specification of an annulus, and the errors of one that makes no mesh.
+//! Specification of an annulus, and why one makes no mesh.
 
 use super::{BoundaryCondition, ElementKind};
 
@@ -34,86 +34,10 @@ pub struct ShaftSpecification {
     pub bore: BoundaryCondition,
 }
 
-/// A mesh that cannot be built from its specification.
+/// Why a specification makes no mesh, and what to do.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MeshError {
-    /// The radii do not describe an annulus.
-    #[error(
-        "inner radius {inner} m and outer radius {outer} m do not describe an annulus: \
-         geometry.inner_radius must be positive and below geometry.outer_radius"
-    )]
-    Radii {
-        /// Inner radius, m.
-        inner: f64,
-        /// Outer radius, m.
-        outer: f64,
-    },
-    /// Too few elements.
-    #[error("{count} elements in mesh.{key}: at least {minimum} are needed")]
-    TooFewElements {
-        /// Case key without its section.
-        key: &'static str,
-        /// Given count.
-        count: usize,
-        /// Smallest valid count.
-        minimum: usize,
-    },
-    /// A ring that no element of its face lies under.
-    #[error(
-        "{count} elements in mesh.radial_elements: none of them lies under the ring alone, and the \
-         contact would have no area. With these radii of the ring at least {minimum} are needed"
-    )]
-    NothingUnderRing {
-        /// Given count.
-        count: usize,
-        /// Smallest count with an element under the ring.
-        minimum: usize,
-    },
-    /// The node count does not fit 32-bit node indices.
-    #[error(
-        "the mesh would have {nodes} nodes, more than {limit}: lower mesh.circumferential_elements or mesh.radial_elements"
-    )]
-    TooManyNodes {
-        /// Nodes asked for.
-        nodes: u128,
-        /// Largest count.
-        limit: u32,
-    },
-    /// Elements that are no quadrilaterals.
-    #[error(
-        "an annulus is meshed with quadrilaterals: mesh.element must be \"quad4\" or \"quad8\""
-    )]
-    Triangles,
-    /// An outer edge that leaves the disc free to turn with the cylinder.
-    #[error(
-        "nothing holds the disc against the friction that turns it: boundaries.outer needs condition = \"clamped\", \
-         or \"support\" with a tangential_stiffness"
-    )]
-    NotHeld,
-    /// A shaft without material between its bore and its outer edge.
-    #[error(
-        "the shaft's bore of {bore} m must be positive and smaller than geometry.inner_radius = {radius} m: \
-         correct geometry.shaft_inner_radius"
-    )]
-    Bore {
-        /// Radius of the bore, m.
-        bore: f64,
-        /// Radius of the contact, m.
-        radius: f64,
-    },
-    /// A bore that leaves the shaft free to turn with the disc.
-    #[error(
-        "nothing holds the shaft against the friction that turns it: boundaries.bore needs condition = \"clamped\", \
-         or \"support\" with a tangential_stiffness"
-    )]
-    ShaftNotHeld,
-    /// The grading is not a positive finite ratio.
-    #[error("mesh.radial_grading = {value} must be a positive number (1 = uniform)")]
-    Grading {
-        /// Given ratio.
-        value: f64,
-    },
-}
+#[error("{0}")]
+pub struct MeshError(pub(super) String);
 
 impl AnnulusSpecification {
     /// Nodes of one sector, in a width that no input overflows.
@@ -136,46 +60,64 @@ impl AnnulusSpecification {
 pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
     let (inner, outer) = (spec.inner_radius, spec.outer_radius);
     if !(inner > 0.0 && outer > inner && outer.is_finite()) {
-        return Err(MeshError::Radii { inner, outer });
+        return Err(MeshError(format!(
+            "inner radius {inner} m and outer radius {outer} m do not describe an annulus: geometry.inner_radius must be positive and \
+             below geometry.outer_radius"
+        )));
     }
-    for (key, count, minimum) in [
-        ("circumferential_elements", spec.circumferential_elements, 3),
-        ("radial_elements", spec.radial_elements, 1),
-    ] {
-        if count < minimum {
-            return Err(MeshError::TooFewElements { key, count, minimum });
-        }
-    }
+    at_least(3, spec.circumferential_elements, "circumferential_elements")?;
+    at_least(1, spec.radial_elements, "radial_elements")?;
     if spec.element.corner_count() != 4 {
-        return Err(MeshError::Triangles);
+        let problem =
+            "an annulus is meshed with quadrilaterals: mesh.element must be \"quad4\" or \"quad8\"";
+        return Err(MeshError(problem.to_owned()));
     }
-    if !spec.outer.holds_turning() {
-        return Err(MeshError::NotHeld);
-    }
+    check_turning(["disc", "outer"], &spec.outer)?;
     if let Some(shaft) = spec.shaft {
-        validate_shaft(spec, &shaft)?;
+        let bore = shaft.inner_radius;
+        if !(bore > 0.0 && bore < inner) {
+            return Err(MeshError(format!(
+                "the shaft's bore of {bore} m must be positive and smaller than geometry.inner_radius = {inner} m: correct \
+                 geometry.shaft_inner_radius"
+            )));
+        }
+        at_least(1, shaft.radial_elements, "shaft_radial_elements")?;
+        check_turning(["shaft", "bore"], &shaft.bore)?;
     }
-    if !(spec.radial_grading > 0.0 && spec.radial_grading.is_finite()) {
-        return Err(MeshError::Grading { value: spec.radial_grading });
+    let grading = spec.radial_grading;
+    if !(grading > 0.0 && grading.is_finite()) {
+        return Err(MeshError(format!(
+            "mesh.radial_grading = {grading} must be a positive number (1 = uniform)"
+        )));
     }
+    // Indices of nodes are 32 bits wide.
     let nodes = spec.nodes_per_sector().saturating_mul(spec.circumferential_elements as u128);
-    if nodes > u128::from(u32::MAX / 2) {
-        return Err(MeshError::TooManyNodes { nodes, limit: u32::MAX / 2 });
+    let limit = u32::MAX / 2;
+    if nodes > u128::from(limit) {
+        return Err(MeshError(format!(
+            "the mesh would have {nodes} nodes, more than {limit}: lower mesh.circumferential_elements or mesh.radial_elements"
+        )));
     }
     Ok(())
 }
 
-fn validate_shaft(
-    spec: &AnnulusSpecification,
-    shaft: &ShaftSpecification,
-) -> Result<(), MeshError> {
-    let (bore, radius) = (shaft.inner_radius, spec.inner_radius);
-    if !(bore > 0.0 && bore < radius) {
-        return Err(MeshError::Bore { bore, radius });
+/// Refuses too few elements under a key of the mesh.
+pub(super) fn at_least(minimum: usize, count: usize, key: &str) -> Result<(), MeshError> {
+    match count < minimum {
+        true => {
+            Err(MeshError(format!("{count} elements in mesh.{key}: at least {minimum} are needed")))
+        }
+        false => Ok(()),
     }
-    if shaft.radial_elements < 1 {
-        let (key, count) = ("shaft_radial_elements", shaft.radial_elements);
-        return Err(MeshError::TooFewElements { key, count, minimum: 1 });
+}
+
+/// Refuses a boundary that leaves its body free to turn with the friction.
+fn check_turning([body, name]: [&str; 2], own: &BoundaryCondition) -> Result<(), MeshError> {
+    match own.holds_turning() {
+        true => Ok(()),
+        false => Err(MeshError(format!(
+            "nothing holds the {body} against the friction that turns it: boundaries.{name} needs condition = \"clamped\", or \"support\" \
+             with a tangential_stiffness"
+        ))),
     }
-    if shaft.bore.holds_turning() { Ok(()) } else { Err(MeshError::ShaftNotHeld) }
 }

@@ -8,7 +8,7 @@ use super::pressed_state::Pressing;
 use super::rotation::{Rotation, grounded};
 use super::tangent::{ContactDofs, ContactPart, SlidingTangent};
 use super::terms::{Kind, PartLaw, Terms, geometric_stiffness};
-use super::{PrestressError, TangentOptions};
+use super::{PrestressError, Result, TangentOptions};
 use crate::contact::{
     ContactInterface, ContactStiffness, ContactSurface, Motion, PairError, Point, PointKind,
     PressedState, SlidingContact, SurfacePair, Turning, mortar_nodes,
@@ -79,7 +79,7 @@ impl<'a> Assembly<'a> {
         materials: &'a dyn MaterialField,
         contact: &SlidingContact,
         stiffness: ContactStiffness,
-    ) -> Result<Self, PrestressError> {
+    ) -> Result<Self> {
         let edge = SlidingSurfaces::of_edge(mesh, contact, stiffness);
         Self::new(mesh, materials, (&[], &[edge]), (&[], BaseChoice::Solved), MassKind::Consistent)
     }
@@ -88,18 +88,19 @@ impl<'a> Assembly<'a> {
     /// finer surface: a time step tells the forces of points that stick apart.
     ///
     /// # Errors
-    /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
+    /// [`PrestressError::Asked`] names the tie or contact whose surfaces do not meet.
     pub fn new(
         mesh: &'a Mesh,
         materials: &'a dyn MaterialField,
         (ties, contacts): (&[TiedSurfaces], &[SlidingSurfaces]),
         (motions, base): (&[Motion], BaseChoice),
         mass: MassKind,
-    ) -> Result<Self, PrestressError> {
+    ) -> Result<Self> {
         let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
         for tie in ties {
             tie_surfaces(mesh, tie, &mut basis)?;
         }
+        // Equations hold along the global axes, dofs are along those of nodes: a_k = a e_k.
         for equation in &mesh.equations {
             let row = equation.iter().flat_map(|&(node, axis, factor)| {
                 let frame = mesh.frame(node as usize);
@@ -112,27 +113,25 @@ impl<'a> Assembly<'a> {
                 basis.drop_unknown(pivot);
             }
         }
-        let found: Result<Arc<[_]>, PrestressError> = contacts
+        let found: Result<Arc<[_]>> = contacts
             .iter()
             .map(|contact| {
                 let sides = (&mesh.boundaries[contact.surface], &contact.counter);
+                // Springs may stand at quadrature points; what has a dof of its own stands at a node.
                 let kind = match contact.stiffness.normal_stiffness {
                     Some(_) if mass == MassKind::Consistent => PointKind::Segments,
                     _ => PointKind::Nodes,
                 };
                 let kind = (kind, contact.topography.as_deref());
                 let surface = ContactSurface::of(mesh, sides, motions, contact.friction, kind);
-                let surface = surface.map_err(|error| match contact.is_short_form() {
-                    true => unpaired(contact.name.clone(), error),
-                    false => named("contacts", &contact.name, error),
-                })?;
-                Ok((contact.clone(), surface))
+                Ok((contact.clone(), surface.map_err(unpaired(contact.section()))?))
             })
             .collect();
         let elastic = region_stiffnesses(mesh, materials);
         let supports = assemble_supports(mesh);
         let contacts = found?;
         let mut joined = Joined { contacts, rotation: None, elastic, supports, basis, base };
+        // Surfaces of ties are glued: they are no sides of a body that turns.
         let seams: Vec<usize> = ties.iter().flat_map(|t| [t.surface, t.counter]).collect();
         let held = || joined.basis.congruent(&joined.stiffness()).into_owned();
         let rotation = Rotation::of(mesh, materials, motions, (&joined.basis, &seams), held)?;
@@ -164,7 +163,7 @@ impl<'a> Assembly<'a> {
     ///
     /// # Errors
     /// As [`Self::range`].
-    pub fn state(&self, friction_coefficient: f64) -> Result<PressedState, PrestressError> {
+    pub fn state(&self, friction_coefficient: f64) -> Result<PressedState> {
         let PressedRange { states, state_of, .. } = self.range(&[friction_coefficient])?;
         let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
         state.ok_or(PrestressError::NoState { friction_coefficient })
@@ -175,7 +174,7 @@ impl<'a> Assembly<'a> {
     /// # Errors
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
     /// [`PrestressError::Separation`] where a node would open.
-    pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+    pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
         self.range_beyond(None, friction_coefficients)
     }
 
@@ -187,7 +186,7 @@ impl<'a> Assembly<'a> {
         &self,
         known: Option<&PressedRange>,
         friction_coefficients: &[f64],
-    ) -> Result<PressedRange, PrestressError> {
+    ) -> Result<PressedRange> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();
         let of_points = || {
@@ -205,6 +204,7 @@ impl<'a> Assembly<'a> {
                 friction_coefficients,
             ));
         }
+        // What loads the bodies beside the contacts: pressures on boundaries and rotation.
         let stiffness = self.joined.stiffness();
         let none = || vec![0.0; self.mesh.dof_count()];
         let mut load = assemble_pressures(self.mesh).unwrap_or_else(none);
@@ -214,12 +214,13 @@ impl<'a> Assembly<'a> {
         if contacts.is_empty() {
             return self.without_contact(&stiffness, &load, friction_coefficients);
         }
+        // What each point has along its normal: springs or none, and how far it is pushed in.
         let springs =
             of_points().map(|(own, point)| own.base_stiffness().map(|k| k * point.weight));
         let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap);
         // An edge is the only contact of its body, and has no section with a name.
         let named = contacts.iter().filter(|(own, _)| !own.is_edge());
-        let named = named.map(|(own, of)| (format!("contacts.{}", own.name), of.points.len()));
+        let named = named.map(|(own, surface)| (own.section(), surface.points.len()));
         let pressing = Pressing {
             laws: of_points().map(|(own, _)| own.stiffness.law).collect(),
             stiffness: &stiffness,
@@ -244,7 +245,7 @@ impl<'a> Assembly<'a> {
         stiffness: &Triplets,
         load: &[f64],
         friction_coefficients: &[f64],
-    ) -> Result<PressedRange, PrestressError> {
+    ) -> Result<PressedRange> {
         // Without a load there is nothing to hold, in part or at all.
         let displacement = if load.iter().all(|force| *force == 0.0) {
             vec![0.0; self.mesh.dof_count()]
@@ -264,7 +265,7 @@ impl<'a> Assembly<'a> {
                     _ => Err(error),
                 }
             })?;
-            let right = unknowns.restrict(&basis.transposed_forces(load));
+            let right = unknowns.restrict(&basis.transposed_forces(load)); // T^T K T y = T^T f, u = T y.
             basis.displacement(&unknowns.expand(&solver.solve(right)))
         };
         let displacements = vec![displacement];
@@ -277,6 +278,7 @@ impl<'a> Assembly<'a> {
         let (bodies, elastic) = ((self.mesh, self.materials), self.joined.elastic.clone());
         let mut terms = Terms::of_elastic(bodies, elastic, false, options);
         if options.mass == MassKind::Lumped {
+            // A lumped mass stays diagonal where dofs follow others.
             let masses = terms.all.iter_mut().filter(|term| term.kind == Kind::Mass);
             masses.for_each(|term| term.matrix = self.joined.basis.gathered(&term.matrix));
         }
@@ -299,14 +301,15 @@ impl<'a> Assembly<'a> {
     /// Mass, damping and stiffness of small motions around `state`.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
+    /// [`PrestressError::Asked`] where a rigid contact has no free dof to hold.
     pub fn tangent(
         &self,
         state: &PressedState,
         options: &TangentOptions,
-    ) -> Result<SlidingTangent, PrestressError> {
+    ) -> Result<SlidingTangent> {
         let (joined, mut terms) = (&self.joined, self.terms(options));
         let stressing = self.stressing(state).filter(|_| options.geometric_stiffness);
+        // What is free of stress has no contact forces that could turn.
         let turnings = match &stressing {
             Some(_) => self.turnings(),
             None => vec![Vec::new(); joined.contacts.len()],
@@ -374,6 +377,7 @@ impl<'a> Assembly<'a> {
     pub fn stressing(&self, state: &PressedState) -> Option<PressedState> {
         let mut own = (self.joined.base == BaseChoice::Solved).then(|| state.clone())?;
         if let Some(rotation) = &self.joined.rotation {
+            // u - u_c: the terms of the rotation have the stress of u_c.
             let pairs = own.displacements[0].iter_mut().zip(&rotation.displacement);
             pairs.for_each(|(whole, centrifugal)| *whole -= centrifugal);
         }
@@ -382,17 +386,13 @@ impl<'a> Assembly<'a> {
 }
 
 /// Takes the jumps of a tie's nodes for unknowns, and drops them.
-fn tie_surfaces(
-    mesh: &Mesh,
-    tie: &TiedSurfaces,
-    basis: &mut Elimination,
-) -> Result<(), PrestressError> {
+fn tie_surfaces(mesh: &Mesh, tie: &TiedSurfaces, basis: &mut Elimination) -> Result<()> {
     let [surface, counter] = [tie.surface, tie.counter].map(|b| &mesh.boundaries[b]);
     let pair = SurfacePair::of(mesh, surface, counter);
-    let pair = pair.map_err(|error| named("ties", &tie.name, error))?;
+    let pair = pair.map_err(unpaired(format!("ties.{}", tie.name)))?;
     for node in mortar_nodes(mesh, surface, &pair) {
         for axis in 0..3 {
-            let mut direction = [0.0; 3];
+            let mut direction = [0.0; 3]; // own_i . u - counter_i . u = 0 along each axis.
             direction[axis] = 1.0;
             // A jump without a free dof is held on both sides already.
             if let Some(pivot) = basis.take(&node.jump(mesh, direction)) {
@@ -403,11 +403,7 @@ fn tie_surfaces(
     Ok(())
 }
 
-fn named(section: &str, name: &str, error: PairError) -> PrestressError {
-    unpaired(format!("{section}.{name}"), error)
-}
-
-fn unpaired(name: String, error: PairError) -> PrestressError {
-    let error = Box::new(error);
-    PrestressError::Pair { name, error }
+/// The error of the surfaces of a section.
+fn unpaired(name: String) -> impl FnOnce(PairError) -> PrestressError {
+    move |error| PrestressError::Asked(format!("{name}: {error}"))
 }

@@ -1,8 +1,8 @@
 //! The contact state by complementarity: which points are pressed, over a range of friction coefficients.
 
-use super::PrestressError;
 use super::pressed_range::{CHANGE_WIDTH, PressedRange};
 use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, polynomial_state};
+use super::{PrestressError, Result};
 use crate::linalg::Bracket;
 
 /// Sets of pressed points that are tried at one friction coefficient before the state is called missing.
@@ -18,14 +18,17 @@ const ROUND_OFF: f64 = 1e-12;
 pub(super) fn range(
     bodies: &mut impl PressedBodies,
     friction_coefficients: &[f64],
-) -> Result<PressedRange, PrestressError> {
+) -> Result<PressedRange> {
     let mut order: Vec<usize> = (0..friction_coefficients.len()).collect();
     crate::order::sort_by_number(&mut order, |&a| friction_coefficients[a]);
-    let mut sets: Vec<Vec<bool>> = Vec::new();
-    let mut state_of = vec![0; friction_coefficients.len()];
-    let mut changes = Vec::new();
-    let mut start = vec![true; bodies.pressing().points.len()];
-    for (rank, &i) in order.iter().enumerate() {
+    let mut found = PressedRange {
+        friction_coefficients: friction_coefficients.to_vec(),
+        state_of: vec![0; friction_coefficients.len()],
+        ..PressedRange::default()
+    };
+    let mut sets: Vec<Vec<bool>> = Vec::new(); // The sets in turn, and where each gives way to the next.
+    let (mut before, mut start) = (0.0, vec![true; bodies.pressing().points.len()]);
+    for &i in &order {
         let friction = friction_coefficients[i];
         let known = bodies.pressing().known.and_then(|known| known.set_at(friction));
         let set = match known.map(<[bool]>::to_vec) {
@@ -35,61 +38,64 @@ pub(super) fn range(
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
         }
-        if sets.last().is_none_or(|last| *last != set) {
-            if rank > 0 {
-                let before = friction_coefficients[order[rank - 1]];
-                let known = bodies.pressing().known;
-                let known = known.and_then(|known| known.end_of(&start, [before, friction]));
-                let end = known.map_or_else(|| end_between(bodies, &start, [before, friction]), Ok);
-                changes.push(end?);
+        if sets.last() != Some(&set) {
+            if !sets.is_empty() {
+                found.changes.push(end_between(bodies, &start, [before, friction])?);
             }
             sets.push(set.clone());
         }
-        state_of[i] = sets.len() - 1;
-        start = set;
+        found.state_of[i] = sets.len() - 1;
+        (before, start) = (friction, set);
     }
+    follow(bodies, &sets, &mut found)?;
+    Ok(found)
+}
 
-    // Each state is followed from one change to the next; between the end of the set before and the beginning of its own, others hold.
+/// The state of each set, followed from one change to the next; between the end of the set before and the beginning of its own,
+/// others hold.
+fn follow(
+    bodies: &mut impl PressedBodies,
+    sets: &[Vec<bool>],
+    found: &mut PressedRange,
+) -> Result<()> {
+    // The friction coefficients at which each set was found.
     let asked_of = |state: usize| -> Vec<f64> {
-        let with_state = state_of.iter().zip(friction_coefficients);
-        with_state.filter_map(|(own, friction)| (*own == state).then_some(*friction)).collect()
+        let all = found.state_of.iter().zip(&found.friction_coefficients);
+        all.filter_map(|(own, friction)| (*own == state).then_some(*friction)).collect()
     };
-    let lowest = |asked: &[f64]| asked.iter().copied().fold(f64::INFINITY, f64::min);
-    let begins = changes.iter().enumerate().map(|(k, &change)| {
-        let (set, between) = (&sets[k + 1], [lowest(&asked_of(k + 1)), change]);
-        let known = bodies.pressing().known.and_then(|known| known.end_of(set, between));
-        Ok(known.map_or_else(|| end_between(bodies, set, between), Ok)?.max(change))
-    });
-    let begins = begins.collect::<Result<Vec<f64>, PrestressError>>()?;
-    let end = |rank: Option<&usize>| rank.map_or(0.0, |&i| friction_coefficients[i]);
-    let (first, last) = (end(order.first()), end(order.last()));
-    let mut left_out = 0.0_f64;
-    let states = sets.into_iter().enumerate().map(|(k, set)| {
-        let asked = asked_of(k);
-        let lower = k.checked_sub(1).map_or(first, |before| changes[before]);
-        let upper = changes.get(k).copied().unwrap_or(last);
-        let known = bodies.pressing().known;
-        if let Some(state) = known.and_then(|known| known.state_over(&set, [lower, upper])) {
-            left_out = left_out.max(known.map_or(0.0, |known| known.left_out));
-            return Ok(state.clone());
+    let asked: Vec<Vec<f64>> = (0..sets.len()).map(asked_of).collect();
+    let lowest = |k: usize| asked[k].iter().copied().fold(f64::INFINITY, f64::min);
+    // Downwards from there each set but the first begins where it breaks.
+    for k in 0..found.changes.len() {
+        let change = found.changes[k];
+        let begin = end_between(bodies, &sets[k + 1], [lowest(k + 1), change])?;
+        found.begins.push(begin.max(change));
+    }
+    for (k, set) in sets.iter().enumerate() {
+        let [lower, upper] = found.span(k);
+        if let Some(known) = bodies.pressing().known
+            && let Some(state) = known.state_over(set, [lower, upper])
+        {
+            found.left_out = found.left_out.max(known.left_out);
+            found.states.push(state.clone());
+            continue;
         }
+        // The first set holds below what is asked, too: as far as its polynomial needs.
         let own_range = |bodies: &mut _, set: &[bool]| {
             let begin = match k.checked_sub(1) {
-                Some(before) => begins[before],
+                Some(before) => found.begins[before],
                 None => {
                     let least = lower.min(upper - LEAST_RANGE).max(0.0);
-                    end_between(bodies, set, [lowest(&asked).min(upper), least])?
+                    end_between(bodies, set, [lowest(0).min(upper), least])?
                 }
             };
             Ok([begin.min(upper - SHORTEST_RANGE), upper])
         };
-        let found = polynomial_state(bodies, &set, ([lower, upper], &own_range), &asked)?;
-        left_out = left_out.max(found.left_out);
-        Ok(found.state)
-    });
-    let states = states.collect::<Result<Vec<_>, PrestressError>>()?;
-    let friction_coefficients = friction_coefficients.to_vec();
-    Ok(PressedRange { states, friction_coefficients, state_of, changes, begins, left_out })
+        let own = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked[k])?;
+        found.left_out = found.left_out.max(own.left_out);
+        found.states.push(own.state);
+    }
+    Ok(())
 }
 
 /// The pressed points at one friction coefficient, by the primal-dual active set (a semismooth Newton iteration on
@@ -98,17 +104,18 @@ fn pressed_points(
     bodies: &mut impl PressedBodies,
     friction_coefficient: f64,
     start: &[bool],
-) -> Result<Vec<bool>, PrestressError> {
+) -> Result<Vec<bool>> {
     let mut set = start.to_vec();
     let mut seen: Vec<Vec<bool>> = Vec::new();
     let mut was_circling = false;
     for _ in 0..MAX_SETS {
-        let state = bodies.state_of(friction_coefficient, &set)?;
+        let state = bodies.state_of(friction_coefficient, &set)?; // N_i and c_i where these points touch and no others.
         if state.separations.iter().any(|c| !c.is_finite()) {
             break;
         }
         let excesses = excesses(bodies, &state, &set);
         let bound = bound(&state);
+        // Pressed points that pull, open ones that penetrate: done where there are none.
         let wrong = excesses.iter().enumerate().filter(|(_, e)| **e > bound);
         let Some((worst, _)) = wrong.clone().max_by(|a, b| a.1.total_cmp(b.1)) else {
             return Ok(set);
@@ -123,6 +130,7 @@ fn pressed_points(
         }
         was_circling |= is_circling;
         seen.push(set.clone());
+        // All wrong points at once; from a set met before on the worst alone.
         if is_circling {
             set[worst] = !set[worst];
         } else {
@@ -149,17 +157,21 @@ fn bound(state: &ContactState) -> f64 {
 }
 
 /// The friction coefficient up to which the set at `inside` holds on the way to `outside`, which may be smaller: the root of the largest
-/// violation; `outside` where it holds all the way.
+/// violation, unless it is known; `outside` where it holds all the way.
 fn end_between(
     bodies: &mut impl PressedBodies,
     set: &[bool],
     [inside, outside]: [f64; 2],
-) -> Result<f64, PrestressError> {
-    let mut violation = |friction: f64| -> Result<f64, PrestressError> {
+) -> Result<f64> {
+    if let Some(end) = bodies.pressing().known.and_then(|own| own.end_of(set, [inside, outside])) {
+        return Ok(end);
+    }
+    let mut violation = |friction: f64| -> Result<f64> {
         let state = bodies.state_of(friction, set)?;
         let largest = excesses(bodies, &state, set).into_iter().fold(f64::NEG_INFINITY, f64::max);
         Ok(largest - bound(&state))
     };
+    // The largest violation is negative where the set holds, and changes sign at its end.
     let [at_inside, at_outside] = [violation(inside)?, violation(outside)?];
     if at_outside <= 0.0 {
         return Ok(outside);

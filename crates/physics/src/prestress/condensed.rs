@@ -1,6 +1,6 @@
 //! Bodies condensed onto their contact points: a dense system, as rigid contact needs it.
 
-use super::PrestressError;
+use super::Result;
 use super::joined_points::JoinedPoints;
 use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, Pressing};
 use crate::contact::{Point, Row};
@@ -46,8 +46,8 @@ impl<'a> CondensedContact<'a> {
     /// Condenses the bodies onto their points.
     ///
     /// # Errors
-    /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn new(pressing: &'a Pressing<'a>) -> Result<Self, PrestressError> {
+    /// [`super::PrestressError::Singular`] where a body is held by nothing, not even by contact.
+    pub fn new(pressing: &'a Pressing<'a>) -> Result<Self> {
         let points = JoinedPoints::new(pressing);
         let springs = spring_stiffnesses(pressing.points, &points.stiffness);
         let count = springs.len();
@@ -71,6 +71,7 @@ impl<'a> CondensedContact<'a> {
             let width = BLOCK.min(count - first);
             let mut block = Mat::<f64>::zeros(unknowns.len(), width);
             for j in 0..width {
+                // Column j: the force n_j.
                 for &(dof, along) in &normals[first + j] {
                     block[(dof, j)] += along;
                 }
@@ -109,15 +110,12 @@ impl PressedBodies for CondensedContact<'_> {
         ([0.0, upper.max(LEAST_RANGE)], NODES)
     }
 
-    fn state_of(
-        &mut self,
-        friction_coefficient: f64,
-        is_pressed: &[bool],
-    ) -> Result<ContactState, PrestressError> {
+    fn state_of(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> Result<ContactState> {
         let (count, pushed) = (is_pressed.len(), &self.points.pressing.pushed);
         // Unknown: the normal force of a pressed point, the separation of an open one; columns scaled to be alike.
         let scale: Vec<f64> = (0..count).map(|i| self.normal_response[(i, i)]).collect();
         let (springs, a, b) = (&self.springs, &self.normal_response, &self.drag_response);
+        // c - A (N + kappa c) - mu B N = c_0 with c_j = p_j - N_j / k_j where j is pressed, N_j = 0 where it is open.
         let matrix = Mat::from_fn(count, count, |i, j| {
             let own = f64::from(u8::from(i == j));
             if is_pressed[j] {
@@ -129,6 +127,7 @@ impl PressedBodies for CondensedContact<'_> {
             }
         });
         let mut solution = Mat::from_fn(count, 1, |i, _| {
+            // c_0 + A kappa p - p: what the pushes of pressed points give.
             let pressed = (0..count).filter(|&j| is_pressed[j]);
             let given: f64 = pressed.map(|j| a[(i, j)] * springs[j] * pushed[j]).sum();
             let own = if is_pressed[i] { pushed[i] } else { 0.0 };

@@ -1,12 +1,12 @@
 //! The pressed equilibrium of a body whose sectors are alike, from one of them.
 
-use super::PrestressError;
 use super::complementarity::range;
 use super::condensed::CondensedContact;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
+use super::{PrestressError, Result};
 use crate::contact::{Point, Row, summed};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
@@ -21,13 +21,10 @@ impl Pressing<'_> {
     /// same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
-    /// [`PrestressError::MixedContacts`]; [`PrestressError::NoState`] at the first friction coefficient without one;
+    /// [`PrestressError::Asked`] for rigid contacts beside ones that stiffen; [`PrestressError::NoState`] at the first friction coefficient
+    /// without one;
     /// [`PrestressError::GapEverywhere`]; [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn states(
-        &self,
-        mesh: &Mesh,
-        friction_coefficients: &[f64],
-    ) -> Result<PressedRange, PrestressError> {
+    pub fn states(&self, mesh: &Mesh, friction_coefficients: &[f64]) -> Result<PressedRange> {
         let count = mesh.symmetry.as_ref().map_or(1, |symmetry| symmetry.count);
         let Some(first_of) = self.copies(count) else {
             return self.states_of_all(friction_coefficients);
@@ -62,6 +59,7 @@ impl Pressing<'_> {
 
         // The state of the whole body.
         let firsts: Vec<usize> = firsts.collect();
+        // Which point of the sector each of the body is a copy of.
         let copy_of = first_of.iter().map(|first| firsts.partition_point(|own| own < first));
         let copy_of: Vec<usize> = copy_of.collect();
         let states = range.states.iter_mut();
@@ -70,10 +68,14 @@ impl Pressing<'_> {
     }
 
     /// Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.
-    fn states_of_all(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+    fn states_of_all(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
         match PenaltyContact::new(self)? {
             Some(mut bodies) => range(&mut bodies, friction_coefficients),
-            None if self.laws.iter().any(Option::is_some) => Err(PrestressError::MixedContacts),
+            None if self.laws.iter().any(Option::is_some) => {
+                let problem = "contacts with a normal_law other than \"linear\" and rigid contacts in one case: give the rigid ones a \
+                               normal_stiffness";
+                Err(PrestressError::Asked(problem.to_owned()))
+            }
             None => range(&mut CondensedContact::new(self)?, friction_coefficients),
         }
     }
@@ -89,6 +91,7 @@ impl Pressing<'_> {
         if !is_whole || self.elimination.combinations().next().is_some() {
             return None;
         }
+        // What a sector has is what the first one has, to round-off.
         let is_alike = |values: &[f64]| {
             let bound = ALIKE * values.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
             let mut values_at = values.iter().enumerate();
@@ -110,6 +113,7 @@ impl Pressing<'_> {
                 [form(&point.normal), form(&point.slip), point.weight, pushed]
             });
         let seen: Vec<[f64; 4]> = seen.collect();
+        // One from each sector: neighbours in the order of what they see, with all else equal.
         let mut order: Vec<usize> = (0..seen.len()).collect();
         crate::order::sort_by_number(&mut order, |&i| seen[i][0]);
         let mut first_of = vec![0; seen.len()];
@@ -126,6 +130,7 @@ impl Pressing<'_> {
                     return None;
                 }
                 first_of[i] = first;
+                // Forces of a size that only copies share, along both rows of each point.
                 for (sum, row) in
                     forces.iter_mut().zip([&self.points[i].normal, &self.points[i].slip])
                 {

@@ -1,6 +1,6 @@
 //! Unknowns of bodies that are held, tied and in contact.
 
-use super::PrestressError;
+use super::{PrestressError, Result};
 use crate::contact::{Point, Row, scaled, summed};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::FrictionWeights;
@@ -58,6 +58,7 @@ impl Elimination {
     /// Makes `row . u` an entry of `y`, and returns which: that of the row's first dof that is free and not small in it.
     /// `None` where the row has no free dof left: what it measures is held or follows from forms taken before.
     pub fn take(&mut self, row: &Row) -> Option<usize> {
+        // g over y, with all forms that were taken before.
         let own: BTreeMap<usize, f64> = self.transposed(row).iter().copied().collect();
         let is_free = |dof: usize| !self.is_dropped[dof] && !self.combined.contains_key(&dof);
         let free = || own.iter().filter(|(dof, _)| is_free(**dof));
@@ -66,6 +67,7 @@ impl Elimination {
         if largest <= 1e-9 * size {
             return None;
         }
+        // The row's own first dof if it will do: patterns and orders stay alike then.
         let is_large = |value: f64| value.abs() >= SMALLEST_PIVOT * largest;
         let firsts = row.iter().map(|entry| entry.0);
         let mut candidates = firsts.chain(free().map(|(dof, _)| *dof));
@@ -90,7 +92,7 @@ impl Elimination {
                     true => scaled(&combination, value),
                     false => vec![(dof, value)],
                 });
-            let row = summed(parts);
+            let row = summed(parts); // Of u_e = ... + v u_pivot the part v u_pivot is v times the combination.
             self.record(earlier, &row);
             self.combined.insert(earlier, row);
         }
@@ -141,6 +143,7 @@ impl Elimination {
         for &pivot in self.combined.keys() {
             result[pivot] = 0.0;
         }
+        // (T^T f)_j = f_j + sum_p T_pj f_p, nothing at the pivots themselves but their own share.
         for (&pivot, row) in &self.combined {
             for &(dof, share) in row {
                 result[dof] += share * forces[pivot];
@@ -216,12 +219,13 @@ impl Elimination {
         for (i, rigid) in friction.iter().enumerate() {
             rigid.lift.iter().for_each(|&(dof, share)| lifts[dof].push((i, share)));
         }
-        let mut forces = vec![Row::new(); friction.len()];
+        let mut forces = vec![Row::new(); friction.len()]; // N_i = lift_i^T A u: its row over all dofs.
         for &(row, column, value) in &full.entries {
             lifts[row].iter().for_each(|&(i, share)| forces[i].push((column, share * value)));
         }
         for (rigid, force) in friction.iter().zip(&forces) {
             let [slip, force] = [&rigid.slip, force].map(|row| self.over(unknowns, row));
+            // Row of slip less mu times the normal force: - mu slip_i^T (lift_i^T A T).
             for (at, factor) in weights.times_mu(power) {
                 projected[at].push_product(-factor, &slip, &force);
             }
@@ -232,12 +236,13 @@ impl Elimination {
         projected
     }
 
-    /// Refuses a tie or a rigid contact whose forms hold a body more than once.
+    /// [`Self::take`] of the separation of a contact point.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`].
-    pub fn require(&mut self, row: &Row, name: &str) -> Result<usize, PrestressError> {
-        self.take(row).ok_or_else(|| PrestressError::Overconstrained { name: name.to_owned() })
+    /// [`PrestressError::Asked`] where that is held already.
+    pub fn require(&mut self, row: &Row) -> Result<usize> {
+        let problem = "contact holds nodes that are already held or tied: leave one of the conditions out there";
+        self.take(row).ok_or_else(|| PrestressError::Asked(problem.to_owned()))
     }
 }
 

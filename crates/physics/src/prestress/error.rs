@@ -1,5 +1,8 @@
 //! Errors of the steady-sliding equilibrium.
 
+/// What is sought of the equilibrium, or why there is none.
+pub(super) type Result<T, E = PrestressError> = std::result::Result<T, E>;
+
 /// A sliding equilibrium that does not exist or cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PrestressError {
@@ -41,15 +44,6 @@ pub enum PrestressError {
         /// Interference, m.
         interference: f64,
     },
-    /// The forces on a contact are in balance by themselves.
-    #[error(
-        "nothing presses the two sides of {name} together: one of them is held by the contact \
-         alone. Press it with a boundary pressure or an interference, or hold it by springs"
-    )]
-    Unpressed {
-        /// Section and name of the contact.
-        name: String,
-    },
     /// The complementarity problem has no solution that could be found.
     #[error(
         "there is no state of steady sliding at friction {friction_coefficient}: every choice of \
@@ -61,53 +55,9 @@ pub enum PrestressError {
         /// Friction coefficient.
         friction_coefficient: f64,
     },
-    /// A form that is to be eliminated has no free dof.
-    #[error(
-        "{name} holds nodes that are already held or tied: leave one of the conditions out there"
-    )]
-    Overconstrained {
-        /// The tie or contact.
-        name: String,
-    },
-    /// Two surfaces that make no contact or tie.
-    #[error("{name}: {error}")]
-    Pair {
-        /// Section and name of the tie or contact.
-        name: String,
-        /// Why not.
-        error: Box<crate::contact::PairError>,
-    },
-    /// Contact that stiffens beside rigid contact.
-    #[error(
-        "contacts with a normal_law other than \"linear\" and rigid contacts in one case: give the rigid ones a normal_stiffness"
-    )]
-    MixedContacts,
-    /// A frame that turns with one region, but not with another.
-    #[error(
-        "motion.{turning}.frame = \"turning\", but \"{other}\" does not turn so: in that frame it \
-         would move. Give both the same axis, speed and frame, or describe bodies of revolution \
-         with frame = \"rest\""
-    )]
-    FrameOfNone {
-        /// The region of the frame.
-        turning: String,
-        /// A region that has another one.
-        other: String,
-    },
-    /// A region that turns with the inertia of its rotation, but is no body of revolution.
-    #[error(
-        "motion.{region}.rotation_terms = true, but \"{region}\" is no body of revolution about \
-         that axis: {:.0} % of the velocity on its sides stands across them. Such sides move in \
-         the frame at rest. Where everything turns with it give frame = \"turning\", else leave \
-         rotation_terms out",
-        100.0 * share
-    )]
-    NotOfRevolution {
-        /// The region.
-        region: String,
-        /// `∫ |n . v| dA / ∫ |v| dA` over its sides.
-        share: f64,
-    },
+    /// The case asks for what cannot be.
+    #[error("{0}")]
+    Asked(String),
     /// A rotor at rest under Coulomb's law as a vector.
     #[error(
         "contact.rotation_speed_rpm = 0: without sliding there is no steady sliding to study. \

@@ -1,6 +1,6 @@
 //! Factors of a stiffness over some unknowns.
 
-use super::PrestressError;
+use super::{PrestressError, Result};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::{LuAnalysis, MatrixPolynomial, SparseLu};
 
@@ -8,10 +8,7 @@ use crate::linalg::{LuAnalysis, MatrixPolynomial, SparseLu};
 ///
 /// # Errors
 /// [`PrestressError::Singular`] unless it is positive definite.
-pub(super) fn factorized(
-    stiffness: &Triplets,
-    unknowns: &DofMap,
-) -> Result<SparseLu, PrestressError> {
+pub(super) fn factorized(stiffness: &Triplets, unknowns: &DofMap) -> Result<SparseLu> {
     let place = |dof: usize| unknowns.unknown_of[dof];
     let entries = stiffness.entries.iter();
     let kept =

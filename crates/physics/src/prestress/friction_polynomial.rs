@@ -6,6 +6,7 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, reach: f64
     let count = points.len();
     let size = |values: &Vec<f64>| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let scale = values.iter().map(size).fold(0.0_f64, f64::max);
+    // f[k-order..k] = (f[k] - f[k-1]) / (mu_k - mu_k-order), in place from the last on.
     for order in 1..count {
         for k in (order..count).rev() {
             let (before, after) = values.split_at_mut(k);
@@ -29,6 +30,7 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, reach: f64
             *sum += value;
         }
     }
+    // A power whose whole reach is round-off of the largest value goes.
     while powers.len() > 1 {
         let last = powers.len() - 1;
         if size(&powers[last]) * reach.powi(last as i32) > 1e-11 * scale {

@@ -20,6 +20,7 @@ impl SlidingTangent {
             let gain = gain.at(c64::new(0.0, TAU * frequency_hz));
             frozen.stiffness =
                 MatrixPolynomial::combination(1.0, &frozen.stiffness, gain.re, &part);
+            // K + Re g_p K_p, H + Im g_p K_p.
             let (weight, before) = lost.as_ref().map_or((0.0, &part), |lost| (1.0, lost));
             lost = Some(MatrixPolynomial::combination(weight, before, gain.im, &part));
         }
@@ -34,6 +35,7 @@ impl SlidingTangent {
             let Some(gain) = &mut gain.0 else { continue };
             let before = gain.reference();
             gain.reference_hz = frequency_hz;
+            // K + (r(f) - r(f_0)) K_p, with r what the table has at its reference.
             let change = gain.reference() - before;
             other.stiffness = MatrixPolynomial::combination(1.0, &other.stiffness, change, part);
         }

@@ -1,10 +1,10 @@
 //! Steady sliding of a body whose contact is pressed all around: its normal forces do not depend on friction.
 
-use super::PrestressError;
 use super::elimination::Elimination;
 use super::factors::factorized;
 use super::penalty::PenaltyContact;
 use super::pressed_state::{PressedBodies, Pressing};
+use super::{PrestressError, Result};
 use crate::contact::{ContactInterface, Point, PressedState};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::SparseLu;
@@ -25,14 +25,10 @@ impl<'a> FullSliding<'a> {
     /// Of a stiffness over all dofs, supports included, without those that `basis` holds.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`]; [`PrestressError::Singular`] for a stiffness that is not positive definite.
-    pub fn new(
-        stiffness: &Triplets,
-        mut basis: Elimination,
-        points: &'a [Point],
-    ) -> Result<Self, PrestressError> {
-        let separations = points.iter().map(|point| basis.require(&point.normal, "contact"));
-        let separations = separations.collect::<Result<Vec<usize>, PrestressError>>()?;
+    /// [`PrestressError::Asked`] for points that are held; [`PrestressError::Singular`] for a stiffness that is not positive definite.
+    pub fn new(stiffness: &Triplets, mut basis: Elimination, points: &'a [Point]) -> Result<Self> {
+        let separations = points.iter().map(|point| basis.require(&point.normal));
+        let separations = separations.collect::<Result<Vec<usize>>>()?;
         let stiffness = basis.congruent(stiffness).into_owned();
         separations.iter().for_each(|&dof| basis.drop_unknown(dof));
         let unknowns = basis.unknowns();
@@ -60,7 +56,7 @@ impl<'a> FullSliding<'a> {
         let mut traction = vec![0.0; self.unknowns.unknown_of.len()];
         for (point, force) in points.iter().zip(normal_forces) {
             for &(dof, along) in &point.slip {
-                traction[dof] += point.friction.drag * along * force;
+                traction[dof] += point.friction.drag * along * force; // f_1 = sum_i N_i drag_i t_i.
             }
         }
         let traction = self.basis.transposed_forces(&traction);
@@ -84,7 +80,7 @@ impl<'a> FullSliding<'a> {
         let mut prescribed = vec![0.0; total];
         let both = || self.separations.iter().zip(distances);
         both().for_each(|(&dof, distance)| prescribed[dof] = *distance);
-        let force = self.stiffness.multiply(total, &prescribed);
+        let force = self.stiffness.multiply(total, &prescribed); // K_ff u_f = f_f - K_fc c.
         let left: Vec<f64> = load.iter().zip(force).map(|(load, force)| load - force).collect();
         let mut pressed = self.solve(&left);
         both().for_each(|(&dof, distance)| pressed[dof] = *distance);
@@ -93,7 +89,7 @@ impl<'a> FullSliding<'a> {
 
     /// What holds the separations beside the load.
     fn normal_forces(&self, pressed: &[f64], load: &[f64]) -> Vec<f64> {
-        let force = self.stiffness.multiply(pressed.len(), pressed);
+        let force = self.stiffness.multiply(pressed.len(), pressed); // N = K_c u - f_c.
         self.separations.iter().map(|&dof| force[dof] - load[dof]).collect()
     }
 }
@@ -108,7 +104,7 @@ impl Pressing<'_> {
         &self,
         edge: &ContactInterface,
         sectors: usize,
-    ) -> Result<PressedState, PrestressError> {
+    ) -> Result<PressedState> {
         // Without friction, on which the normal forces do not depend.
         let all = vec![true; self.points.len()];
         let (separations, springs) = match PenaltyContact::new(self)? {

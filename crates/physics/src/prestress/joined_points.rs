@@ -1,6 +1,6 @@
 //! Bodies over their unknowns, with springs at their contact points.
 
-use super::PrestressError;
+use super::Result;
 use super::factors::factorized;
 use super::pressed_state::{ContactState, Pressing};
 use crate::contact::{Row, scaled};
@@ -44,9 +44,9 @@ impl<'a> JoinedPoints<'a> {
     /// Factorizes `P` with springs `r_i`, N/m.
     ///
     /// # Errors
-    /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn factorize(&self, springs: &[f64]) -> Result<SparseLu, PrestressError> {
-        let mut held = self.stiffness.clone();
+    /// [`super::PrestressError::Singular`] where a body is held by nothing, not even by contact.
+    pub fn factorize(&self, springs: &[f64]) -> Result<SparseLu> {
+        let mut held = self.stiffness.clone(); // K + sum_i r_i n_i n_i^T.
         for (row, spring) in self.normals.iter().zip(springs) {
             let row = row.iter().map(|&(unknown, along)| (self.unknowns.dofs[unknown], along));
             let row: Row = row.collect();
@@ -92,6 +92,7 @@ impl<'a> JoinedPoints<'a> {
     ) -> Vec<f64> {
         let along = springs.iter().enumerate().map(|(i, spring)| {
             let force = state.normal_forces[i];
+            // (N_i + r_i c_i) n_i + mu N_i drag_i t_i.
             [force + spring * state.separations[i], friction_coefficient * force]
         });
         let found = self.respond(solver, &self.load(), &[along.collect()]);

@@ -77,6 +77,14 @@ impl SlidingSurfaces {
         }
     }
 
+    /// Its section in the case.
+    pub(super) fn section(&self) -> String {
+        match self.is_short_form() {
+            true => self.name.clone(),
+            false => format!("contacts.{}", self.name),
+        }
+    }
+
     /// Whether the case describes it as `[contact]`.
     pub fn is_short_form(&self) -> bool {
         self.name == Self::SHORT_FORM && self.counter.rigid().is_some()

@@ -40,6 +40,7 @@ pub use assembly::{Assembly, Joined};
 pub(crate) use cyclic_pressing::without_symmetry;
 pub use elimination::{Elimination, RigidFriction};
 pub use error::PrestressError;
+use error::Result;
 pub use joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use motion_matrices::MotionMatrices;
 pub use options::{DampingModel, TangentOptions};

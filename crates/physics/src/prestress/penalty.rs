@@ -1,8 +1,8 @@
 //! Bodies on the springs of their contact points: sparse, for many thousands of points.
 
-use super::PrestressError;
 use super::joined_points::JoinedPoints;
 use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, widened};
+use super::{PrestressError, Result};
 use crate::linalg::dense::{column, difference};
 use crate::linalg::{LinearFamily, SparseLu};
 
@@ -69,7 +69,7 @@ impl<'a> PenaltyContact<'a> {
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn new(pressing: &'a Pressing<'a>) -> Result<Option<Self>, PrestressError> {
+    pub fn new(pressing: &'a Pressing<'a>) -> Result<Option<Self>> {
         let springs: Option<Vec<f64>> = pressing.stiffnesses.iter().copied().collect();
         let Some(springs) = springs else {
             return Ok(None);
@@ -89,7 +89,7 @@ impl<'a> PenaltyContact<'a> {
     }
 
     /// Factorizes `P` of other pressed points where they differ too much from those in it, or the last solution took long.
-    fn follow(&mut self, is_pressed: &[bool]) -> Result<(), PrestressError> {
+    fn follow(&mut self, is_pressed: &[bool]) -> Result<()> {
         let changed = is_pressed.iter().zip(&self.factorized).filter(|(a, b)| a != b).count();
         let is_far = changed as f64 > MOST_CHANGED * is_pressed.len() as f64;
         let shares = is_pressed.iter().zip(&self.springs);
@@ -117,11 +117,11 @@ impl<'a> PenaltyContact<'a> {
             let both = values.iter().zip(is_pressed);
             both.map(|(value, is_pressed)| if *is_pressed { *value } else { 0.0 }).collect()
         };
-        let (own, origin) = (pressed(springs), pressed(&self.pushed));
+        let (own, origin) = (pressed(springs), pressed(&self.pushed)); // s k and s p.
         let along = |own: &dyn Fn(usize) -> [f64; 2]| (0..springs.len()).map(own).collect();
         // What the loads and the pushes alone do.
         let (_, mut systems) = known.unwrap_or_else(|| {
-            let pushes = along(&|i| [held[i] * origin[i], 0.0]);
+            let pushes = along(&|i| [held[i] * origin[i], 0.0]); // n . P^-1 (f + sum_i r_i k_i s_i p_i n_i) - s p.
             let response = points.respond(solver, &points.load(), &[pushes]);
             let separations = points.separations(column(response.as_ref(), 0));
             (Vec::new(), LinearFamily::new(difference(&separations, &origin)))
@@ -130,6 +130,7 @@ impl<'a> PenaltyContact<'a> {
         // With what `P` has not.
         let none = vec![0.0; points.unknowns.len()];
         let apply = |y: &[f64]| {
+            // ((s - r) n + mu s drag t) k y, the part with mu by itself.
             let parts =
                 [along(&|i| [(own[i] - held[i]) * y[i], 0.0]), along(&|i| [0.0, own[i] * y[i]])];
             let response = points.respond(solver, &none, &parts);
@@ -138,6 +139,7 @@ impl<'a> PenaltyContact<'a> {
         };
         let start = difference(&self.last, &origin);
         let (found, products) = systems.solve(friction_coefficient, &start, apply, TOLERANCE);
+        // N = s k (p - c) = - s k y, and c = s p + y; 0 - 0 has no sign.
         let forces = own.iter().zip(&found).map(|(spring, y)| 0.0 - spring * y).collect();
         self.is_slow = products > MOST_PRODUCTS;
         let separations = origin.iter().zip(&found).map(|(p, y)| p + y).collect();
@@ -152,6 +154,7 @@ impl<'a> PenaltyContact<'a> {
             if let Some(law) = law {
                 stiffens = true;
                 let force = normal_forces[i].max(0.0);
+                // The tangent N = k (p' - c) at the approach g of the force, p' = p - g + N / k.
                 let approach = law.approach(force / point.weight);
                 self.springs[i] = point.weight * law.stiffness(approach);
                 self.pushed[i] = pressing.pushed[i] - approach + force / self.springs[i];
@@ -175,17 +178,14 @@ impl PressedBodies for PenaltyContact<'_> {
         (widened([lower, upper]), NODES[usize::from(upper - lower > SHORT_RANGE)])
     }
 
-    fn state_of(
-        &mut self,
-        friction_coefficient: f64,
-        is_pressed: &[bool],
-    ) -> Result<ContactState, PrestressError> {
+    fn state_of(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> Result<ContactState> {
         let mut before: Option<Vec<f64>> = None;
         for _ in 0..MOST_TANGENTS {
             self.follow(is_pressed)?;
             let (separations, normal_forces) = self.linear_state(friction_coefficient, is_pressed);
             let is_linear = !self.follow_laws(&normal_forces);
             let largest = normal_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+            // Newton's method: settled where the forces are those of the tangents' own places.
             let is_settled = before.as_ref().is_some_and(|before| {
                 let moved = before.iter().zip(&normal_forces).map(|(a, b)| (a - b).abs());
                 moved.fold(0.0, f64::max) <= SETTLED * largest

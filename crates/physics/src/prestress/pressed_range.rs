@@ -10,7 +10,7 @@ pub(super) const CHANGE_WIDTH: f64 = 1e-9;
 pub(super) const RESOLVED: f64 = 1e-8;
 
 /// States over a range of friction coefficients.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct PressedRange {
     /// One state for each set of pressed points, in order of the friction coefficient.
     pub states: Vec<PressedState>,
@@ -34,10 +34,15 @@ impl PressedRange {
             states: vec![state],
             friction_coefficients: friction_coefficients.to_vec(),
             state_of: vec![0; friction_coefficients.len()],
-            changes: Vec::new(),
-            begins: Vec::new(),
-            left_out: 0.0,
+            ..Self::default()
         }
+    }
+
+    /// Friction coefficients between which a state holds.
+    pub(super) fn span(&self, state: usize) -> [f64; 2] {
+        let [first, last] = crate::order::range(self.friction_coefficients.iter().copied());
+        let lower = state.checked_sub(1).map_or(first, |before| self.changes[before]);
+        [lower, self.changes.get(state).copied().unwrap_or(last)]
     }
 
     /// Friction coefficients between the state `before` and the next one at which neither is known to hold; empty where one gives way to
@@ -60,6 +65,7 @@ impl PressedRange {
         let ends = self.changes.iter().zip(&self.states).filter(|_| outside > inside);
         let begins = self.begins.iter().zip(self.states.iter().skip(1));
         let begins = begins.filter(|_| outside <= inside);
+        // Upwards a set ends where it gives way, downwards where it began.
         let is_between = |at: f64| at != outside && (at - inside) * (at - outside) <= 0.0;
         let mut all = ends.chain(begins);
         all.find(|(at, own)| is_between(**at) && own.is_pressed == set).map(|own| *own.0)
@@ -71,15 +77,11 @@ impl PressedRange {
         set: &[bool],
         [lower, upper]: [f64; 2],
     ) -> Option<&PressedState> {
-        let all = || self.friction_coefficients.iter().copied();
-        let (first, last) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
-        let holds = |k: usize| {
-            let own_lower = k.checked_sub(1).map_or(first, |before| self.changes[before]);
-            let own_upper = self.changes.get(k).copied().unwrap_or(last);
-            own_lower <= lower && upper <= own_upper && self.states[k].is_pressed == set
+        let holds = |(k, own): &(usize, &PressedState)| {
+            let [own_lower, own_upper] = self.span(*k);
+            own_lower <= lower && upper <= own_upper && own.is_pressed == set
         };
-        (0..self.states.len())
-            .find(|&k| self.left_out <= RESOLVED && holds(k))
-            .map(|k| &self.states[k])
+        let mut states = self.states.iter().enumerate().filter(|_| self.left_out <= RESOLVED);
+        states.find(holds).map(|(_, state)| state)
     }
 }

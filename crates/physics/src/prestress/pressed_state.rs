@@ -1,10 +1,10 @@
 //! Bodies pressed together at their contact points, and their state under one set of pressed points as polynomials in the friction
 //! coefficient.
 
-use super::PrestressError;
 use super::elimination::Elimination;
 use super::friction_polynomial::{evaluate, interpolated};
 use super::pressed_range::{PressedRange, RESOLVED};
+use super::{PrestressError, Result};
 use crate::contact::{NormalLaw, Point, PressedState};
 use crate::fem::Triplets;
 
@@ -59,7 +59,11 @@ impl Pressing<'_> {
             first += count;
             own.abs() <= UNPRESSED * all
         });
-        found.map(|(name, _)| PrestressError::Unpressed { name: name.clone() })
+        let (name, _) = found?;
+        Some(PrestressError::Asked(format!(
+            "nothing presses the two sides of {name} together: one of them is held by the contact alone. Press it with a boundary pressure \
+             or an interference, or hold it by springs"
+        )))
     }
 
     pub(super) fn gap_everywhere(&self) -> PrestressError {
@@ -132,18 +136,14 @@ pub(super) trait PressedBodies {
     fn usual_points(&self, range: [f64; 2]) -> ([f64; 2], usize);
 
     /// The state in which exactly the points of `is_pressed` touch, whatever sign their forces have.
-    fn state_of(
-        &mut self,
-        friction_coefficient: f64,
-        is_pressed: &[bool],
-    ) -> Result<ContactState, PrestressError>;
+    fn state_of(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> Result<ContactState>;
 
     /// Displacement of every dof from the state of the contact points.
     fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64>;
 }
 
 /// Finds the friction coefficients between which a set of pressed points holds.
-pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2], PrestressError> + 'a;
+pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2]> + 'a;
 
 /// The state of one set of pressed points as a polynomial in the friction coefficient.
 ///
@@ -155,7 +155,7 @@ pub(super) fn polynomial_state<B: PressedBodies>(
     is_pressed: &[bool],
     (range, own_range): ([f64; 2], &OwnRange<'_, B>),
     asked: &[f64],
-) -> Result<EstimatedState, PrestressError> {
+) -> Result<EstimatedState> {
     let (usual, count) = bodies.usual_points(range);
     // The usual points may be continued to friction 0, others may not, and what stiffens neither.
     let begin = |interval: [f64; 2]| range[0].max(interval[0]);
@@ -163,6 +163,7 @@ pub(super) fn polynomial_state<B: PressedBodies>(
         true => [0.0, begin(interval)],
         false => [begin(interval); 2],
     };
+    // Over a short range a few points hold the state to the last digits.
     if range[1] - range[0] <= SHORT_RANGE {
         let [lower, upper] = widened(range);
         let interval = [lower.max(0.0), upper];
@@ -174,6 +175,7 @@ pub(super) fn polynomial_state<B: PressedBodies>(
             }
         }
     }
+    // The usual points, and where they leave out too much others, held to exact states.
     let origins = [0.0, begin(usual)];
     let mut best = EstimatedState::through(bodies, is_pressed, (usual, count), origins)?;
     if best.left_out > RESOLVED {
@@ -216,17 +218,18 @@ impl EstimatedState {
         is_pressed: &[bool],
         (interval, count): ([f64; 2], usize),
         origins: [f64; 2],
-    ) -> Result<Self, PrestressError> {
+    ) -> Result<Self> {
         let nodes = chebyshev_points(count, interval);
         let (mut displacements, mut normal_forces, mut stiffnesses) =
             (Vec::new(), Vec::new(), Vec::new());
+        // Exact states, whose values are one column of each polynomial.
         for &friction in &nodes {
             let state = bodies.state_of(friction, is_pressed)?;
             displacements.push(bodies.whole_displacement(friction, &state));
             normal_forces.push(state.normal_forces);
             stiffnesses.extend(state.stiffnesses);
         }
-        let left_out = FOLLOWING * last_terms(&normal_forces);
+        let left_out = FOLLOWING * last_terms(&normal_forces); // What follows the last terms is smaller than they are.
         let origin = origins[usize::from(!stiffnesses.is_empty())];
         let beyond: Vec<f64> = nodes.iter().map(|mu| mu - origin).collect();
         // The origin may be either end of the interval.
@@ -316,11 +319,7 @@ mod tests {
             ([0.0, upper], 7)
         }
 
-        fn state_of(
-            &mut self,
-            friction_coefficient: f64,
-            _: &[bool],
-        ) -> Result<ContactState, PrestressError> {
+        fn state_of(&mut self, friction_coefficient: f64, _: &[bool]) -> Result<ContactState> {
             Ok(ContactState {
                 separations: vec![0.0],
                 normal_forces: vec![1.0 / (self.jam - friction_coefficient)],

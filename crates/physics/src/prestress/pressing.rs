@@ -1,9 +1,9 @@
 //! Pressed equilibrium of a body of revolution in steady sliding: rigid contact ring by ring, or springs over the face.
 
-use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
 use super::solid::{FaceRule, OverRings, face_points, node_point};
+use super::{PrestressError, Result};
 use super::{SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::{MassKind, Triplets};
@@ -33,7 +33,7 @@ impl SolidSliding {
         contact: &SlidingContact,
         stiffness: &ContactStiffness,
         mass: MassKind,
-    ) -> Result<Self, PrestressError> {
+    ) -> Result<Self> {
         let law = stiffness.base_law();
         let is_integrated = law.is_some() && mass == MassKind::Consistent;
         let rule = match sector.is_quadratic() || is_integrated {
@@ -71,13 +71,14 @@ fn press_rigidly(
     sector: &SolidSector,
     stiffness: &Triplets,
     (contact, rule): (&SlidingContact, FaceRule),
-) -> Result<SolidSliding, PrestressError> {
+) -> Result<SolidSliding> {
     let (load, rings) = (sector.strip.pressure_load(), &sector.rings);
     let mut is_pressed = vec![true; rings.len()];
     for _ in 0..SETS {
         let pressed = rings.iter().zip(&is_pressed).filter(|(_, pressed)| **pressed);
         let nodes = pressed.flat_map(|(ring, _)| &ring.nodes);
         let points: Vec<Point> = nodes.map(|&n| node_point(sector, n, contact)).collect();
+        // u_n = delta at the nodes of pressed rings, N = 0 at all others.
         let full = FullSliding::new(stiffness, without_contact(sector), &points)?;
         let state = full.state(&load, &vec![contact.interference; points.len()]);
 
@@ -90,6 +91,7 @@ fn press_rigidly(
         let ring_forces: Vec<f64> = rings.iter().zip(&is_pressed).map(force).collect();
         let scale = ring_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
         let approaches = approaches(sector, contact.interference, &state.displacements[0]);
+        // Pressed rings must push, open ones must not have come nearer than delta.
         let next: Vec<bool> = (0..rings.len())
             .map(|k| match is_pressed[k] {
                 true => ring_forces[k] > 1e-12 * scale,
@@ -125,8 +127,8 @@ fn press_on_springs(
     sector: &SolidSector,
     stiffness: &Triplets,
     (contact, law, rule): (&SlidingContact, NormalLaw, FaceRule),
-) -> Result<SolidSliding, PrestressError> {
-    let (load, face) = (sector.strip.pressure_load(), sector.specification.contact.face());
+) -> Result<SolidSliding> {
+    let load = sector.strip.pressure_load();
     let (dofs, rings) = (load.len(), sector.rings.len());
     let pushed = vec![contact.interference; rings];
     let pushed = field(&OverRings::approaches(sector, &pushed, (contact, rule)));
@@ -140,6 +142,7 @@ fn press_on_springs(
         let mut pressed = stiffness.clone();
         pressed.entries.extend_from_slice(&tangent.entries);
         let body = FullSliding::new(&pressed, without_contact(sector), &[])?;
+        // K u + k (u - delta) = f + s g - k g: what is known of the linearized law.
         let known = tangent.multiply(dofs, &difference(&pushed, &at));
         let loads = load.iter().zip(&own).zip(&known);
         let loads: Vec<f64> = loads.map(|((a, b), c)| a + b + c).collect();
@@ -159,26 +162,12 @@ fn press_on_springs(
         let displacement = body.refined(&loads, displacement);
         let found = approaches(sector, contact.interference, &displacement);
         let left = tangent.multiply(dofs, &difference(&difference(&pushed, &displacement), &at));
-        // Those of nodes that something else holds along the normal, too.
-        let force = |node: usize| {
-            let normal = 3 * node + face.normal_component();
-            face.inward_sign() * (own[normal] + left[normal])
-        };
-        let nodes = (0..sector.node_count()).filter(|&node| force(node) != 0.0);
-        let points: Vec<Point> = nodes.clone().map(|n| node_point(sector, n, contact)).collect();
-        let forces: Vec<f64> = nodes.map(force).collect();
-        let sheared = around_the_axis(sector, stiffness)?.sheared(&points, &forces);
-        let state = PressedState {
-            displacements: vec![displacement, sheared],
-            is_pressed: vec![true; points.len()],
-            normal_forces: vec![forces],
-            ..PressedState::default()
-        };
+        let push: Vec<f64> = own.iter().zip(&left).map(|(own, left)| own + left).collect();
         return Ok(SolidSliding {
             law: Some(law),
             rule,
             contact: *contact,
-            sliding: SectorSliding { state, points },
+            sliding: under_push(sector, stiffness, contact, displacement, &push)?,
             is_pressed: found.iter().map(|approach| *approach > 0.0).collect(),
             pressures: found.iter().map(|g| law.pressure(g.max(0.0))).collect(),
             approaches: found,
@@ -187,15 +176,31 @@ fn press_on_springs(
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
 }
 
-/// The body that friction shears, whatever presses it.
-fn around_the_axis<'a>(
+/// The state in which a push over all dofs, of springs, has made a displacement: normal forces of all nodes that it reaches, those that
+/// something else holds along the normal, too, and what their friction shears.
+fn under_push(
     sector: &SolidSector,
     stiffness: &Triplets,
-) -> Result<FullSliding<'a>, PrestressError> {
-    let mut basis = without_contact(sector);
+    contact: &SlidingContact,
+    displacement: Vec<f64>,
+    push: &[f64],
+) -> Result<SectorSliding> {
+    let face = sector.specification.contact.face();
+    let force = |node: usize| face.inward_sign() * push[3 * node + face.normal_component()];
+    let nodes = (0..sector.node_count()).filter(|&node| force(node) != 0.0);
+    let points: Vec<Point> = nodes.clone().map(|n| node_point(sector, n, contact)).collect();
+    let forces: Vec<f64> = nodes.map(force).collect();
+    let mut basis = without_contact(sector); // Friction shears the body about its axis alone, whatever presses it.
     let others = (0..sector.strip.dof_count()).filter(|dof| dof % 3 != 1);
     others.for_each(|dof| basis.drop_unknown(dof));
-    FullSliding::new(stiffness, basis, &[])
+    let sheared = FullSliding::new(stiffness, basis, &[])?.sheared(&points, &forces);
+    let state = PressedState {
+        displacements: vec![displacement, sheared],
+        is_pressed: vec![true; points.len()],
+        normal_forces: vec![forces],
+        ..PressedState::default()
+    };
+    Ok(SectorSliding { state, points })
 }
 
 /// `int k n n^T dA` over the part of the face where approaches are positive, of a stiffness that follows them, N/m.
@@ -205,7 +210,7 @@ fn springs(over: &OverRings<'_>, stiffness: &dyn Fn(f64) -> f64) -> Triplets {
     for element in over.sector.contact_elements() {
         let spans = over.pressed_spans(&element).into_iter();
         for point in spans.flat_map(|span| face_points(over.sector, &element, span, over.rule)) {
-            let approach = over.along(&element, point.along).max(0.0);
+            let approach = over.along(&element, point.along).max(0.0); // w k(g) n n^T at each point of what is pressed.
             let row = &point.rows[component];
             sum.push_product(point.area * stiffness(approach), row, row);
         }

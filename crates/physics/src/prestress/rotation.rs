@@ -1,8 +1,8 @@
 //! Rotation of regions of an assembly.
 
-use super::PrestressError;
 use super::elimination::Elimination;
 use super::factors::factorized;
+use super::{PrestressError, Result};
 use crate::contact::Motion;
 use crate::fem::{
     ElementGeometry, MassKind, MaterialField, RotationFrame, Spin, Triplets, assemble_around,
@@ -35,14 +35,14 @@ impl Rotation {
     /// boundaries `seams` are glued.
     ///
     /// # Errors
-    /// [`PrestressError::NotOfRevolution`], [`PrestressError::FrameOfNone`].
+    /// [`PrestressError::Asked`] for bodies that are none of revolution, or do not turn with a frame that does.
     pub fn of(
         mesh: &Mesh,
         materials: &dyn MaterialField,
         motions: &[Motion],
         (basis, seams): (&Elimination, &[usize]),
         held: impl FnOnce() -> Triplets,
-    ) -> Result<Option<Self>, PrestressError> {
+    ) -> Result<Option<Self>> {
         let spins = |motion: &Motion| motion.spin().filter(|spin| spin.velocity.norm() > 0.0);
         if motions.iter().all(|motion| spins(motion).is_none()) {
             return Ok(None);
@@ -64,6 +64,7 @@ impl Rotation {
         let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
         let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
         let bases = [displacement];
+        // Stress stiffens, and the strain that comes with it changes the centrifugal load itself.
         let of =
             [ElementGeometry::geometric_stiffnesses, ElementGeometry::displacement_stiffnesses];
         let added = of.map(|of| assemble_around((mesh, materials), &bases, None, of));
@@ -86,6 +87,7 @@ pub(super) fn grounded(
         let diagonal = matrix.entries.iter().filter(|entry| entry.0 == entry.1);
         diagonal.fold(0.0_f64, |largest, entry| largest.max(entry.2))
     };
+    // K + g M: all rigid motions are held, and in balance hardly any force meets that.
     let ground = GROUND * largest(&stiffness) / largest(&mass);
     let springs = mass.entries.into_iter();
     stiffness.entries.extend(springs.map(|(row, column, value)| (row, column, ground * value)));
@@ -93,7 +95,7 @@ pub(super) fn grounded(
 }
 
 /// Refuses a frame that turns with some regions while others do not turn with them.
-fn check_frames(mesh: &Mesh, of: &dyn Fn(usize) -> Option<Spin>) -> Result<(), PrestressError> {
+fn check_frames(mesh: &Mesh, of: &dyn Fn(usize) -> Option<Spin>) -> Result<()> {
     let spins: Vec<Option<Spin>> = (0..mesh.regions.len()).map(of).collect();
     let is_turning = |spin: &Option<Spin>| spin.is_some_and(|s| s.frame == RotationFrame::Turning);
     let Some(first) = spins.iter().position(is_turning) else {
@@ -101,15 +103,16 @@ fn check_frames(mesh: &Mesh, of: &dyn Fn(usize) -> Option<Spin>) -> Result<(), P
     };
     match spins.iter().position(|spin| *spin != spins[first]) {
         None => Ok(()),
-        Some(other) => Err(PrestressError::FrameOfNone {
-            turning: mesh.regions[first].clone(),
-            other: mesh.regions[other].clone(),
-        }),
+        Some(other) => Err(PrestressError::Asked(format!(
+            "motion.{}.frame = \"turning\", but \"{}\" does not turn so: in that frame it would move. Give both the same axis, speed and \
+             frame, or describe bodies of revolution with frame = \"rest\"",
+            mesh.regions[first], mesh.regions[other]
+        ))),
     }
 }
 
 /// Refuses a region whose sides, the parts of its surface along the axis, are carried along by its motion.
-fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<(), PrestressError> {
+fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<()> {
     let glued = seams.iter().flat_map(|&seam| &mesh.boundaries[seam].faces);
     let glued: BTreeSet<(u32, &[u32])> = glued.map(|f| (f.element, f.nodes.as_slice())).collect();
     let (mut across, mut whole) = (0.0, 0.0);
@@ -127,13 +130,15 @@ fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<(),
             whole += dot(velocity, velocity).sqrt() * side;
         }
     }
-    let share = across / whole;
+    let share = across / whole; // int |v . n| dA / int |v| dA over what faces across the axis.
     if share > MOST_ACROSS {
-        let region = motion.regions.first().map(|&region| &mesh.regions[region]);
-        return Err(PrestressError::NotOfRevolution {
-            region: region.cloned().unwrap_or_default(),
-            share,
-        });
+        let region = motion.regions.first().map_or("", |&region| &mesh.regions[region]);
+        return Err(PrestressError::Asked(format!(
+            "motion.{region}.rotation_terms = true, but \"{region}\" is no body of revolution about that axis: {:.0} % of the velocity on \
+             its sides stands across them. Such sides move in the frame at rest. Where everything turns with it give frame = \"turning\", \
+             else leave rotation_terms out",
+            100.0 * share
+        )));
     }
     Ok(())
 }

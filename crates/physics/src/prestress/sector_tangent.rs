@@ -4,7 +4,7 @@ use super::elimination::{Elimination, RigidFriction};
 use super::tangent::ContactPart;
 use super::terms::{Kind, Part, Terms};
 use super::wave_tangent::WaveContact;
-use super::{PrestressError, SectorSliding, SolidSliding, TangentOptions, WaveTangent};
+use super::{PrestressError, Result, SectorSliding, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{
     ContactInterface, Point, PressedState, Row, SlidingContact, Turning, scaled, turned,
 };
@@ -51,6 +51,7 @@ impl SectorTangent {
         let total = strip.dof_count();
         let mut basis = Elimination::holding(3 * total, []);
         let mut friction = Vec::new();
+        // Rows reach into the sectors beside: its own, the next one and the one before.
         for sector in 0..3 {
             let there = |row: &Row| -> Row {
                 row.iter().map(|&(dof, along)| (dof + sector * total, along)).collect()
@@ -65,6 +66,7 @@ impl SectorTangent {
             }));
         }
         let (all, weights) = (basis.unknowns(), FrictionWeights::frozen_below(0.0));
+        // T^T A T less mu times what normal forces do along slips, folded onto one sector.
         let terms = terms.map(|power, own| {
             let powers = basis.project((power, &own), &all, (&friction, weights));
             powers.iter().map(|own| strip.folded(own)).collect()
@@ -106,7 +108,7 @@ impl SectorTangent {
         material: &dyn MaterialField,
         options: &TangentOptions,
         contact: &SlidingContact,
-    ) -> Result<Self, PrestressError> {
+    ) -> Result<Self> {
         let terms = Terms::of_mesh((&strip.mesh, material), false, options);
         let base =
             SectorSliding::solve(strip, &alike(strip, &terms), contact, options.contact.law)?;
@@ -130,7 +132,7 @@ impl SectorTangent {
         material: &dyn MaterialField,
         options: &TangentOptions,
         contact: &SlidingContact,
-    ) -> Result<Self, PrestressError> {
+    ) -> Result<Self> {
         if contact.rotation_speed == 0.0 {
             return Err(PrestressError::AtRest);
         }

@@ -93,6 +93,7 @@ impl SolidSliding {
                 spans.into_iter().flat_map(|span| face_points(sector, &element, span, self.rule));
             for FacePoint { area, radius, along, rows } in own {
                 let (speed, friction) = self.friction(radius);
+                // N = A p, k = A p'(g), friction that of the radius.
                 let pressure = self.pressure_along(sector, &element, along);
                 points.push(Point {
                     weight: area,
@@ -153,7 +154,7 @@ pub(super) fn face_points(
         let mut areas = vec![0.0; face.nodes.len()];
         for point in face_quadrature(is_quadratic) {
             let (values, area) = face.values_at(sector, point);
-            areas.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
+            areas.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value); // A_a = int N_a dA.
         }
         // Corners 0 and 1 lie at the beginning of the element.
         let own = nodes.enumerate().filter(|(a, _)| span[a / 2].abs() == 1.0);
@@ -170,6 +171,7 @@ pub(super) fn face_points(
     let point = |([x, y], share): ([f64; 2], f64)| {
         let at = [x, middle + half * y];
         let (values, area) = face.values_at(sector, (at, half * share));
+        // Where the point lies: on the arc, or on the plane face between straight edges.
         let [share, radius, angle] = match is_quadratic {
             true => [1.0, face.radius_at(sector, at), sector.half_angle() * x],
             false => face.on_chord(sector, at),
@@ -224,6 +226,7 @@ impl<'a> OverRings<'a> {
         if !self.sector.is_quadratic() {
             return linear;
         }
+        // The parabola through both ends and the middle.
         linear + (1.0 - along * along) * (middle - 0.5 * (from + to))
     }
 

@@ -96,7 +96,7 @@ impl SlidingTangent {
         let own = self.displacement(unknowns);
         let mut full = own.clone();
         for point in &self.friction {
-            let slip: c64 = point.slip.iter().map(|&(dof, a)| own[dof] * a).sum();
+            let slip: c64 = point.slip.iter().map(|&(dof, a)| own[dof] * a).sum(); // v = T w - mu (slip . T w) lift.
             for &(dof, value) in &point.lift {
                 full[dof] -= slip * (mu * value);
             }
@@ -141,7 +141,7 @@ impl SlidingTangent {
     /// The matrices of bodies, `terms` over all dofs, and their contacts over what `basis` (held dofs, ties) and rigid contact leave.
     ///
     /// # Errors
-    /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
+    /// [`PrestressError::Asked`] where a rigid contact has no free dof to hold.
     pub fn assemble(
         mut terms: Terms<Triplets>,
         contacts: &[ContactPart<'_>],
@@ -240,7 +240,7 @@ fn hold_rigid(
         let is_rigid = part.stiffness.normal_stiffness.is_none();
         let own = &part.state.is_pressed[part.first..];
         for (point, &is_pressed) in part.points.iter().zip(own) {
-            let pivot = basis.require(&point.normal, "contact")?;
+            let pivot = basis.require(&point.normal)?; // A pressed point of rigid contact keeps its separation: c = 0.
             if is_rigid && is_pressed {
                 basis.drop_unknown(pivot);
                 friction.push(RigidFriction::of(point));

@@ -191,6 +191,7 @@ impl<M> Terms<M> {
     /// `x^H G x = i g`, take no power of a motion that neither grows nor decays; of one that does `sigma g / omega`.
     pub fn add_form<N>(&self, term: &Term<N>, root: c64, form: c64, sum: &mut PartForms) {
         if term.kind == Kind::Gyroscopic {
+            // x^H G x = i g: of the power of lambda G only sigma g is left, over omega.
             sum.damping += root.re * form.im / root.im;
             return;
         }
@@ -198,7 +199,7 @@ impl<M> Terms<M> {
         match term.kind {
             Kind::Mass => sum.mass += form.re,
             Kind::Stiffness => {
-                let ratio = self.law(term.part).ratio(root);
+                let ratio = self.law(term.part).ratio(root); // K (1 + i eta) takes like a dashpot eta k / omega.
                 sum.stiffness += ratio.re * form.re;
                 sum.damping += ratio.im / root.im * form.re;
             }
@@ -213,6 +214,7 @@ impl<M> Terms<M> {
         &self,
         sum: impl Fn(&dyn Fn(&Term<M>) -> f64) -> P,
     ) -> Vec<(LossGain, P)> {
+        // i eta K of all parts is one matrix; each table has a factor of its own.
         let has_losses = self.laws().any(|law| law.loss_factor != 0.0);
         let structural = has_losses.then(|| (LossGain(None), sum(&|term| self.factors(term)[2])));
         let tabled = self.bodies.iter().enumerate().filter_map(|(body, law)| {
@@ -350,6 +352,7 @@ impl Terms<Triplets> {
         let attached = if is_free { Default::default() } else { assemble_attachments(mesh) };
         let [springs, mut dashpots] = attached;
         dashpots.entries.extend(assemble_patch_damping(mesh, material, options.mass).entries);
+        // Point masses, springs and dashpots, and the damping of patches, are one body more.
         let masses = (Kind::Mass, assemble_point_masses(mesh));
         let springs = (Kind::Stiffness, springs);
         let terms = [masses, springs, (Kind::Dashpots, dashpots)];
@@ -367,7 +370,7 @@ pub(super) fn geometric_stiffness(
     let of = ElementGeometry::geometric_stiffnesses;
     let mut powers = assemble_around(bodies, &state.displacements, Some(region), of);
     if state.frozen_below > 0.0 && powers.len() > 1 {
-        powers.insert(1, Triplets::default());
+        powers.insert(1, Triplets::default()); // The places of a frozen tangent are those of 1, min(mu, a), mu - a, ...
     }
     powers
 }

@@ -16,7 +16,7 @@ pub type FrictionPolynomial = Vec<BandedMatrix>;
 /// `P(z)`, `z = i mu`.
 pub fn evaluate(polynomial: &[BandedMatrix], z: c64) -> Vec<c64> {
     let mut values: Vec<c64> = polynomial[0].values().iter().map(|v| c64::new(*v, 0.0)).collect();
-    let mut power = z;
+    let mut power = z; // P_0 + z P_1 + z^2 P_2 + ...
     for coefficient in &polynomial[1..] {
         for (value, v) in values.iter_mut().zip(coefficient.values()) {
             *value += power * *v;
@@ -74,11 +74,12 @@ impl HarmonicTangent {
             None => {
                 let [alpha, beta] =
                     [self.rayleigh.mass_coefficient, self.rayleigh.stiffness_coefficient];
+                // C = alpha M + beta K.
                 mass.iter().zip(&stiffness).map(|(m, k)| m * alpha + k * beta).collect()
             }
         };
         if let Some(dashpots) = &self.friction_dashpots {
-            damping.iter_mut().zip(evaluate(dashpots, z)).for_each(|(sum, c)| *sum += c * mu);
+            damping.iter_mut().zip(evaluate(dashpots, z)).for_each(|(sum, c)| *sum += c * mu); // C + mu A(i mu).
         }
         let half_bandwidth = self.mass[0].half_bandwidth();
         let losses = self.losses.iter().map(|(gain, own)| (gain.clone(), evaluate(own, z)));
@@ -139,6 +140,7 @@ impl MovingHarmonic {
             return multiply_band(band, h, x, adjoint);
         }
         let row = |(row, band): (usize, &[c64])| {
+            // Entries of the band that lie within the matrix.
             let (first, last) = (row.saturating_sub(h), (row + h + 1).min(x.len()));
             product(&band[first + h - row..last + h - row], &x[first..last])
         };

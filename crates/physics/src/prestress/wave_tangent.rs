@@ -88,6 +88,7 @@ impl WaveTangent {
         let unknowns = self.dofs.unknown_of.iter();
         let mut all: Vec<c64> = unknowns.map(|own| own.map_or(c64::ZERO, |k| x[k])).collect();
         for row in &self.contact.distances {
+            // A distance d = u_1 - u_2 stands in place of u_1: u_1 = d + u_2.
             let apart: c64 = row[1..].iter().map(|&(dof, along)| all[dof] * along).sum();
             all[row[0].0] -= apart;
         }
@@ -234,7 +235,7 @@ impl WaveTangent {
         for own in &self.terms.all {
             let (factor, less) = (factor(own), usize::from(own.kind == Kind::FrictionDashpots));
             for (power, matrix) in own.matrix.iter().skip(less).enumerate() {
-                let (parity, sign) = mirrored(power);
+                let (parity, sign) = mirrored(power); // mu^p A = sign (i mu)^p R with a real R.
                 if factor != 0.0 && *matrix != SectorMatrix::default() {
                     sums.resize_with(sums.len().max(power + 1), || self.dofs.zeros());
                     self.dofs.add(&mut sums[power], n, parity, (sign * factor, matrix));

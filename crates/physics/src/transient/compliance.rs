@@ -142,6 +142,7 @@ fn stiffening_after(
     if force(free) <= 0.0 {
         return free;
     }
+    // p_+ + y F(p_+) = p_free, with its slope 1 + y F'.
     let excess = |after: f64| after + yielding * force(after).max(0.0) - free;
     let slope = |after: f64| {
         let way = after - before;

@@ -187,14 +187,16 @@ impl Recorder {
         let (plan, interface) = (run.plan(), run.interface());
         let components = run.model().components();
         let count = run.operator().dof_count() / components;
-        let mut nodes = settings.probes.iter();
+        let mut nodes = settings.probes.iter(); // Probes are nodes of the mesh, by their numbers from 1.
         if let Some(&probe) = nodes.find(|&&node| node == 0 || node > count) {
             let problem = format!(" holds {probe}: the mesh has nodes 1 to {count}");
             return Err(TransientError::setting("probes", format!("1 to {count}"), problem));
         }
+        // Frames of the contact are samples too, one out of some.
         let stride = settings.contact_interval.unwrap_or(0.0) / plan.sample_interval;
         let higher_harmonics =
             higher_harmonics(run.model().highest_harmonic(), &run.seeded_harmonics);
+        // Space for all samples at once where their number is known.
         let (contact, probes) = (&run.model().contact, settings.probes.len());
         Ok(Self {
             probes: settings.probes.clone(),

@@ -36,7 +36,7 @@ impl Across {
                 dashpots.add(row, column, along[0].get(row, column));
             }
         }
-        along[0].add_scaled(-1.0, &dashpots);
+        along[0].add_scaled(-1.0, &dashpots); // What is left acts along the sliding.
         let damped = (0..dashpots.dimension()).filter(|&k| dashpots.get(k, k) > 0.0);
         Self { rank: damped.count(), dashpots, along }
     }
@@ -55,7 +55,7 @@ impl Across {
             .filter(|&k| self.dashpots.get(k, k) > 0.0)
             .map(|k| pencil.stiffness().get(k, k) / self.dashpots.get(k, k))
             .fold(0.0, f64::max);
-        let held = pencil.stiffened(HOLDING * stiffest, &self.dashpots);
+        let held = pencil.stiffened(HOLDING * stiffest, &self.dashpots); // K + s A, far stiffer than the body wherever A acts.
         held.map_or_else(Vec::new, |held| held.lowest(held.count_below(kappa)))
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn direction_of(problem: &HarmonicProblem, waves: Waves, sliding_dire
 
 /// A wave of a path at one of its points.
 pub(super) fn point_of(problem: &HarmonicProblem, waves: Waves, pair: &Eigenpair) -> BranchPoint {
-    let theta = waves.own(pair.theta);
+    let theta = waves.own(pair.theta); // lambda(theta(mu)): its rate by the chain rule.
     BranchPoint {
         friction_coefficient: pair.parameter,
         eigenvalue: problem.eigenvalue(theta),

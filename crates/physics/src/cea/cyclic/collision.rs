@@ -50,6 +50,7 @@ fn pair_near(
     a: &Eigenpair,
     b: &Eigenpair,
 ) -> Option<[Eigenpair; 2]> {
+    // Near the meeting both vectors are one: two guesses from the space of both.
     let middle = 0.5 * (a.theta + b.theta);
     let guesses = invariant_pair(follower, at, middle, a, b)?;
     let found = guesses.map(|guess| follower.find(at, parameter, guess));
@@ -97,7 +98,7 @@ fn invariant_pair(
     let quadratic = m11 * m22 - m12 * m21;
     let linear = k11 * m22 + m11 * k22 - k12 * m21 - m12 * k21;
     let constant = k11 * k22 - k12 * k21;
-    let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
+    let root = (linear * linear - 4.0 * quadratic * constant).sqrt(); // Both roots of the quadratic.
     let roots = [(root - linear) / (2.0 * quadratic), (-root - linear) / (2.0 * quadratic)];
     roots.iter().all(|r| r.re.is_finite() && r.im.is_finite()).then(|| roots.map(|r| shift + r))
 }

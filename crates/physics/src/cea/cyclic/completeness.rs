@@ -2,7 +2,7 @@
 
 use super::definite::{self, Region};
 use super::paths::HarmonicPaths;
-use super::problem::{HarmonicProblem, I, Matrices};
+use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::accuracy::{BESIDE, CHANGE_PLACES, NEAR};
 use crate::cea::counted::{STANDSTILL, WIDEST_GROWTH};
 use crate::linalg::{c64, count_zeros};
@@ -141,9 +141,9 @@ fn known(paths: &HarmonicPaths, mu: f64) -> (Vec<c64>, Vec<c64>) {
     let at_rest = paths.at_rest.iter();
     let at_rest = match problem.is_proportional() {
         true => at_rest.map(|&kappa| c64::new(kappa, 0.0)).collect(),
-        false => {
-            at_rest.flat_map(|kappa| [1.0, -1.0].map(|s| I * s * kappa.max(0.0).sqrt())).collect()
-        }
+        false => at_rest
+            .flat_map(|kappa| [1.0, -1.0].map(|s| c64::I * s * kappa.max(0.0).sqrt()))
+            .collect(),
     };
     let points = paths.paths.iter().flat_map(|path| &path.points);
     let now = points.filter(|point| point.parameter == mu).map(|point| point.theta);

@@ -85,6 +85,7 @@ struct Course<'a> {
 impl Course<'_> {
     /// Takes every branch to the next friction coefficient, and adds those of the eigenvalues that none has come to.
     fn step(&mut self, before: f64, friction: f64) -> Result<Overdamped, CeaError> {
+        // All eigenvalues, whatever the branches do; then the branches, whatever the eigenvalues are.
         let shared = Rc::new(self.problem.at(friction));
         let mut all = spectrum(self.problem, &shared, self.largest)?;
         let was_open: Vec<usize> =
@@ -108,6 +109,7 @@ impl Course<'_> {
                 }
             }
         }
+        // What none has come to is a branch of its own, or one that was lost on the way.
         let is_wanted = |value: &c64| {
             let is_own = value.im > 0.0 || !self.problem.tangent.is_standing;
             is_own && value.norm() <= self.largest && !self.is_overdamped(value)

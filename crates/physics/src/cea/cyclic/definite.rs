@@ -2,7 +2,7 @@
 
 use crate::linalg::banded::{BandedFactor, BandedMatrix};
 use crate::linalg::c64;
-use crate::linalg::vectors::{ZERO, dot};
+use crate::linalg::vectors::dot;
 use crate::prestress::HarmonicTangent;
 
 /// The region `0 <= Re(kappa) <= real`, `|Im(kappa)| <= imaginary`.
@@ -60,7 +60,7 @@ struct TestSpace<'a> {
 
 impl<'a> TestSpace<'a> {
     fn new(tangent: &'a HarmonicTangent, tangential: &'a [usize], center: f64) -> Option<Self> {
-        let rest = BandedFactor::new(&tangent.stiffness[0], &tangent.mass[0], center);
+        let rest = BandedFactor::new(&tangent.stiffness[0], &tangent.mass[0], center); // K_0 - kappa_0 M_0 must be definite for a start.
         if rest.negative_count() > 0 {
             return None;
         }
@@ -74,7 +74,7 @@ impl<'a> TestSpace<'a> {
             for column in tangent.mass[0].columns(row) {
                 let k = tangent.stiffness.get(1).map_or(0.0, |k| k.get(row, column));
                 let m = tangent.mass.get(1).map_or(0.0, |m| m.get(row, column));
-                psi[column] = center * m - k;
+                psi[column] = center * m - k; // - row_t of (K_1 - kappa_0 M_1).
             }
             rest.solve(&mut psi);
             stiffness.push(products(&psi, &tangent.stiffness));
@@ -104,17 +104,18 @@ impl<'a> TestSpace<'a> {
 
     fn interior(&self, weights: &[f64; 4], shift: f64) -> BandedFactor<c64> {
         let half_bandwidth = self.tangent.mass[0].half_bandwidth();
-        let unit = units();
         let entry = |row: usize, column: usize| {
             let inertia = c64::new(-shift * self.tangent.mass[0].get(row, column), 0.0);
             let powers = self.tangent.stiffness.iter().enumerate();
             powers
-                .fold(inertia, |sum, (k, own)| sum + unit[k] * (weights[k] * own.get(row, column)))
+                .fold(inertia, |sum, (k, own)| sum + UNITS[k] * (weights[k] * own.get(row, column)))
         };
         let mut upper = Vec::with_capacity(self.others.len() * (half_bandwidth + 1));
         for (place, &row) in self.others.iter().enumerate() {
             let columns = (place..=place + half_bandwidth).map(|other| self.others.get(other));
-            upper.extend(columns.map(|column| column.map_or(ZERO, |&column| entry(row, column))));
+            upper.extend(
+                columns.map(|column| column.map_or(c64::ZERO, |&column| entry(row, column))),
+            );
         }
         BandedFactor::of(half_bandwidth, upper)
     }
@@ -134,14 +135,14 @@ impl<'a> TestSpace<'a> {
             self.others.iter().map(border).collect()
         });
         let borders: Vec<Vec<c64>> = borders.collect();
-        let mut upper = vec![ZERO; count * count];
+        let mut upper = vec![c64::ZERO; count * count];
         for (j, border) in borders.iter().enumerate() {
             let mut solved = border.clone();
             interior.solve(&mut solved);
             for i in 0..=j {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
                 let own = 0.5 * (lines[i][0][tj] + lines[j][0][ti].conj());
-                upper[i * count + j - i] = own - dot(&borders[i], &solved);
+                upper[i * count + j - i] = own - dot(&borders[i], &solved); // H_tt - H_ti H_ii^-1 H_it.
             }
         }
         count == 0 || BandedFactor::of(count - 1, upper).is_definite()
@@ -149,21 +150,21 @@ impl<'a> TestSpace<'a> {
 
     /// Row `t` of `T (K - kappa M)`, and column `t` of `K - kappa M`.
     fn tested_row_and_column(&self, index: usize, weights: &[f64; 4], kappa: c64) -> [Vec<c64>; 2] {
-        let (place, unit) = (self.tangential[index], units());
-        let zeros = vec![ZERO; self.tangent.mass[0].dimension()];
+        let place = self.tangential[index];
+        let zeros = vec![c64::ZERO; self.tangent.mass[0].dimension()];
         let (mut row, mut column) = (zeros.clone(), zeros);
         let terms = [
-            (&self.tangent.stiffness, &self.stiffness[index], c64::new(1.0, 0.0)),
+            (&self.tangent.stiffness, &self.stiffness[index], c64::ONE),
             (&self.tangent.mass, &self.mass[index], -kappa),
         ];
         for (matrices, tested, factor) in terms {
             for (k, matrix) in matrices.iter().enumerate() {
-                let plain = factor * unit[k] * weights[k];
+                let plain = factor * UNITS[k] * weights[k]; // z^k A_k, and z times that from the row T adds.
                 for other in matrix.columns(place) {
                     row[other] += plain * matrix.get(place, other);
                     column[other] += plain * matrix.get(other, place);
                 }
-                let turned = factor * unit[k + 1] * weights[k + 1];
+                let turned = factor * UNITS[k + 1] * weights[k + 1];
                 for (sum, value) in row.iter_mut().zip(&tested[k]) {
                     *sum += turned * *value;
                 }
@@ -174,9 +175,7 @@ impl<'a> TestSpace<'a> {
 }
 
 /// Powers of `i`.
-fn units() -> [c64; 4] {
-    [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(re, im)| c64::new(re, im))
-}
+const UNITS: [c64; 4] = [c64::ONE, c64::I, c64::new(-1.0, 0.0), c64::new(0.0, -1.0)];
 
 /// `psi^T A`.
 fn multiply_left(psi: &[f64], matrix: &BandedMatrix) -> Vec<f64> {

@@ -73,7 +73,7 @@ impl<'a> Follower<'a> {
                 [x, y] = before;
                 continue;
             }
-            let change = (next - theta).norm();
+            let change = (next - theta).norm(); // Newton's step of the Rayleigh functional.
             theta = next;
             // Each iteration leaves far less than the square of the change it made.
             if change <= MULTIPLE * theta.norm() {
@@ -148,6 +148,7 @@ impl<'a> Follower<'a> {
             let found = self.refine(&at, goal, guess, &last.x, &last.y);
             match found.filter(|next| is_continuation(last, next, control)) {
                 Some(next) => {
+                    // Twice as far after a step that held, half as far after one that did not.
                     step = 2.0 * (goal - last.parameter).abs();
                     path.push(next);
                 }
@@ -165,6 +166,7 @@ impl<'a> Follower<'a> {
 
 fn is_continuation(last: &Eigenpair, next: &Eigenpair, control: StepControl) -> bool {
     let step = next.parameter - last.parameter;
+    // What the trapezoid of the rates misses.
     let defect = (next.theta - last.theta - (last.rate + next.rate) * (0.5 * step)).norm();
     dot(&last.x, &next.x).norm() >= control.least_overlap
         && defect <= control.largest_defect * next.theta.norm()
@@ -180,7 +182,7 @@ fn extrapolate(path: &[Eigenpair], goal: f64) -> c64 {
     if h.abs() < SAME_EIGENVALUE {
         return last.theta + last.rate * ahead;
     }
-    let secant = (last.theta - before.theta) / h;
+    let secant = (last.theta - before.theta) / h; // Newton's divided differences with both slopes.
     let curvature = (last.rate - secant) / h;
     let twist = (last.rate + before.rate - secant * 2.0) / (h * h);
     let square = ahead * ahead;

@@ -111,7 +111,7 @@ impl Found {
             is_verified,
         };
         let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
-        let damped = grid.iter().filter(|_| tangent.components == 3);
+        let damped = grid.iter().filter(|_| tangent.components == 3); // In the plane nothing moves across the sliding.
         let overdamped = damped.map(|mu| overdamped(&followed, *mu)).collect();
         WaveSweep {
             sweep,

@@ -90,7 +90,7 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
     let mut wave = tangent.displacement(x);
     for (dof, u) in wave.iter_mut().enumerate() {
         if dof % components == 1 {
-            *u *= c64::new(0.0, 1.0);
+            *u *= c64::I;
         }
         if is_backward {
             *u = u.conj();
@@ -111,7 +111,7 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
     let phases: Vec<c64> = phases.collect();
     let places = (0..sectors).flat_map(|j| nodes().zip(&tangent.halves).map(move |own| (j, own)));
     let shape = places.flat_map(|(j, (own, half))| {
-        let phase = phases[harmonic * (2 * j + half) % (2 * sectors)];
+        let phase = phases[harmonic * (2 * j + half) % (2 * sectors)]; // e^{i n theta}, theta in halves of a sector.
         own.iter().map(move |v| v * phase)
     });
     shape.collect()

@@ -38,6 +38,7 @@ pub(super) fn bound(
         let more: Result<Vec<Pencil>, CeaError> =
             crate::parallel::map(pencils.len()..=few, |n| pencil(tangent, n));
         pencils.extend(more?);
+        // Each harmonic has two waves of each mode: so many of each are enough to begin with.
         let count = asked.div_ceil(2 * few.max(1)) + 1;
         let found: Vec<Vec<f64>> =
             crate::parallel::map(pencils.iter().enumerate(), |(n, pencil)| {
@@ -117,6 +118,7 @@ pub(super) fn modes_below(
         let found: Result<Vec<Option<AtRest>>, CeaError> =
             crate::parallel::map(own, |own| at_rest(tangent, own, kappa));
         for (n, found) in (n..=last).zip(found?) {
+            // After some empty ones in a row only samples of the rest.
             in_a_row = if found.is_some() { 0 } else { in_a_row + 1 };
             if found.is_none() {
                 empty.push(n);

@@ -29,7 +29,7 @@ impl Pencil {
         let shifts = (0..SHIFTS).map(|k| -LEAST_SHIFT * largest * 8.0_f64.powi(k));
         let found = std::iter::once(0.0).chain(shifts).find_map(|shift| {
             let factor = BandedFactor::new(&stiffness, &mass, shift);
-            let is_held = factor.negative_count() == 0 && factor.is_regular();
+            let is_held = factor.negative_count() == 0 && factor.is_regular(); // By Sylvester's law no eigenvalue lies below.
             is_held.then_some((shift, factor))
         });
         let (shift, factor) = found?;

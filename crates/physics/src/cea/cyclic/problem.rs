@@ -5,13 +5,11 @@ use crate::cea::accuracy::SETTLED;
 use crate::cea::counted::STANDSTILL;
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
-use crate::linalg::vectors::{ZERO, add, dot, largest};
+use crate::linalg::vectors::{add, dot, largest};
 use crate::linalg::{Mat, c64};
 use crate::prestress::{
     FrictionPolynomial, HarmonicTangent, MotionMatrices, MovingHarmonic, evaluate,
 };
-
-pub(super) const I: c64 = c64::new(0.0, 1.0);
 
 /// `T(theta) x = 0` for one harmonic.
 ///
@@ -68,7 +66,8 @@ impl HarmonicProblem {
         let mut damping_rate = own.damping.as_ref().and_then(|c| rate(c, z));
         if let Some(dashpots) = &own.friction_dashpots {
             // Of `mu P`: `P + mu P'`.
-            let sum = damping_rate.get_or_insert_with(|| vec![ZERO; now.matrices.damping.len()]);
+            let sum =
+                damping_rate.get_or_insert_with(|| vec![c64::ZERO; now.matrices.damping.len()]);
             add(sum, &evaluate(dashpots, z));
             for (sum, slope) in sum.iter_mut().zip(rate(dashpots, z).iter().flatten()) {
                 *sum += slope * mu;
@@ -115,9 +114,9 @@ impl HarmonicProblem {
     /// `(a, b)` and their derivatives at `theta`.
     fn factors(&self, theta: c64) -> [c64; 4] {
         if self.is_proportional() {
-            [-theta, ZERO, c64::new(-1.0, 0.0), ZERO]
+            [-theta, c64::ZERO, c64::new(-1.0, 0.0), c64::ZERO]
         } else {
-            [theta * theta, theta, theta + theta, c64::new(1.0, 0.0)]
+            [theta * theta, theta, theta + theta, c64::ONE]
         }
     }
 
@@ -147,7 +146,7 @@ impl HarmonicProblem {
         let (m, k) = (form(&at.now.matrices.mass), form(&at.now.stiffness_at(theta)));
         let Some(damping) = self.damping(at) else { return (k / m, -m) };
         let c = form(damping);
-        let root = (c * c - m * k * 4.0).sqrt();
+        let root = (c * c - m * k * 4.0).sqrt(); // m theta^2 + c theta + k = 0; without damping k - theta m = 0.
         let candidates = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];
         let distance = |candidate: c64| (candidate - theta).norm();
         let nearest = if distance(candidates[0]) <= distance(candidates[1]) { 0 } else { 1 };
@@ -255,11 +254,11 @@ impl HarmonicProblem {
         let full = |values: &[c64]| {
             Mat::from_fn(n, n, |i, j| match i.abs_diff(j) <= h {
                 true => values[i * (2 * h + 1) + j + h - i],
-                false => ZERO,
+                false => c64::ZERO,
             })
         };
         let MotionMatrices { mass, stiffness, .. } = &at.now.matrices;
-        let none = vec![ZERO; mass.len()];
+        let none = vec![c64::ZERO; mass.len()];
         [full(mass), full(self.damping(at).unwrap_or(&none)), full(stiffness)]
     }
 
@@ -302,7 +301,7 @@ impl HarmonicProblem {
     /// `d lambda / d theta`.
     pub fn eigenvalue_slope(&self, theta: c64) -> c64 {
         if !self.is_proportional() {
-            return c64::new(1.0, 0.0);
+            return c64::ONE;
         }
         self.tangent.rayleigh.eigenvalue_slope(self.eigenvalue(theta), theta)
     }
@@ -323,8 +322,8 @@ fn rate(polynomial: &FrictionPolynomial, z: c64) -> Option<Vec<c64>> {
     if polynomial.len() == 1 {
         return None;
     }
-    let mut values = vec![ZERO; polynomial[0].values().len()];
-    let mut factor = I;
+    let mut values = vec![c64::ZERO; polynomial[0].values().len()];
+    let mut factor = c64::I;
     for (power, coefficient) in polynomial.iter().enumerate().skip(1) {
         for (value, v) in values.iter_mut().zip(coefficient.values()) {
             *value += factor * (power as f64 * v);

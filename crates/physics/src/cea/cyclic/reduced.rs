@@ -47,7 +47,7 @@ pub(super) fn follow(
     if tangent.terms.is_lossy() {
         return refined(paths, HarmonicProblem::new(harmonic, false), range);
     }
-    let added = range.highest_friction() * range.margin.sqrt();
+    let added = range.highest_friction() * range.margin.sqrt(); // lambda mu A holds like a spring |lambda| mu A.
     let damped = is_damped.then(|| pencil.stiffened(added, &across.dashpots)).flatten();
     let answering = damped.unwrap_or(pencil);
     let reduction_error = largest_error(&paths, (&reduction, &harmonic, &answering), range.wanted);

@@ -66,7 +66,7 @@ impl Reduction {
         let mut columns: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.1).collect();
         let mut momenta: Vec<Vec<f64>> = columns.iter().map(|x| pencil.mass.multiply(x)).collect();
         for mut x in held.into_iter().map(|mode| mode.1).chain(first).chain(second) {
-            let length = |x: &[f64], p: &[f64]| dot(x, p).sqrt();
+            let length = |x: &[f64], p: &[f64]| dot(x, p).sqrt(); // Gram and Schmidt in the mass product, twice.
             let before = length(&x, &pencil.mass.multiply(&x));
             for _ in 0..2 {
                 for (q, p) in columns.iter().zip(&momenta) {
@@ -165,7 +165,7 @@ impl Reduction {
         };
         let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
         let answers = real.iter().zip(&imaginary).map(|(re, im)| c64::new(*re, *im));
-        let missing: c64 = left.iter().zip(answers).map(|(l, v)| l.conj() * v).sum();
+        let missing: c64 = left.iter().zip(answers).map(|(l, v)| l.conj() * v).sum(); // l^H K^-1 r.
         let slope = vectors::dot(&y, &at.apply_slope(lambda, &x, false));
         (missing / (slope * lambda)).norm()
     }
@@ -221,7 +221,7 @@ fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let mut gram = Mat::zeros(size, size);
     for j in 0..size {
         for i in 0..=j {
-            let energy = dot(&responses[i], &loads[j]) * scale[i] * scale[j];
+            let energy = dot(&responses[i], &loads[j]) * scale[i] * scale[j]; // b_i K^-1 b_j of responses of unit energy.
             (gram[(i, j)], gram[(j, i)]) = (energy, energy);
         }
     }

@@ -8,7 +8,7 @@ use crate::cea::accuracy::BESIDE;
 use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;
-use crate::linalg::vectors::{ZERO, dot};
+use crate::linalg::vectors::dot;
 use crate::prestress::{MotionMatrices, MovingHarmonic, SectorTangent, WaveTangent};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -76,7 +76,7 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
     let mut order: Vec<usize> = (0..pairs.len()).collect();
     let place = |i: usize| (pairs[i].harmonic, pairs[i].friction_coefficient.to_bits());
     order.sort_by_key(|&i| place(i));
-    let mut responses = vec![ZERO; pairs.len()];
+    let mut responses = vec![c64::ZERO; pairs.len()];
     // Where matrices alone change, it is their quotient that has harmonics.
     let sides: Vec<_> = quotient.iter().map(|own| (own.weight, &own.tangent)).collect();
     let is_shifted = quotient.iter().any(|own| own.friction_shift != 0.0);
@@ -108,7 +108,7 @@ impl WavePair {
         if change.matrices.mass.len() != self.right.len() * (2 * h + 1) {
             return None;
         }
-        let changed = dot(&self.left, &change.apply(self.root, &self.right, false));
+        let changed = dot(&self.left, &change.apply(self.root, &self.right, false)); // y^H (lambda^2 dM + lambda dC + dK) x.
         let step = -changed / self.slope;
         let own = self.own_slope.map(|own| own_frequency_step(step, own));
         Some(self.waves.own(own.unwrap_or(step)))
@@ -123,7 +123,7 @@ fn combined(terms: &[(f64, MovingHarmonic)]) -> Option<MovingHarmonic> {
         own.half_bandwidth == half_bandwidth && sizes(&own.matrices) == sizes(matrices)
     };
     let are_alike = terms.iter().all(|(_, own)| is_alike(own));
-    let mut sum = are_alike.then(|| matrices.map(|own| vec![ZERO; own.len()]))?;
+    let mut sum = are_alike.then(|| matrices.map(|own| vec![c64::ZERO; own.len()]))?;
     for (weight, own) in terms {
         for (sum, values) in sum.each_mut().zip(own.matrices.each()) {
             sum.iter_mut().zip(values).for_each(|(sum, v)| *sum += v * *weight);

@@ -220,7 +220,7 @@ mod tests {
     fn motion(value: f64, growth_rate: f64) -> BranchMotion {
         let multipliers = FloquetMultipliers {
             multipliers: vec![FloquetMultiplier {
-                multiplier: c64::new(1.0, 0.0),
+                multiplier: c64::ONE,
                 growth_rate,
                 uncertainty: 1.0,
                 beat_hz: 0.0,

@@ -50,7 +50,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         let seeded = modes.iter().map(|&(number, mode)| {
             let slip = mode.slips(&map).iter().map(|slip| slip.norm()).fold(0.0, f64::max);
             // The shape as it is, and a quarter of a period later.
-            let turned: Vec<c64> = mode.shape.iter().map(|u| u * c64::new(0.0, 1.0)).collect();
+            let turned: Vec<c64> = mode.shape.iter().map(|u| u * c64::I).collect();
             let later = GrowingMode { shape: &turned, ..mode };
             let pattern = |mode: &GrowingMode<'_>| {
                 let mut own = difference(&mode.state(&map, 1.0).motion, &rest.motion);
@@ -94,6 +94,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         let is_alone = self.modes.len() == 1;
         let mut saturation = is_alone.then_some(ratio);
         let (mut share, mut agreeing, mut periods) = (ratio, 0, 0);
+        // Window by window, until enough of them in a row say the same.
         while periods < self.request.periods && agreeing < AGREEING_WINDOWS {
             interruption::check();
             let mut sums = vec![0.0; self.modes.len()];
@@ -109,6 +110,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
                 }
             }
             periods += WINDOW;
+            // Mean amplitude over that of sticking of one mode, the ratio of both of two.
             let looks = (WINDOW * steps / look_every) as f64;
             let before = share;
             share = match is_alone {
@@ -121,7 +123,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             };
             agreeing = if is_end { agreeing + 1 } else { 0 };
         }
-        let limit = if is_alone { LOST } else { 1.0 };
+        let limit = if is_alone { LOST } else { 1.0 }; // Whoever has more in the end has won.
         BasinRun {
             seed_ratio: ratio,
             saturation_ratio: saturation,

@@ -207,7 +207,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
 
     fn search(&mut self, near: &Point, mut guess: Guess, goal: &Goal) -> Result<Point, CycleError> {
         self.weight = near.found.image.vibration;
-        self.secants.aim(goal.weights().map(|by| self.weight * by));
+        self.secants.closure = goal.weights().map(|by| self.weight * by);
         let first = self.map.periods();
         let mut last = Some(Iterate {
             state: near.found.state.clone(),

@@ -1,6 +1,6 @@
 //! Floquet multipliers of a periodic motion.
 
-use super::map::{PeriodMap, PeriodicState};
+use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use crate::cycle::arnoldi::{MultiplierSearch, Ritz, unit};
 use crate::cycle::{CycleError, FloquetMultiplier, FloquetMultipliers, Verdict};
 use crate::linalg::dense::{add, difference, dot, norm};
@@ -29,18 +29,8 @@ impl FloquetMultipliers {
     /// [`CycleError::NotFound`] where they do not.
     pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Result<Self, CycleError> {
         let (first, image) = (map.periods(), map.image(state));
-        let mut change_of = |direction: &[f64], share: f64| {
-            let length = share * image.vibration;
-            let pairs = state.motion.iter().zip(direction);
-            let moved = PeriodicState {
-                motion: pairs.map(|(x, d)| x + length * d).collect(),
-                period: state.period,
-            };
-            let mut change = difference(&map.image(&moved).motion, &image.motion);
-            change.iter_mut().for_each(|value| *value /= length);
-            change
-        };
-        let mut apply = |direction: &[f64]| change_of(direction, PERTURBATION);
+        let mut beside = Beside { map, state, image: &image };
+        let mut apply = |direction: &[f64]| beside.change_of(direction, PERTURBATION);
         let mut noise = GaussianNoise::new(1);
         let start = (0..state.motion.len()).map(|_| noise.draw().re).collect();
         let [reach, least] = NEUTRAL;
@@ -75,27 +65,53 @@ impl FloquetMultipliers {
         let multipliers = found.listed.iter().map(of).collect();
         let mut own = Self { multipliers, shift, periods: 0 };
         if own.verdict() == Verdict::Undecided {
-            // The leading one by what it makes of a perturbation, without the shift in phase; none of the others grows faster.
-            let (mut direction, rate) = (along, unit(image.rate.clone()));
-            let [growth, open] = followed(|length| {
-                let mut next = change_of(&direction, length);
-                let shift = dot(&next, &rate);
-                add(&mut next, -shift, &rate);
-                let growth = norm(&next).ln();
-                direction = unit(next);
-                growth
-            });
-            let turned = c64::from_polar(growth.exp(), own.multipliers[0].multiplier.arg());
-            let leading = FloquetMultiplier::new(turned, state.period, open / state.period);
-            let most = leading.growth_rate + leading.uncertainty;
-            own.multipliers[0] = leading;
-            own.multipliers.retain(|other| other.growth_rate <= most);
-            for other in &mut own.multipliers[1..] {
-                other.uncertainty = other.uncertainty.min(most - other.growth_rate);
-            }
+            own.decide(&mut beside, along);
         }
         own.periods = map.periods() - first;
         Ok(own)
+    }
+
+    /// Takes the leading one by what it makes of a perturbation that begins `along` it, without the shift in phase; none of the others
+    /// grows faster.
+    fn decide(&mut self, beside: &mut Beside<'_, '_>, along: Vec<f64>) {
+        let (mut direction, rate) = (along, unit(beside.image.rate.clone()));
+        let [growth, open] = followed(|length| {
+            let mut next = beside.change_of(&direction, length);
+            let shift = dot(&next, &rate);
+            add(&mut next, -shift, &rate);
+            let growth = norm(&next).ln();
+            direction = unit(next);
+            growth
+        });
+        let period = beside.state.period;
+        let turned = c64::from_polar(growth.exp(), self.multipliers[0].multiplier.arg());
+        let leading = FloquetMultiplier::new(turned, period, open / period);
+        let most = leading.growth_rate + leading.uncertainty;
+        self.multipliers[0] = leading;
+        self.multipliers.retain(|other| other.growth_rate <= most);
+        for other in &mut self.multipliers[1..] {
+            other.uncertainty = other.uncertainty.min(most - other.growth_rate);
+        }
+    }
+}
+
+/// A periodic motion, beside which others begin.
+struct Beside<'m, 'a> {
+    map: &'m mut PeriodMap<'a>,
+    state: &'m PeriodicState,
+    image: &'m PeriodImage,
+}
+
+impl Beside<'_, '_> {
+    /// `(P(x + l d) - P(x)) / l` of a direction `d`, `l` a share of the amplitude.
+    fn change_of(&mut self, direction: &[f64], share: f64) -> Vec<f64> {
+        let length = share * self.image.vibration;
+        let pairs = self.state.motion.iter().zip(direction);
+        let motion = pairs.map(|(x, d)| x + length * d).collect();
+        let moved = PeriodicState { motion, period: self.state.period };
+        let mut change = difference(&self.map.image(&moved).motion, &self.image.motion);
+        change.iter_mut().for_each(|value| *value /= length);
+        change
     }
 }
 

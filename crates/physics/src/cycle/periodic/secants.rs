@@ -102,7 +102,7 @@ pub struct SecantSpace {
     /// Share of a difference that must lie beyond later ones, lest it says nothing new.
     least: f64,
     /// `w` of the closure.
-    closure: [f64; 2],
+    pub closure: [f64; 2],
     /// Latest first, of unit length, each with its products `dr . dr` with itself and, from the next one on, with later ones.
     changes: VecDeque<(Change, Vec<f64>)>,
 }
@@ -132,11 +132,6 @@ impl SecantSpace {
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.changes.clear();
-    }
-
-    /// Gives the closure other weights.
-    pub fn aim(&mut self, closure: [f64; 2]) {
-        self.closure = closure;
     }
 
     /// Adds a difference of iterates with that of their residuals; where there are too many, the oldest goes.

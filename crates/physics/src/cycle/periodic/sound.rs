@@ -116,7 +116,7 @@ impl FlatFace {
         let sources: Vec<c64> = velocity.iter().zip(&self.areas).map(|(v, s)| v * s).collect();
         let mut sum = 0.0;
         for (i, a) in sources.iter().enumerate() {
-            let mut others = c64::new(0.0, 0.0);
+            let mut others = c64::ZERO;
             for (b, place) in sources[..i].iter().zip(&self.places) {
                 let parts = [0, 1, 2].map(|c| (place[c] - self.places[i][c]).powi(2));
                 let phase = wave_number * parts.iter().sum::<f64>().sqrt();
@@ -154,7 +154,8 @@ impl Sound {
             .flat_map(|face| &face.normals)
             .map(|row| row.iter().map(|&(dof, along)| (operator.position(dof), along)).collect());
         let rows: Vec<Vec<(usize, f64)>> = rows.collect();
-        let mut amplitudes = vec![vec![c64::new(0.0, 0.0); rows.len()]; count];
+        let mut amplitudes = vec![vec![c64::ZERO; rows.len()]; count];
+        // a_k = 2 / N sum_n v_n e^{-2 pi i k n / N}: Fourier series of each velocity over the period.
         map.place(state);
         for step in 0..steps {
             if step.is_multiple_of(1000) {

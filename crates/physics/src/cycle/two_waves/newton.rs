@@ -115,6 +115,7 @@ impl TwoWaves {
                 }
             }
             here = next?;
+            // The best so far stays; without progress for some turns that is all there is.
             let is_sound = here.state.frequencies().iter().all(|&omega| omega > 0.0);
             if !here.missed.is_finite() || !is_sound {
                 break;

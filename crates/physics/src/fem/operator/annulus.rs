@@ -23,7 +23,8 @@ impl SectorStencil {
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
         if !annulus.mesh.is_quad4() {
-            return Err(OperatorError::NotQuad4);
+            let problem = "the cyclic operator needs mesh.element = \"quad4\"; use transient.operator = \"sparse\" for other elements";
+            return Err(OperatorError(problem.to_owned()));
         }
         let node_masses = free_masses(&annulus.mesh, material)?;
         let per_sector = annulus.sector_node_count();

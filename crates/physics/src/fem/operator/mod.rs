@@ -41,48 +41,19 @@ impl StepCoefficients {
     }
 }
 
-/// A mesh that an operator cannot represent.
+/// Why an operator cannot represent a mesh, and which one can.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum OperatorError {
-    /// The stencil needs the sectors of an annulus.
-    #[error(
-        "transient.operator = \"cyclic\" needs the symmetry of the built-in annulus, which an imported mesh does not have; \
-         use \"auto\" or \"sparse\""
-    )]
-    NoSymmetry,
-    /// The stencil needs four-node elements.
-    #[error(
-        "the cyclic operator needs mesh.element = \"quad4\"; use transient.operator = \"sparse\" for other elements"
-    )]
-    NotQuad4,
-    /// The sectors of the mesh are not mirror-symmetric copies of one another.
-    #[error(
-        "the cyclic operator needs sectors that are mirror-symmetric copies of one another; the stencils \
-         differ by a fraction of {relative:.1e}: use transient.operator = \"sparse\""
-    )]
-    NotCyclic {
-        /// Largest deviation, relative to the largest coefficient.
-        relative: f64,
-    },
-    /// A sparse matrix is for plane bodies.
-    #[error(
-        "transient.operator = \"sparse\" is for plane bodies; a three-dimensional one takes \"auto\" or \"cyclic\""
-    )]
-    NotPlane,
-    /// Bricks of 20 nodes have no stencil.
-    #[error(
-        "the transient of a three-dimensional body takes bricks of 8 nodes, mesh.element = \"quad4\": a lumped mass of 20 nodes \
-         allows no step worth taking"
-    )]
-    NotBrick8,
-    /// A node has no mass.
-    #[error("node {node} has the lumped mass {mass:e} kg/m; an explicit step needs a positive one")]
-    Massless {
-        /// 1-based node.
-        node: usize,
-        /// Its mass, kg/m.
-        mass: f64,
-    },
+#[error("{0}")]
+pub struct OperatorError(pub(crate) String);
+
+impl OperatorError {
+    /// A node, counted from 0, without mass.
+    fn massless(node: usize, mass: f64) -> Self {
+        let node = node + 1;
+        Self(format!(
+            "node {node} has the lumped mass {mass:e} kg/m; an explicit step needs a positive one"
+        ))
+    }
 }
 
 /// `M^-1 K` with a lumped mass and a clamped outer edge, and the explicit step that uses it.

@@ -16,21 +16,10 @@ pub enum SimdLevel {
     Avx512,
 }
 
-/// An instruction set that cannot be used.
+/// Why an instruction set cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SimdError {
-    /// Not a name.
-    #[error("simd level \"{0}\" is none of auto, scalar, avx2, avx512")]
-    Unknown(String),
-    /// Not on this processor.
-    #[error("this processor does not have {wanted}; the best it has is {best}: choose --simd auto")]
-    Unavailable {
-        /// Asked for.
-        wanted: SimdLevel,
-        /// Best available.
-        best: SimdLevel,
-    },
-}
+#[error("{0}")]
+pub struct SimdError(String);
 
 impl SimdLevel {
     /// Best level of this processor.
@@ -54,10 +43,15 @@ impl SimdLevel {
     /// The level if this processor has it.
     ///
     /// # Errors
-    /// [`SimdError::Unavailable`] if it has not.
+    /// [`SimdError`] if it has not.
     pub fn available(self) -> Result<Self, SimdError> {
         let best = Self::detect();
-        if self <= best { Ok(self) } else { Err(SimdError::Unavailable { wanted: self, best }) }
+        match self <= best {
+            true => Ok(self),
+            false => Err(SimdError(format!(
+                "this processor does not have {self}; the best it has is {best}: choose --simd auto"
+            ))),
+        }
     }
 
     /// Level of a name: `auto` (the best this processor has), `scalar`, `avx2`, `avx512`.
@@ -89,6 +83,8 @@ impl FromStr for SimdLevel {
         [Self::Scalar, Self::Avx2, Self::Avx512]
             .into_iter()
             .find(|level| level.to_string() == name)
-            .ok_or_else(|| SimdError::Unknown(name.to_string()))
+            .ok_or_else(|| {
+                SimdError(format!("simd level \"{name}\" is none of auto, scalar, avx2, avx512"))
+            })
     }
 }

@@ -21,7 +21,9 @@ impl SectorStencil {
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
         if sector.is_quadratic() {
-            return Err(OperatorError::NotBrick8);
+            let problem = "the transient of a three-dimensional body takes bricks of 8 nodes, mesh.element = \"quad4\": a lumped mass of \
+                           20 nodes allows no step worth taking";
+            return Err(OperatorError(problem.to_owned()));
         }
         let per_sector = sector.node_count();
         let layout = LineLayout::new(3, sector.sector_count(), per_sector);

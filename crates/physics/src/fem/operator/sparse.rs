@@ -59,7 +59,7 @@ impl<const D: usize> SparseOperator<D> {
     /// [`super::SimdLevel::available`] must have accepted `simd`; a level that the processor lacks falls back to the best it has.
     ///
     /// # Errors
-    /// [`OperatorError::Massless`] for a dof with stiffness whose mass is not positive.
+    /// [`OperatorError`] for a dof with stiffness whose mass is not positive.
     pub fn new(
         stiffness: &Triplets,
         masses: Vec<f64>,
@@ -129,8 +129,7 @@ fn node_blocks<const D: usize>(
             continue;
         }
         if !(masses[row] > 0.0) {
-            let (node, mass) = (row / D + 1, masses[row]);
-            return Err(OperatorError::Massless { node, mass });
+            return Err(OperatorError::massless(row / D, masses[row]));
         }
         let (own, other) = (&mut rows[row / D], (column / D) as u32);
         let at = match own.binary_search_by_key(&other, |block| block.0) {
@@ -160,8 +159,7 @@ pub(super) fn free_masses(
 ) -> Result<Vec<f64>, OperatorError> {
     let mut masses = lumped_masses(mesh, material);
     if let Some((node, &mass)) = masses.iter().enumerate().find(|(_, mass)| !(**mass > 0.0)) {
-        let node = node + 1;
-        return Err(OperatorError::Massless { node, mass });
+        return Err(OperatorError::massless(node, mass));
     }
     for boundary in &mesh.boundaries {
         if boundary.condition == BoundaryCondition::Clamped {

@@ -104,7 +104,7 @@ pub(super) type Blocks<const D: usize> = [[[f64; D]; D]; 3];
 /// at least.
 ///
 /// # Errors
-/// [`OperatorError::NotCyclic`] where they are not their own mirror images, even or odd.
+/// [`OperatorError`] where they are not their own mirror images, even or odd.
 pub(super) fn sector_blocks<const D: usize>(
     mesh: &Mesh,
     material: &dyn MaterialField,
@@ -135,7 +135,10 @@ pub(super) fn sector_blocks<const D: usize>(
     }
     // Assembly order leaves a few units of round-off; anything more is no sector.
     match worst / largest {
-        relative if relative > 1e-11 => Err(OperatorError::NotCyclic { relative }),
+        relative if relative > 1e-11 => Err(OperatorError(format!(
+            "the cyclic operator needs sectors that are mirror-symmetric copies of one another; the stencils differ by a fraction of \
+             {relative:.1e}: use transient.operator = \"sparse\""
+        ))),
         _ => Ok(blocks),
     }
 }

@@ -34,19 +34,11 @@ impl Account {
         if TANGENTS > 1 {
             power += across * mean[2];
         }
+        *counts += status;
         match status {
-            ContactStatus::Open => {
-                counts.open += 1;
-                return;
-            }
-            ContactStatus::Stick => {
-                counts.stick += 1;
-                powers.stick += power;
-            }
-            ContactStatus::Slip => {
-                counts.slip += 1;
-                powers.slide += power;
-            }
+            ContactStatus::Open => return,
+            ContactStatus::Stick => powers.stick += power,
+            ContactStatus::Slip => powers.slide += power,
         }
         // (9) and (10).
         let external = along * point.speed;

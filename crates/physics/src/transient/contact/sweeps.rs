@@ -69,7 +69,7 @@ impl LagrangeContact {
         let mut first = 0;
         for surfaces in &mut self.surfaces {
             for (place, i) in surfaces.points.clone().enumerate() {
-                let mut rows: [&[(u32, f64)]; 3] = [&[]; 3];
+                let mut rows: [&[(u32, f64)]; 3] = [&[]; 3]; // Rows of the point: along its normal and its tangents.
                 for entries in &mut rows[..=TANGENTS] {
                     *entries = &self.entries[first..self.ends[row]];
                     first = self.ends[row];

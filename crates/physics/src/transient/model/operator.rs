@@ -18,6 +18,12 @@ impl TransientModel<'_> {
         choice: OperatorChoice,
         simd: SimdLevel,
     ) -> Result<Box<dyn StiffnessOperator>, TransientError> {
+        let refused = |problem: &str| OperatorError(format!("transient.operator = {problem}"));
+        let no_symmetry = || {
+            refused(
+                "\"cyclic\" needs the symmetry of the built-in annulus, which an imported mesh does not have; use \"auto\" or \"sparse\"",
+            )
+        };
         match (self.body, choice) {
             (SteppedBody::Plane { mesh, annulus }, _) => {
                 let is_cyclic = match choice {
@@ -28,18 +34,17 @@ impl TransientModel<'_> {
                 if !is_cyclic {
                     return Ok(Box::new(SparseOperator::assemble(mesh, self.material, simd)?));
                 }
-                let annulus = annulus.ok_or(OperatorError::NoSymmetry)?;
+                let annulus = annulus.ok_or_else(no_symmetry)?;
                 Ok(Box::new(SectorStencil::of_annulus(annulus, self.material, simd)?))
             }
             (SteppedBody::Revolution { .. }, OperatorChoice::Sparse) => {
-                Err(OperatorError::NotPlane.into())
+                let problem = "\"sparse\" is for plane bodies; a three-dimensional one takes \"auto\" or \"cyclic\"";
+                Err(refused(problem).into())
             }
             (SteppedBody::Revolution { sector, .. }, _) => {
                 Ok(Box::new(SectorStencil::of_revolution(sector, self.material, simd)?))
             }
-            (SteppedBody::Assembly { .. }, OperatorChoice::Cyclic) => {
-                Err(OperatorError::NoSymmetry.into())
-            }
+            (SteppedBody::Assembly { .. }, OperatorChoice::Cyclic) => Err(no_symmetry().into()),
             (SteppedBody::Assembly { assembly, .. }, _) => Ok(Box::new(assembled(assembly, simd)?)),
         }
     }
