@@ -79,7 +79,7 @@ pub(super) fn instabilities<B: BranchSolver>(
     let mut search = Search { solver };
     let mut found: Vec<Instability<B::State>> = Vec::new();
     let Some(first) = states.first() else { return Ok(found) };
-    let mut was_growing = search.is_growing(first) || search.grows_from_zero(first);
+    let mut was_growing = search.is_growing(first) || search.grows_from_zero(first); // An interval that is open from the first state on.
     if was_growing {
         let onset = first.clone();
         found.push(Instability {
@@ -111,7 +111,7 @@ pub(super) fn instabilities<B: BranchSolver>(
                         crosses: !is_neutral,
                     }),
                 }
-                was_growing = !was_growing;
+                was_growing = !was_growing; // What comes next is looked at from there.
             }
             start = end;
         }

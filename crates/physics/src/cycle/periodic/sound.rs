@@ -146,7 +146,7 @@ impl Sound {
     /// Sound of the period that begins with `state`: the sum of what each face radiates, harmonic by harmonic up to 20 kHz.
     pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState, faces: &[FlatFace]) -> Self {
         let steps = map.steps();
-        let audible = (AUDIBLE * state.period) as usize;
+        let audible = (AUDIBLE * state.period) as usize; // Harmonics that are heard, no more than the steps resolve.
         let count = audible.clamp(1, MOST_HARMONICS).min((steps - 1) / 2);
         let operator = map.run.operator();
         let rows = faces
@@ -181,7 +181,7 @@ impl Sound {
             });
             of_faces.sum()
         });
-        let harmonics_w: Vec<f64> = powers.collect();
+        let harmonics_w: Vec<f64> = powers.collect(); // What all faces radiate at each of them.
         let power_w: f64 = harmonics_w.iter().sum();
         Self {
             power_w,
