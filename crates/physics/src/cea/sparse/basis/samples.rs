@@ -104,13 +104,11 @@ impl BasisBuilder<'_> {
     }
 
     /// Lets all motions of the body stand for the sample at `mu`.
-    pub fn hold_all(&mut self, mu: f64) -> Result<(), LinalgError> {
+    pub fn hold_all(&mut self, mu: f64) {
         let unknowns = self.tangent.stiffness.dimension();
-        let all = self.step(mu, |_| Ok::<_, LinalgError>(Mat::identity(unknowns, unknowns)))?;
-        self.model.extend(all.clone(), ROUND_OFF);
         self.begin_sample(mu);
-        self.model.hold_sample(mu, &all);
-        Ok(())
+        self.take(mu, &Mat::identity(unknowns, unknowns));
+        self.steps += 1;
     }
 
     /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the

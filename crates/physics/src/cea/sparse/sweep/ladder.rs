@@ -108,7 +108,7 @@ impl SparseSweep<'_> {
                     self.builder.shift(mu, &open);
                 }
             }
-            Rung::Whole => self.builder.hold_all(mu)?,
+            Rung::Whole => self.builder.hold_all(mu),
             Rung::Spent => {}
         }
         Ok(())
