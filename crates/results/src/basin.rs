@@ -106,7 +106,7 @@ impl BasinSummary {
             ),
             (None, Some(low), Some(high)) => format!(
                 "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to \
-                 {high:.3} of the one that makes a contact node stick"
+                 {high:.3} of the one that makes a contact node stick. Other phases have other bounds"
             ),
             _ => {
                 format!("every kick along {name} looked at tips steady sliding into a limit cycle")
