@@ -105,8 +105,8 @@ impl BasinSummary {
                  between: narrow basin.seed_ratio_from and basin.seed_ratio_to"
             ),
             (None, Some(low), Some(high)) => format!(
-                "a kick along {name}, at one phase of it, tips steady sliding into a limit cycle from \
-                 {low:.3} to {high:.3} of the one that makes a contact node stick"
+                "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to \
+                 {high:.3} of the one that makes a contact node stick. Other phases have other bounds"
             ),
             _ => {
                 format!("every kick along {name} looked at tips steady sliding into a limit cycle")

@@ -102,16 +102,8 @@ impl<'a> BasisBuilder<'a> {
         self.family.get_or_init(analyse).as_ref().map_err(Clone::clone)
     }
 
-    /// The columns of the next step at `mu`: those that an earlier run of the same sweep found, else those that `find` does.
-    fn step<E: Send>(
-        &mut self,
-        mu: f64,
-        find: impl Fn(&Self) -> Result<Mat<f64>, E> + Sync,
-    ) -> Result<Mat<f64>, E> {
-        Ok(self.steps(&[mu], |builder, _| find(builder))?.swap_remove(0))
-    }
-
-    /// Those of the next steps, one at each of `values`, side by side: none needs what another one finds. To `find` they are told by place.
+    /// The columns of the next steps, one at each of `values`, side by side: those that an earlier run of the same sweep found, else those
+    /// that `find` does, which is told their place. None needs what another one finds.
     fn steps<E: Send>(
         &mut self,
         values: &[f64],
@@ -178,8 +170,8 @@ impl<'a> BasisBuilder<'a> {
             self.model.drop_sample(mu);
         }
         let count = self.leading_count() + extra;
-        let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, None))?;
-        self.take(mu, &vectors);
+        let found = self.steps(&[mu], |own, _| own.dominant_vectors(mu, count, None))?;
+        self.take(mu, &found[0]);
         Ok(())
     }
 

@@ -164,15 +164,11 @@ impl BasisBuilder<'_> {
     /// What `x` has of another mode, with the eigenvalue `nu`, a correction takes away down to `|sigma - lambda| / |sigma - nu|`: factors
     /// that hold friction, damping, losses and tables, and lie beside the mode, leave a hundredth or less.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> bool {
-        self.corrected(&[mu], |builder, _| builder.shifted_corrections(mu, modes, &[false]))
+        self.correct(&[mu], |builder, _| builder.shifted_corrections(mu, modes, &[false]))
     }
 
     /// Takes up the corrections of modes at `values` that `find` has, told by place; whether the basis grew.
-    fn corrected(
-        &mut self,
-        values: &[f64],
-        find: impl Fn(&Self, usize) -> Mat<f64> + Sync,
-    ) -> bool {
+    fn correct(&mut self, values: &[f64], find: impl Fn(&Self, usize) -> Mat<f64> + Sync) -> bool {
         let Ok(found) = self.steps(values, |own, i| Ok::<_, Infallible>(find(own, i)));
         let none = Mat::zeros(self.tangent.stiffness.dimension(), 0);
         let all = found.iter().fold(none, |all, own| join_columns(all.as_ref(), own.as_ref()));
@@ -191,7 +187,7 @@ impl BasisBuilder<'_> {
     /// next to nothing and leave more; whether the basis grew.
     pub fn correct_both(&mut self, states: &[ModeAt], is_at_rest: bool) -> bool {
         let values: Vec<f64> = states.iter().map(|state| state.mu).collect();
-        self.corrected(&values, |builder, i| {
+        self.correct(&values, |builder, i| {
             let (ModeAt { mu, mode }, sides) = (&states[i], [false, true]);
             if !is_at_rest {
                 return builder.shifted_corrections(*mu, std::slice::from_ref(mode), &sides);
@@ -274,8 +270,8 @@ impl BasisBuilder<'_> {
 
     /// Adds the corrections of `modes`, those at a sampled `mu` or nearly so, to the basis and to the sample; whether there were any.
     pub fn refine_modes(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        let mut corrections =
-            self.step(mu, |builder| Ok::<_, LinalgError>(builder.corrections(modes, mu)))?;
+        let find = |builder: &Self, _| Ok::<_, LinalgError>(builder.corrections(modes, mu));
+        let mut corrections = self.steps(&[mu], find)?.swap_remove(0);
         scale_to_unit_length(&mut corrections);
         let has_any = corrections.ncols() > 0;
         if has_any {
