@@ -31,7 +31,7 @@ pub enum LinalgError {
     },
     /// A dense eigenvalue decomposition did not converge.
     #[error(
-        "the dense eigenvalue decomposition of a {dimension} x {dimension} matrix did not converge"
+        "the dense eigenvalue decomposition of a {dimension} x {dimension} matrix did not converge, or it is not finite"
     )]
     DenseEigen {
         /// Size of the matrix.
