@@ -61,7 +61,8 @@ fn sliders() -> impl Strategy<Value = Slider> {
                 loss_factor,
                 friction,
                 speed,
-                modes,
+                // The coarsest plane mesh has 18 unknowns.
+                modes: modes.min(18),
             }
         },
     )
@@ -204,13 +205,14 @@ fn bodies_that_slide_have_every_mode_below_half_of_critical_damping() {
     holds_for_all(11, &sliders(), |slider| check(&slider, false));
 }
 
-/// Draws bodies, always the same of a seed, and holds each to a check.
+/// Draws bodies, always the same of a seed (`FRICTIONSIM_SEED` gives another one), and holds each to a check.
 pub fn holds_for_all<S: Strategy>(
     seed: u8,
     bodies: &S,
     check: impl Fn(S::Value) -> Result<(), TestCaseError>,
 ) {
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
+    let given = std::env::var("FRICTIONSIM_SEED").map(|own| own.parse().expect("0 to 255"));
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[given.unwrap_or(seed); 32]);
     let config = Config { cases: sized(12, 200), failure_persistence: None, ..Config::default() };
     let outcome = TestRunner::new_with_rng(config, rng).run(bodies, check);
     outcome.unwrap_or_else(|error| panic!("{error}"));
