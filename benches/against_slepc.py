@@ -49,6 +49,9 @@ BODIES = {
     "brake": ("brake", []),
     "brake-twelve-values": ("brake", ["cea.friction_coefficients={ from = 0.0, to = 0.55, count = 12 }"]),
     "tread-block": ("tread-block", []),
+    "ventilated-disc": ("ventilated-disc", []),
+    "ventilated-twenty-one-values": ("ventilated-disc",
+                                     ["cea.friction_coefficients={ from = 0.0, to = 0.6, count = 21 }"]),
 }
 PACKAGES = ("petsc", "mumps", "superlu", "umfpack")
 

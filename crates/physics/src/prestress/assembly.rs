@@ -1,7 +1,6 @@
 //! Bodies of one mesh that slide: on each other or on a counterface, solid ones tied together.
 
-use super::elimination::Elimination;
-use super::factors::factorized;
+use super::elimination::{Elimination, factorized};
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;

@@ -3,7 +3,7 @@
 use super::{PrestressError, Result};
 use crate::contact::{Point, Row, scaled, summed};
 use crate::fem::{DofMap, Triplets};
-use crate::linalg::FrictionWeights;
+use crate::linalg::{FrictionWeights, LuAnalysis, MatrixPolynomial, SparseLu};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -244,6 +244,22 @@ impl Elimination {
         let problem = "contact holds nodes that are already held or tied: leave one of the conditions out there";
         self.take(row).ok_or_else(|| PrestressError::Asked(problem.to_owned()))
     }
+}
+
+/// Factors of a stiffness over the unknowns.
+///
+/// # Errors
+/// [`PrestressError::Singular`] unless it is positive definite.
+pub(super) fn factorized(stiffness: &Triplets, unknowns: &DofMap) -> Result<SparseLu> {
+    let place = |dof: usize| unknowns.unknown_of[dof];
+    let entries = stiffness.entries.iter();
+    let kept =
+        entries.filter_map(|&(row, column, value)| Some((place(row)?, place(column)?, value)));
+    let matrix = MatrixPolynomial::from_triplets(unknowns.len(), &[kept.collect()]);
+    let analysis = LuAnalysis::new(matrix.pattern());
+    let factors = analysis.and_then(|own| SparseLu::symmetric(&own, matrix.evaluate(0.0)));
+    let definite = factors.ok().filter(|own| own.negative_count() == 0);
+    definite.ok_or(PrestressError::Singular)
 }
 
 #[cfg(test)]

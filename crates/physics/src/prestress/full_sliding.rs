@@ -1,7 +1,6 @@
 //! Steady sliding of a body whose contact is pressed all around: its normal forces do not depend on friction.
 
-use super::elimination::Elimination;
-use super::factors::factorized;
+use super::elimination::{Elimination, factorized};
 use super::penalty::PenaltyContact;
 use super::pressed_state::{PressedBodies, Pressing};
 use super::{PrestressError, Result};

@@ -1,7 +1,7 @@
 //! Bodies over their unknowns, with springs at their contact points.
 
 use super::Result;
-use super::factors::factorized;
+use super::elimination::factorized;
 use super::pressed_state::{ContactState, Pressing};
 use crate::contact::{Row, scaled};
 use crate::fem::{DofMap, Triplets};

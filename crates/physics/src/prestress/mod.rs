@@ -13,7 +13,6 @@ mod condensed;
 mod cyclic_pressing;
 mod elimination;
 mod error;
-mod factors;
 mod friction_polynomial;
 mod frozen;
 mod full_sliding;

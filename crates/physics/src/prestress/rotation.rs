@@ -1,7 +1,6 @@
 //! Rotation of regions of an assembly.
 
-use super::elimination::Elimination;
-use super::factors::factorized;
+use super::elimination::{Elimination, factorized};
 use super::{PrestressError, Result};
 use crate::contact::Motion;
 use crate::fem::{

@@ -3,7 +3,7 @@
 use super::basis::scale_to_unit_length;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
-use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS, NEAR};
+use super::{CONVERGED, GUARD_MODES, HALF_THE_DIGITS, LOSSY_GUARD, MOST_ATTEMPTS, NEAR, ROUND_OFF};
 use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
@@ -77,12 +77,20 @@ impl FrictionlessModes {
         limit: ModeLimit,
     ) -> Result<Self, CeaError> {
         let unknowns = tangent.stiffness.dimension();
+        // Between slower motions K - sigma M is singular to working precision: nothing is counted there.
+        let least = ROUND_OFF * inertia.largest_ratio();
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
         let (below, mut shift) = match limit {
             // The first guess serves modes far below the largest eigenvalue of the mesh.
             ModeLimit::Lowest(count) => (count, SHIFT * NEAR * inertia.largest_ratio()),
             ModeLimit::MaxFrequency(hz) => {
-                (inertia.bound_below(tangent, TAU * hz)?, SHIFT * (TAU * hz).powi(2))
+                let omega = TAU * hz;
+                let above =
+                    [0.0, 1.0, 10.0, 100.0].map(|share| omega.hypot((share * least).sqrt()));
+                let below =
+                    above.into_iter().find_map(|own| inertia.bound_below(tangent, own).ok());
+                let below = below.map_or_else(|| inertia.bound_below(tangent, omega), Ok)?;
+                (below, SHIFT * omega.powi(2))
             }
         };
         // One mode above tells that none below a frequency is missing under friction, and whether the next one grows.
@@ -114,7 +122,12 @@ impl FrictionlessModes {
             // The cut, in a gap, and the proof that none is missing below it.
             let mut kept = elastic;
             if request < unknowns {
-                kept = widest_gap(&frequencies, (wanted + beyond).min(elastic - 1));
+                let slow = frequencies.partition_point(|own| own * own < least);
+                if slow == elastic {
+                    extra += BLOCK;
+                    continue;
+                }
+                kept = widest_gap(&frequencies, (wanted + beyond).max(slow).min(elastic - 1));
                 let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
                 let counted = inertia.count_below(middle)?;
                 if counted != kept + rigid {
@@ -126,7 +139,7 @@ impl FrictionlessModes {
                     continue;
                 }
             }
-            let centre = found.centre(kept + rigid);
+            let centre = found.centre(kept + rigid, least);
             let factors = inertia.factors(&frequencies[..kept], centre.shift.powi(2))?;
             return Ok(Self {
                 vectors: found.vectors.get(.., ..rigid + kept).to_owned(),
@@ -182,11 +195,16 @@ struct Lowest {
 }
 
 impl Lowest {
-    /// Where eigenproblems of the `count` leading motions are centred: at zero where the body is held stiffly.
-    fn centre(&self, count: usize) -> Centre {
+    /// Where eigenproblems of the `count` leading motions are centred: at zero where the body is held stiffly, and elsewhere so that
+    /// `c^2` is not below the `least` that leaves regular factors.
+    fn centre(&self, count: usize, least: f64) -> Centre {
         let highest = self.kappas[count - 1].max(0.0);
-        let is_stiff = self.rigid == 0 && self.kappas[0] > STIFFLY_HELD * highest;
-        let shift = if is_stiff { 0.0 } else { (SHIFT * highest).sqrt() };
+        let is_stiff = self.rigid == 0 && self.kappas[0] > (STIFFLY_HELD * highest).max(least);
+        // Beside c^2 the slowest keep a few digits; the highest may lose as many.
+        let is_slow = |own: &f64| (0.0..HALF_THE_DIGITS * SHIFT * highest).contains(own);
+        let has_slow = self.kappas[self.rigid..].iter().any(is_slow);
+        let share = if has_slow { SHIFT * SHIFT } else { SHIFT };
+        let shift = if is_stiff { 0.0 } else { (share * highest).max(least).sqrt() };
         let rigid = if self.rigid == 0 { 0.0 } else { self.rounding.sqrt() };
         Centre { shift, rigid }
     }

@@ -40,19 +40,6 @@ impl<'a> FullProblem<'a> {
         self.pattern.dimension()
     }
 
-    /// `T(lambda) x` or, of a left vector, `T(lambda)^T x`.
-    pub fn residual(&self, lambda: c64, x: &[c64], is_left: bool) -> Vec<c64> {
-        let pencil = self.values.at(lambda);
-        let mut residual = vec![c64::new(0.0, 0.0); self.dimension()];
-        for j in 0..self.dimension() {
-            for (at, i) in self.pattern.column(j) {
-                let (to, from) = if is_left { (j, i) } else { (i, j) };
-                residual[to] += pencil[at] * x[from];
-            }
-        }
-        residual
-    }
-
     fn analysis(&self) -> Result<&LuAnalysis, LinalgError> {
         let analyse = || LuAnalysis::new(self.pattern);
         self.analysis.get_or_init(analyse).as_ref().map_err(Clone::clone)

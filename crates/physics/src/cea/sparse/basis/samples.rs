@@ -5,12 +5,12 @@ use crate::cea::CeaError;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::packed::{PackedModes, joined, side_by_side};
+use crate::cea::sparse::packed::{PackedModes, side_by_side};
+use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{
     BESIDE, CHANGE_PLACES, MOST_ATTEMPTS, RESIDUAL_BOUND, ROUND_OFF, SETTLED,
 };
 use crate::linalg::dense::join_columns;
-use crate::linalg::vectors::length;
 use crate::linalg::{LinalgError, Mat, c64};
 use std::convert::Infallible;
 
@@ -192,23 +192,25 @@ impl BasisBuilder<'_> {
             if !is_at_rest {
                 return builder.shifted_corrections(*mu, std::slice::from_ref(mode), &sides);
             }
-            let problem = FullProblem::at(builder.tangent, *mu);
-            let residuals = sides.map(|is_left| builder.residual(&problem, mode, is_left));
-            let mut parts = side_by_side(problem.dimension(), &residuals);
+            let both = sides.map(|is_left| builder.residuals((*mu, is_left), &[mode])).concat();
+            let mut parts = side_by_side(builder.tangent.stiffness.dimension(), &both);
             builder.factors.solve_in_place(parts.as_mut());
             turn_to_real(&mut parts);
             parts
         })
     }
 
-    /// `T(lambda) x` of the right vector of a mode, or `T(lambda)^T w` of the left one, of unit length.
-    fn residual(&self, problem: &FullProblem<'_>, mode: &ReducedMode, is_left: bool) -> Vec<c64> {
-        let own =
-            side_by_side(self.model.dimension(), &[if is_left { &mode.left } else { &mode.right }]);
-        let mut x = joined(&self.model.expand(own.as_ref()), 0);
-        let size = length(&x);
-        x.iter_mut().for_each(|v| *v /= size);
-        problem.residual(mode.eigenvalue, &x, is_left)
+    /// `T(lambda) x` of the right vectors of modes at `mu`, or `T(lambda)^T w` of the left ones; of proportional damping but for a factor.
+    fn residuals(&self, (mu, is_left): (f64, bool), modes: &[&ReducedMode]) -> Vec<Vec<c64>> {
+        let own = |mode: &&ReducedMode| {
+            let vector = if is_left { &mode.left } else { &mode.right };
+            (self.linearization.inverse_value(mode.eigenvalue), vector.clone())
+        };
+        let matrices = StructureMatrices::of_side(self.tangent, self.linearization, (mu, is_left));
+        let packed = PackedModes::of_vectors(self.model.dimension(), modes.iter().map(own));
+        let x = self.model.expand(packed.coordinates.as_ref());
+        let (residuals, _) = matrices.residuals_and_momenta(&packed.entries, x.as_ref());
+        packed.entries.iter().map(|entry| entry.joined(&residuals)).collect()
     }
 
     /// The corrections of [`Self::shift`], two real columns each, of right vectors (`false`) and of left ones where `sides` has them.
@@ -226,8 +228,7 @@ impl BasisBuilder<'_> {
             let beside = own[own.len() / 2].eigenvalue * (1.0 + BESIDE);
             let Ok(factors) = problem.factors(beside) else { return none() };
             let of_side = |is_left: bool| {
-                let residual = |mode: &&ReducedMode| self.residual(&problem, mode, is_left);
-                let residuals: Vec<Vec<c64>> = own.iter().map(residual).collect();
+                let residuals = self.residuals((mu, is_left), own);
                 let mut x = Mat::from_fn(unknowns, own.len(), |i, j| residuals[j][i]);
                 match is_left {
                     true => factors.solve_transpose_in_place(x.as_mut()),
