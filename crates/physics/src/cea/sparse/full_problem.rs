@@ -47,7 +47,7 @@ impl<'a> FullProblem<'a> {
         for j in 0..self.dimension() {
             for (at, i) in self.pattern.column(j) {
                 let (to, from) = if is_left { (j, i) } else { (i, j) };
-                residual[to] += pencil[at] * x[from];
+                residual[to] += pencil[at] * x[from]; // T_ij, at row i of column j.
             }
         }
         residual
@@ -89,6 +89,6 @@ impl<'a> FullProblem<'a> {
 
 /// `w^T P x` of a matrix with these nonzero `values`.
 pub fn form(pattern: &SparsityPattern, values: &[f64], w: &[c64], x: &[c64]) -> c64 {
-    let along = |j: usize| -> c64 { pattern.column(j).map(|(at, i)| w[i] * values[at]).sum() };
+    let along = |j: usize| -> c64 { pattern.column(j).map(|(at, i)| w[i] * values[at]).sum() }; // sum_i w_i P_ij.
     (0..pattern.dimension()).map(|j| along(j) * x[j]).sum()
 }
