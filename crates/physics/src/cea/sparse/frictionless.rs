@@ -92,7 +92,7 @@ impl FrictionlessModes {
             let request = (below.max(1) + beyond + GUARD_MODES + extra).min(unknowns);
             let found = inertia.lowest(request, &mut shift)?;
             let rigid = found.rigid;
-            let displaced = found.unheld + overdamped(tangent, &found);
+            let displaced = found.unheld + overdamped(tangent, &found); // These do not oscillate.
             let wanted = match limit {
                 ModeLimit::Lowest(asked) if asked > unknowns - rigid => {
                     return Err(CeaError::too_many_modes(asked, unknowns - rigid));
@@ -100,8 +100,7 @@ impl FrictionlessModes {
                 ModeLimit::Lowest(count) => (count + displaced).min(unknowns - rigid),
                 ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
             };
-            // Rigid motions took places of modes.
-            let elastic = request - rigid;
+            let elastic = request - rigid; // Rigid motions took places of modes.
             if elastic < (wanted.max(1) + beyond + 1).min(unknowns - rigid) {
                 extra += rigid + displaced + 1;
                 continue;
@@ -111,8 +110,7 @@ impl FrictionlessModes {
             if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
                 return Err(CeaError::NoModes { limit_hz, lowest_hz: frequencies[0] / TAU });
             }
-            // The cut, in a gap, and the proof that none is missing below it.
-            let mut kept = elastic;
+            let mut kept = elastic; // The cut, in a gap, and the proof that none is missing below it.
             if request < unknowns {
                 kept = widest_gap(&frequencies, (wanted + beyond).min(elastic - 1));
                 let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
@@ -126,15 +124,7 @@ impl FrictionlessModes {
                     continue;
                 }
             }
-            let centre = found.centre(kept + rigid);
-            let factors = inertia.factors(&frequencies[..kept], centre.shift.powi(2))?;
-            return Ok(Self {
-                vectors: found.vectors.get(.., ..rigid + kept).to_owned(),
-                rigid,
-                frequencies: frequencies[..kept].to_vec(),
-                centre,
-                factors,
-            });
+            return Ok(found.modes(inertia, frequencies, kept)?);
         }
     }
 }
@@ -153,7 +143,7 @@ fn overdamped(tangent: &SlidingTangent, found: &Lowest) -> usize {
     let is_overdamped = |j: &usize| {
         let x = found.vectors.get(.., *j..*j + 1);
         let [damping, inertia] = [&tangent.damping, &tangent.mass].map(|own| form(own, x));
-        damping >= 2.0 * found.kappas[*j].max(0.0).sqrt() * inertia
+        damping >= 2.0 * found.kappas[*j].max(0.0).sqrt() * inertia // x^T K x = kappa x^T M x.
     };
     leading.take_while(is_overdamped).count()
 }
@@ -186,9 +176,23 @@ impl Lowest {
     fn centre(&self, count: usize) -> Centre {
         let highest = self.kappas[count - 1].max(0.0);
         let is_stiff = self.rigid == 0 && self.kappas[0] > STIFFLY_HELD * highest;
-        let shift = if is_stiff { 0.0 } else { (SHIFT * highest).sqrt() };
+        let shift = if is_stiff { 0.0 } else { (SHIFT * highest).sqrt() }; // c^2 is that share of the highest kappa.
         let rigid = if self.rigid == 0 { 0.0 } else { self.rounding.sqrt() };
         Centre { shift, rigid }
+    }
+
+    /// The rigid motions and, of these angular frequencies, the first `kept` modes, with factors amid them.
+    fn modes(
+        self,
+        inertia: &Inertia<'_>,
+        mut frequencies: Vec<f64>,
+        kept: usize,
+    ) -> Result<FrictionlessModes, LinalgError> {
+        frequencies.truncate(kept);
+        let (rigid, centre) = (self.rigid, self.centre(self.rigid + kept));
+        let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
+        let vectors = self.vectors.get(.., ..rigid + kept).to_owned();
+        Ok(FrictionlessModes { vectors, rigid, frequencies, centre, factors })
     }
 }
 
@@ -206,7 +210,7 @@ impl BlockOperator for ShiftedPencil<'_> {
 
     fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
         let mut images = self.mass_times(x);
-        self.factors.solve_in_place(images.as_mut());
+        self.factors.solve_in_place(images.as_mut()); // (K + c^2 M)^-1 M x.
         images
     }
 }
@@ -225,7 +229,7 @@ fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
         own => own / frequencies[i - 1],
     };
     (wanted.max(1)..frequencies.len())
-        .max_by(|&i, &j| gap(i).total_cmp(&gap(j)).then(j.cmp(&i)))
+        .max_by(|&i, &j| gap(i).total_cmp(&gap(j)).then(j.cmp(&i))) // Of equal gaps the first.
         .unwrap_or(frequencies.len())
 }
 
@@ -233,7 +237,7 @@ fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
 /// so dense there that `K - sigma M` would be nearly singular: factors at a pair of equal ones magnify round-off by all digits.
 fn frequency_amid(frequencies: &[f64]) -> Option<f64> {
     let highest = frequencies.last()?;
-    let [least, most] = [0.4_f64, 0.65].map(|part| part.sqrt() * highest);
+    let [least, most] = [0.4_f64, 0.65].map(|part| part.sqrt() * highest); // omega^2 from 0.4 to 0.65 of the highest.
     let gaps = frequencies.windows(2).map(|pair| {
         let place = (0.5 * (pair[0] + pair[1])).clamp(least, most);
         // Negative where the whole gap lies elsewhere.
@@ -268,7 +272,7 @@ impl<'a> Inertia<'a> {
                 match self.factors_at(-*shift) {
                     Ok(factors) if factors.negative_count() == 0 => break factors,
                     Err(error) if !(*shift < self.largest_ratio()) => return Err(error),
-                    _ => *shift *= 10.0,
+                    _ => *shift *= 10.0, // Farther below all eigenvalues.
                 }
             };
             let pencil =
@@ -279,7 +283,7 @@ impl<'a> Inertia<'a> {
             }
             converged = pairs.converged;
             // The highest pair is known well enough to place the shift by it.
-            let placed = SHIFT * (pairs.values.last().map_or(0.0, |theta| theta.recip()) - *shift);
+            let placed = SHIFT * (pairs.values.last().map_or(0.0, |theta| theta.recip()) - *shift); // kappa = 1 / theta - c^2.
             *shift = match attempt {
                 0 if placed > 0.0 => placed,
                 _ => 10.0 * *shift,
@@ -328,7 +332,7 @@ impl<'a> Inertia<'a> {
         if !tangent.is_gyroscopic {
             return Ok(below);
         }
-        let unheld = self.factors_at(0.0).map_or(0, |own| own.negative_count());
+        let unheld = self.factors_at(0.0).map_or(0, |own| own.negative_count()); // Motions with kappa < 0.
         Ok(below.max(gyroscopic_count(tangent, omega)? + unheld))
     }
 
