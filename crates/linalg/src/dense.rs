@@ -214,7 +214,7 @@ pub fn column_norms(a: MatRef<'_, f64>) -> Vec<f64> {
 /// Columns of reproducible pseudo-random numbers in (-1, 1).
 pub fn random_columns(rows: usize, columns: usize, seed: u64) -> Mat<f64> {
     let mut state = seed;
-    let mut next = || splitmix64(&mut state) as i64 as f64 / 2f64.powi(63);
+    let mut next = || splitmix64(&mut state) as i64 as f64 / 2f64.powi(63); // From -2^63 to 2^63.
     let mut a = Mat::zeros(rows, columns);
     for j in 0..columns {
         for i in 0..rows {

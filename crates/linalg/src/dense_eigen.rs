@@ -230,7 +230,7 @@ fn order_conjugate_pairs(
 fn conjugate(values: &[c64], vectors: &mut Mat<f64>) {
     for (j, value) in values.iter().enumerate() {
         if value.im < 0.0 {
-            column_mut(vectors, j).iter_mut().for_each(|v| *v = -*v);
+            column_mut(vectors, j).iter_mut().for_each(|v| *v = -*v); // q stands in the column of the second value.
         }
     }
 }

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 pub(super) fn nested_dissection(pattern: &SparsityPattern) -> Option<Vec<usize>> {
     let n = pattern.dimension();
     let neighbours = |unknown: usize| {
-        let all = pattern.column(unknown).chain(pattern.row(unknown)).map(|(_, other)| other);
+        let all = pattern.column(unknown).chain(pattern.row(unknown)).map(|(_, other)| other); // The graph of A + A^T.
         let mut all: Vec<usize> = all.chain([unknown]).collect();
         all.sort_unstable();
         all.dedup();
@@ -47,7 +47,7 @@ pub(super) fn nested_dissection(pattern: &SparsityPattern) -> Option<Vec<usize>>
     }
     let graph = CscPattern::new(members.len(), &pointers, &others)?;
     let order = metis_order(&graph).ok()?;
-    Some(order.into_iter().flat_map(|vertex| members[vertex as usize].iter().copied()).collect())
+    Some(order.into_iter().flat_map(|vertex| members[vertex as usize].iter().copied()).collect()) // Those of one vertex stay together.
 }
 
 #[cfg(test)]

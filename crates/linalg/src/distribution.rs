@@ -33,7 +33,7 @@ impl Distribution {
     pub fn below(&self, x: f64) -> f64 {
         match *self {
             Self::Normal { mean, deviation } => normal_below((x - mean) / deviation),
-            Self::LogNormal { .. } if x <= 0.0 => 0.0,
+            Self::LogNormal { .. } if x <= 0.0 => 0.0, // Nothing lies there, and it has no logarithm.
             Self::LogNormal { median, deviation } => normal_below((x / median).ln() / deviation),
             Self::Uniform { from, to } => ((x - from) / (to - from)).clamp(0.0, 1.0),
         }
@@ -53,7 +53,7 @@ impl Distribution {
 
 /// Probability that a normal variable of mean 0 and deviation 1 lies below `x`.
 fn normal_below(x: f64) -> f64 {
-    0.5 * libm::erfc(-x / SQRT_2)
+    0.5 * libm::erfc(-x / SQRT_2) // In the lower tail 1 + erf would cancel.
 }
 
 /// Inverse of [`normal_below`]: a first value (Abramowitz and Stegun 26.2.23), then Halley's steps.

@@ -65,7 +65,7 @@ impl LinalgError {
     pub(super) fn check(dimension: usize, error: f64, condition: f64) -> Result<(), Self> {
         let backward = ("the backward error of its factors is", error, 1e-9);
         let known = [backward, ("its condition number is at least", condition, 1e15)];
-        let exceeded = known.into_iter().find(|(_, value, bound)| !(value <= bound));
+        let exceeded = known.into_iter().find(|(_, value, bound)| !(value <= bound)); // Not a number exceeds it, too.
         exceeded.filter(|_| dimension > 0).map_or(Ok(()), |(measure, value, bound)| {
             Err(Self::Singular { dimension, measure, value, bound })
         })

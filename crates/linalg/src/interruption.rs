@@ -38,7 +38,7 @@ impl Stop {
 pub fn is_asked() -> bool {
     OWN.with_borrow(|own| {
         let own = own.as_ref();
-        own.is_some_and(|stop| stop.0.load(Ordering::Relaxed))
+        own.is_some_and(|stop| stop.0.load(Ordering::Relaxed)) // One look later is soon enough.
     })
 }
 

@@ -77,7 +77,7 @@ pub fn krylov_schur(
     if n <= settings.dense_up_to || LARGEST_BASIS * settings.wanted + 8 * width >= n {
         return whole(operator, is_wanted, settings);
     }
-    let mut process = BlockArnoldi::new(operator, start);
+    let mut process = BlockArnoldi::new(operator, start); // S Q = Q H + Q' B, block by block.
     let (mut next_look, mut last_look) = (FIRST_LOOK * settings.wanted, (f64::INFINITY, 0));
     loop {
         interruption::check();
@@ -87,7 +87,7 @@ pub fn krylov_schur(
             continue;
         }
         let eigen = real_eigen(process.projection.as_ref(), false, settings.wanted)?;
-        let chosen = leading(&eigen.values, is_wanted, settings.wanted, 1.0);
+        let chosen = leading(&eigen.values, is_wanted, settings.wanted, 1.0); // Ritz values are those of H.
         let residuals = process.residuals(&eigen, &chosen);
         let is_converged = residuals.iter().all(|residual| *residual <= settings.tolerance);
         if is_spent && !is_converged && n <= 3 * settings.dense_up_to {
@@ -99,7 +99,7 @@ pub fn krylov_schur(
             let mut residuals = process.residuals(&eigen, &given);
             let beyond = residuals.iter().skip(chosen.len());
             let converged = beyond.take_while(|own| **own <= settings.tolerance).count();
-            given.truncate(chosen.len() + converged);
+            given.truncate(chosen.len() + converged); // Ties as far as they have converged.
             residuals.truncate(given.len());
             return Ok(process.finish(&eigen, &given, residuals));
         }
@@ -144,7 +144,7 @@ fn whole(
     let eigen = real_eigen_above(matrix.as_ref(), false, &smallest)?;
     let chosen = chosen(&eigen.values);
     let ritz = Mat::from_fn(n, chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
-    let vectors = product(matrix.as_ref(), ritz.as_ref());
+    let vectors = product(matrix.as_ref(), ritz.as_ref()); // S x, one application further.
     let residuals = vec![0.0; chosen.len()];
     Ok(normalized(&eigen, &chosen, vectors, residuals))
 }
@@ -155,7 +155,7 @@ fn leading(values: &[c64], is_wanted: &dyn Fn(c64) -> bool, wanted: usize, tie: 
     order.retain(|&i| is_wanted(c64::new(values[i].re, values[i].im.abs())));
     let last = order.get(wanted.wrapping_sub(1)).map(|&i| values[i]);
     let splits_pair = last.is_some_and(|last| last.im > 0.0);
-    let count = wanted + usize::from(splits_pair);
+    let count = wanted + usize::from(splits_pair); // The next one is its conjugate.
     let beyond = order.iter().skip(count);
     let smallest = last.map_or(f64::INFINITY, |last| last.norm() / tie);
     let tied = beyond.take_while(|&&i| tie > 1.0 && values[i].norm() >= smallest).count();
@@ -220,10 +220,10 @@ impl<'a> BlockArnoldi<'a> {
         let old = self.dimension();
         self.basis.append(self.next.as_ref());
         let result = orthonormalize_block(self.basis.columns(), image);
-        let known = join_rows(self.projection.as_ref(), self.coupling.as_ref());
+        let known = join_rows(self.projection.as_ref(), self.coupling.as_ref()); // The old coupling becomes the last rows of H.
         self.projection = join_columns(known.as_ref(), result.against.as_ref());
         let uncoupled = Mat::<f64>::zeros(result.columns.ncols(), old);
-        self.coupling = join_columns(uncoupled.as_ref(), result.within.as_ref());
+        self.coupling = join_columns(uncoupled.as_ref(), result.within.as_ref()); // Only the last block goes beyond the basis.
         self.next = result.columns;
     }
 
@@ -244,15 +244,15 @@ impl<'a> BlockArnoldi<'a> {
         if let Some(&last) = kept.last()
             && eigen.values[last].im > 0.0
         {
-            kept.pop();
+            kept.pop(); // Half of a pair.
         }
         let ritz = Mat::from_fn(self.dimension(), kept.len(), |i, j| eigen.right[(i, kept[j])]);
         let empty = Mat::<f64>::zeros(self.dimension(), 0);
         let vectors = orthonormalize(empty.as_ref(), ritz, 1e-12).columns;
         self.basis.combine(vectors.as_ref());
         let image = product(self.projection.as_ref(), vectors.as_ref());
-        self.projection = product(vectors.transpose(), image.as_ref());
-        self.coupling = product(self.coupling.as_ref(), vectors.as_ref());
+        self.projection = product(vectors.transpose(), image.as_ref()); // V^T H V.
+        self.coupling = product(self.coupling.as_ref(), vectors.as_ref()); // B V.
     }
 
     /// The `chosen` Ritz pairs, one application of the operator further.
@@ -261,7 +261,7 @@ impl<'a> BlockArnoldi<'a> {
         let within = product(self.projection.as_ref(), ritz.as_ref());
         let beyond = product(self.coupling.as_ref(), ritz.as_ref());
         let mut vectors = product(self.basis.columns(), within.as_ref());
-        add_product(vectors.as_mut(), 1.0, self.next.as_ref(), beyond.as_ref());
+        add_product(vectors.as_mut(), 1.0, self.next.as_ref(), beyond.as_ref()); // Q H y + Q' B y.
         normalized(eigen, chosen, vectors, residuals)
     }
 }
@@ -279,7 +279,7 @@ fn orthonormalize_block(basis: MatRef<'_, f64>, mut w: Mat<f64>) -> Orthonormali
             Orthonormalized { columns: factors.columns, against, within: factors.within }
         }
         Err(w) => {
-            let mut rest = orthonormalize(basis, w, 1e-14);
+            let mut rest = orthonormalize(basis, w, 1e-14); // Columns that depend on one another, one by one.
             rest.against += against;
             rest
         }

@@ -42,7 +42,7 @@ pub fn newton_root<E>(
                 let changes: Vec<f64> = beside.iter().zip(&values).map(|(b, v)| b - v).collect();
                 (0..count).for_each(|i| slopes[(i, j)] = changes[i] / *step);
                 reach = largest(&changes);
-                *step *= (LITTLE / (2.0 * reach)).min(1.0);
+                *step *= (LITTLE / (2.0 * reach)).min(1.0); // Half of LITTLE the next time.
             }
         }
         let mut change = Mat::from_fn(count, 1, |i, _| values[i]); // S dx = f: the step of Newton's method.

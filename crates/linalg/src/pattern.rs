@@ -195,7 +195,7 @@ impl SparsityPattern {
     /// Eliminates `unknowns` in this order.
     fn analysed_in(&self, unknowns: Vec<usize>) -> Result<SymbolicCholesky<usize>, LinalgError> {
         let mut places = vec![0; unknowns.len()];
-        unknowns.iter().enumerate().for_each(|(place, &unknown)| places[unknown] = place);
+        unknowns.iter().enumerate().for_each(|(place, &unknown)| places[unknown] = place); // The inverse permutation.
         let order = PermRef::new_checked(&unknowns, &places, unknowns.len());
         self.analysed_by(SymmetricOrdering::Custom(order))
     }
@@ -205,7 +205,7 @@ impl SparsityPattern {
         order: SymmetricOrdering<'_, usize>,
     ) -> Result<SymbolicCholesky<usize>, LinalgError> {
         let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL, // Blocks whatever they cost: fronts are made of them.
             ..Default::default()
         };
         factorize_symbolic_cholesky(self.symbolic.as_ref(), Side::Upper, order, parameters)

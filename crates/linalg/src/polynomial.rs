@@ -70,7 +70,7 @@ impl FrictionWeights {
     /// zero on, those of powers by Horner's rule.
     pub fn steps(self, count: usize, mu: f64, is_slope: bool) -> Vec<(usize, f64, f64)> {
         if self.are_powers() {
-            let weight = |place: usize| if is_slope { place as f64 } else { 1.0 };
+            let weight = |place: usize| if is_slope { place as f64 } else { 1.0 }; // Horner's rule on p P_p.
             let places = (usize::from(is_slope)..count).rev();
             return places.map(|place| (place, mu, weight(place))).collect();
         }
@@ -169,7 +169,7 @@ impl MatrixPolynomial {
         if origin > 0.0 && terms.len() > 1 {
             let linear = terms.remove(1);
             let pairs = terms[0].iter_mut().zip(&linear);
-            pairs.for_each(|(constant, value)| *constant += origin * value);
+            pairs.for_each(|(constant, value)| *constant += origin * value); // min(mu, a) is a there.
         }
         // Taylor's shift by repeated Horner steps: mu - origin = (mu - a) + shift.
         let shift = a - origin;
@@ -177,7 +177,7 @@ impl MatrixPolynomial {
             for p in (first..terms.len() - 1).rev() {
                 let (lower, upper) = terms.split_at_mut(p + 1);
                 let pairs = lower[p].iter_mut().zip(&upper[0]);
-                pairs.for_each(|(value, above)| *value += shift * above);
+                pairs.for_each(|(value, above)| *value += shift * above); // P_p += shift P_{p+1}.
             }
         }
         terms
@@ -216,7 +216,7 @@ impl MatrixPolynomial {
         let mut touched = vec![false; self.dimension()];
         for column in 0..self.dimension() {
             for (_, row) in nonzeros(column) {
-                (touched[row], touched[column]) = (true, true);
+                (touched[row], touched[column]) = (true, true); // An entry touches its row and its column.
             }
         }
         let unknowns: Vec<usize> = (0..self.dimension()).filter(|&i| touched[i]).collect();

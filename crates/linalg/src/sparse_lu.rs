@@ -101,7 +101,7 @@ impl LuAnalysis {
         for (s, varies) in all.flat_map(|s| varies.iter().map(move |own| (s, own))) {
             let Front { children, entries, .. } = &fronts[s];
             fronts[s].is_shared = children.iter().all(|&child| fronts[child].is_shared)
-                && !entries.iter().any(|entry| varies[entry[0] as usize]);
+                && !entries.iter().any(|entry| varies[entry[0] as usize]); // Children come before their parent.
         }
         let (pattern, fronts) = (Arc::clone(pattern), Arc::new(fronts));
         Ok(Self { pattern, fronts, shared: Arc::default() })
@@ -117,7 +117,7 @@ impl LuAnalysis {
         });
         let fronts = self.fronts.iter().filter(|front| front.is_shared);
         let mut entries = fronts.flat_map(|front| &front.entries).map(|entry| entry[0] as usize);
-        entries.all(|at| shared.values[at] == values[at]).then_some(shared)
+        entries.all(|at| shared.values[at] == values[at]).then_some(shared) // Where its own values are those of the first one.
     }
 
     /// Eliminates front by front those that `is_wanted` holds for and hands each one on, also those that are `shared`; what they leave to
@@ -139,7 +139,7 @@ impl LuAnalysis {
             let known = |child: usize| shared.and_then(|own| own.left[child].as_ref());
             let left_by = |child: usize| left[child].as_ref().or(known(child));
             let (own, rest) = self.front(k, values, are_symmetric, left_by);
-            front.children.iter().for_each(|&child| left[child] = None);
+            front.children.iter().for_each(|&child| left[child] = None); // Taken up: their memory is free.
             left[k] = Some(rest);
             take(k, Arc::new(own));
         }
@@ -174,7 +174,7 @@ impl LuAnalysis {
                     let value = update.matrix[(i, j)];
                     matrix[(row, column)] += value;
                     if update.is_symmetric && !is_symmetric && i != j {
-                        matrix[(column, row)] += value;
+                        matrix[(column, row)] += value; // The triangle that a symmetric one does not hold.
                     }
                 }
             }
@@ -281,7 +281,7 @@ macro_rules! sparse_lu {
                 let condition = if is_regular { 1.0 } else { f64::INFINITY };
                 let given = values.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(abs(v)));
                 let n = analysis.pattern.dimension();
-                LinalgError::check(n, f64::EPSILON * largest / given, condition)?;
+                LinalgError::check(n, f64::EPSILON * largest / given, condition)?; // Growth times epsilon is a backward error.
                 Ok(sum)
             }
 
@@ -309,7 +309,7 @@ macro_rules! sparse_lu {
                 self.solve_in_place(x.as_mut());
                 let mut r = self.residual(&x, right_side);
                 self.solve_in_place(r.as_mut());
-                (0..n).map(|i| x[(i, 0)] + r[(i, 0)]).collect()
+                (0..n).map(|i| x[(i, 0)] + r[(i, 0)]).collect() // x + A^-1 (b - A x).
             }
 
             /// `y = L^-1 P b`, then `x = U^-1 (y - right x)`; transposed `y = U^-T b`, then `x = P^T L^-T (y - below^T x)`. Of symmetric
@@ -320,7 +320,7 @@ macro_rules! sparse_lu {
                     let (eliminated, others) = front.unknowns.split_at(front.width);
                     let (pivots, below) = own.columns.as_ref().split_at_row(front.width);
                     let is_left = own.is_symmetric() || !is_transposed;
-                    let row = |i: usize| eliminated[if is_left { own.exchanges[i] } else { i }];
+                    let row = |i: usize| eliminated[if is_left { own.exchanges[i] } else { i }]; // Rows in the order of P.
                     let mut y = gathered(&x, (0..front.width).map(row), memory);
                     let beyond = match is_left {
                         true => {
@@ -332,7 +332,7 @@ macro_rules! sparse_lu {
                             own.right.transpose()
                         }
                     };
-                    subtract(&mut x, others, beyond, y.as_ref(), other);
+                    subtract(&mut x, others, beyond, y.as_ref(), other); // b_2 less below y, or right^T y.
                     if own.is_symmetric() {
                         own.divide(y.as_mut());
                     }
@@ -344,7 +344,7 @@ macro_rules! sparse_lu {
                     let is_left = own.is_symmetric() || is_transposed;
                     let beyond = if is_left { below.transpose() } else { own.right.as_ref() };
                     let known = gathered(&x, others.iter().copied(), memory);
-                    subtract(&mut x, eliminated, beyond, known.as_ref(), other);
+                    subtract(&mut x, eliminated, beyond, known.as_ref(), other); // y less right x_2, or below^T x_2.
                     let mut y = gathered(&x, eliminated.iter().copied(), memory);
                     match is_left {
                         true => solve_unit_upper_triangular_in_place(pivots.transpose(), y.as_mut(), Par::Seq),
@@ -374,7 +374,7 @@ macro_rules! sparse_lu {
                 let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);
                 self.solve_in_place(x.as_mut());
                 let largest = x.norm_max();
-                let scale = self.norm() * largest;
+                let scale = self.norm() * largest; // |A| |x|, with |b| below 2.
                 let backward_error = self.residual(&x, &right_side).norm_max() / scale;
                 // A large solution says that the matrix has no inverse in double precision.
                 LinalgError::check(n, backward_error, scale / 2.0)

@@ -69,7 +69,7 @@ impl SparsityPattern {
         values: [&[f64]; N],
         x: MatRef<'_, f64>,
     ) -> [Mat<f64>; N] {
-        self.by_lanes([x], |[input], index| lane_sums(values, input, self.column(index)))
+        self.by_lanes([x], |[input], index| lane_sums(values, input, self.column(index))) // Columns of A are the rows of A^T.
     }
 
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows ([`Self::by_rows`]).
@@ -133,7 +133,7 @@ impl SparsityPattern {
                 }
             }
         }
-        INTERLEAVED.set(inputs);
+        INTERLEAVED.set(inputs); // For the next product.
         results
     }
 }

@@ -7,7 +7,7 @@ use crate::dense::product_sum;
 
 /// `a^T x`.
 pub fn product(a: &[c64], x: &[c64]) -> c64 {
-    product_sum(a, x, |a, x| a * x)
+    product_sum(a, x, |a, x| a * x) // Nothing is conjugated.
 }
 
 /// Adds a vector to another.

@@ -141,7 +141,7 @@ impl BandedBatch {
     pub fn solve(&mut self, unknown: usize) -> [Quality; LANES] {
         interruption::check();
         self.solution.fill(Lanes::ZERO);
-        self.solution[unknown].re = [1.0; LANES];
+        self.solution[unknown].re = [1.0; LANES]; // The right side, solved in place.
         self.factors.copy_from_slice(&self.values);
         self.eliminate();
         self.substitute();
@@ -164,7 +164,7 @@ impl BandedBatch {
             top[0] = top[0].inverse(); // row_i -= (a_ik / a_kk) row_k, the right side with it.
             let (known, unknown) = self.solution.split_at_mut(k + 1);
             for i in k + 1..=last {
-                let start = (i - k - 1) * width + k + h - i;
+                let start = (i - k - 1) * width + k + h - i; // Column k of row i stands k + h - i places in.
                 let row = &mut below[start..=start + columns];
                 let factor = row[0].times(&top[0]);
                 for (value, above) in row[1..].iter_mut().zip(&top[1..]) {

@@ -59,7 +59,7 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
                     pairs.for_each(|(value, above)| *value -= factor * *above);
                 }
             }
-            top[1..=last].iter_mut().for_each(|value| *value *= inverse);
+            top[1..=last].iter_mut().for_each(|value| *value *= inverse); // Row k of L^H: a_kj / d_k.
         }
         Self { dimension: n, half_bandwidth: h, upper }
     }
@@ -96,7 +96,7 @@ impl<T: ComplexField<Real = f64> + Copy> BandedFactor<T> {
         }
         for k in (0..n).rev() {
             let row = &self.upper[k * width..][..width.min(n - k)];
-            x[k] -= product_sum(&row[1..], &x[k + 1..k + row.len()], |l, x| l * x);
+            x[k] -= product_sum(&row[1..], &x[k + 1..k + row.len()], |l, x| l * x); // L^H x = y.
         }
     }
 }

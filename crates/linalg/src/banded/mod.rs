@@ -18,10 +18,10 @@ pub fn multiply_band(values: &[c64], h: usize, x: &[c64], adjoint: bool) -> Vec<
     let mut result = vec![c64::ZERO; n];
     for (row, band) in values.chunks_exact(2 * h + 1).enumerate() {
         let (first, last) = (row.saturating_sub(h), (row + h + 1).min(n));
-        let band = &band[first + h - row..last + h - row];
+        let band = &band[first + h - row..last + h - row]; // Row i begins at column i - h.
         if adjoint {
             for (value, sum) in band.iter().zip(&mut result[first..last]) {
-                *sum += value.conj() * x[row];
+                *sum += value.conj() * x[row]; // conj(a_ij) x_i goes to entry j.
             }
         } else {
             let products = band.iter().zip(&x[first..last]);
@@ -68,7 +68,7 @@ impl BandedMatrix {
     fn place(&self, row: usize, column: usize) -> usize {
         let h = self.half_bandwidth;
         assert!(column + h >= row && column <= row + h && column.max(row) < self.dimension);
-        row * (2 * h + 1) + column + h - row
+        row * (2 * h + 1) + column + h - row // Column row - h comes first.
     }
 
     /// Entry `(row, column)`, zero outside the band.

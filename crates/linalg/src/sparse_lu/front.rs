@@ -69,7 +69,7 @@ impl<T: Scalar> Eliminated<T> {
     }
 
     pub fn is_symmetric(&self) -> bool {
-        self.inverse.len() == self.exchanges.len()
+        self.inverse.len() == self.exchanges.len() // Only these have B^-1.
     }
 
     /// Puts `L`, `below` and the lower triangle of what is left in place.
@@ -96,7 +96,7 @@ impl<T: Scalar> Eliminated<T> {
         let mut across = below.rb_mut().transpose_mut();
         permute_rows_in_place(across.rb_mut(), order, MemStack::new(&mut memory));
         solve_unit_lower_triangular_in_place(pivots.as_ref(), across.rb_mut(), Par::Seq);
-        let right = across.to_owned();
+        let right = across.to_owned(); // B below^T.
         divide(&inverse, across);
         triangular_matmul(
             rest.rb_mut(),
@@ -106,7 +106,7 @@ impl<T: Scalar> Eliminated<T> {
             BlockStructure::Rectangular,
             right.as_ref(),
             BlockStructure::Rectangular,
-            -T::one_impl(),
+            -T::one_impl(), // F22 - below right.
             Par::Seq,
         );
         let [columns, right] = [(); 2].map(|()| Mat::zeros(0, 0));
@@ -132,9 +132,9 @@ impl<T: Scalar> Eliminated<T> {
         let parity = (info.transposition_count % 2) as f64;
         let pivots = pivots.as_ref();
         permute_rows_in_place(right.rb_mut(), rows, MemStack::new(&mut memory));
-        solve_unit_lower_triangular_in_place(pivots, right.rb_mut(), Par::Seq);
+        solve_unit_lower_triangular_in_place(pivots, right.rb_mut(), Par::Seq); // right = L^-1 P F12.
         let across = below.rb_mut().transpose_mut();
-        solve_lower_triangular_in_place(pivots.transpose(), across, Par::Seq);
+        solve_lower_triangular_in_place(pivots.transpose(), across, Par::Seq); // below = F21 U^-1.
         let (minus, below, right) = (-T::one_impl(), below.as_ref(), right.as_ref());
         matmul(rest.rb_mut(), Accum::Add, below, right, minus, Par::Seq);
         let right = right.to_owned();
@@ -160,10 +160,10 @@ impl<T: Scalar> Eliminated<T> {
     pub fn ln_determinant(&self) -> c64 {
         let ln = |value: &T| c64::new(real(value), imag(value)).ln();
         if self.is_symmetric() {
-            return -blocks(&self.inverse).map(|determinant| ln(&determinant)).sum::<c64>();
+            return -blocks(&self.inverse).map(|determinant| ln(&determinant)).sum::<c64>(); // det B = 1 / det B^-1.
         }
         let pivots = (0..self.columns.ncols()).map(|i| ln(&self.columns[(i, i)]));
-        pivots.sum::<c64>() + c64::new(0.0, PI * self.parity)
+        pivots.sum::<c64>() + c64::new(0.0, PI * self.parity) // An odd number of exchanges turns the sign.
     }
 
     /// Negative eigenvalues of what is eliminated in a symmetric front: of a block of two rows, a pivot where one is not large enough,
@@ -188,7 +188,7 @@ fn inverse_blocks<T: Scalar>(pivots: MatRef<'_, T>, beside: &[T]) -> Vec<[T; 2]>
         // 1 / (a d - b^2), by way of b, which is not small beside the others.
         let scale = recip(&(a * recip(&b) * d - b));
         let factor = scale * recip(&b);
-        inverse.extend([[d * factor, -scale], [a * factor, zero]]);
+        inverse.extend([[d * factor, -scale], [a * factor, zero]]); // [d -b; -b a] / (a d - b^2).
     }
     inverse
 }
@@ -216,6 +216,6 @@ fn blocks<T: Scalar>(rows: &[[T; 2]]) -> impl Iterator<Item = T> {
     std::iter::from_fn(move || {
         let &[a, b] = rows.next()?;
         let is_single = b == T::zero_impl();
-        Some(if is_single { a } else { a * rows.next()?[0] - b * b })
+        Some(if is_single { a } else { a * rows.next()?[0] - b * b }) // a d - b^2.
     })
 }

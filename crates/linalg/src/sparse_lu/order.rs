@@ -28,7 +28,7 @@ impl Order {
         let mut touched = vec![false; n];
         for (j, varies) in varies.iter().flat_map(|own| (0..n).map(move |j| (j, own))) {
             for (_, i) in pattern.column(j).filter(|(at, _)| varies[*at]) {
-                (touched[i], touched[j]) = (true, true);
+                (touched[i], touched[j]) = (true, true); // A nonzero touches its row and its column.
             }
         }
         let nonzeros = (0..n).flat_map(|j| pattern.column(j).map(move |(_, i)| (i, j)));
@@ -41,12 +41,12 @@ impl Order {
         let most = MOST_FILL * symbolic.len_val() as f64;
         match hull.symbolic_cholesky_with_last(&touched)? {
             Some(last) if last.len_val() as f64 <= most => symbolic = Arc::new(last),
-            _ => touched.fill(false),
+            _ => touched.fill(false), // Too much fill: nothing is shared then.
         }
         let in_order = || [(); 2].map(|()| (0..n).collect());
         let arrays = symbolic.perm().map(|order| order.arrays());
         let [unknown_at, place_of]: [Vec<usize>; 2] =
-            arrays.map_or_else(in_order, |(to, from)| [to.to_vec(), from.to_vec()]);
+            arrays.map_or_else(in_order, |(to, from)| [to.to_vec(), from.to_vec()]); // The order and its inverse.
         let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
             // A diagonal matrix, where nothing is to be eliminated.
             return Ok(Self {
@@ -61,7 +61,7 @@ impl Order {
         for s in 0..blocks.n_supernodes() {
             let (begin, end) = (blocks.supernode_begin()[s], blocks.supernode_end()[s]);
             let mut own: Vec<usize> = (begin..end).collect();
-            own.extend_from_slice(blocks.supernode(s).pattern());
+            own.extend_from_slice(blocks.supernode(s).pattern()); // Those eliminated here, and those left coupled.
             own.sort_unstable();
             // What is touched ends a block.
             let first = (begin..end).find(is_touched).unwrap_or(end);

@@ -64,7 +64,7 @@ pub(super) struct Cubic {
 impl Cubic {
     pub fn between(start: &BranchPoint, end: &BranchPoint) -> Self {
         let width = end.friction_coefficient - start.friction_coefficient;
-        let (a, b) = (start.eigenvalue, start.rate * width);
+        let (a, b) = (start.eigenvalue, start.rate * width); // Slopes over t: width d lambda / d mu.
         let (rise, slope) = (end.eigenvalue - a, end.rate * width);
         Self { width, coefficients: [a, b, rise * 3.0 - b * 2.0 - slope, b + slope - rise * 2.0] }
     }
@@ -85,8 +85,7 @@ impl Cubic {
         if discriminant < 0.0 {
             return Vec::new();
         }
-        // Stable roots of b + 2 c t + 3 d t^2.
-        let q = -(c + discriminant.sqrt().copysign(c));
+        let q = -(c + discriminant.sqrt().copysign(c)); // Stable roots of b + 2 c t + 3 d t^2.
         let mut roots = vec![q / (3.0 * d), b / q];
         roots.retain(|t| *t > 0.0 && *t < 1.0);
         roots.sort_by(f64::total_cmp);

@@ -12,7 +12,7 @@ pub(super) const NEARLY_CRITICAL: f64 = 0.5;
 
 /// Whether an eigenvalue has a positive imaginary part and is that of a motion that oscillates or grows.
 pub(super) fn is_vibration(value: c64) -> bool {
-    value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
+    value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm()) // What grows counts, however slowly it turns.
 }
 
 /// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s): wider, faster

@@ -105,7 +105,7 @@ pub(super) fn instabilities<B: BranchSolver>(
                     }
                     None => found.push(Instability {
                         lost_after: root.is_none().then_some(before),
-                        onset: root.unwrap_or_else(|| end.clone()),
+                        onset: root.unwrap_or_else(|| end.clone()), // After a jump the first state beyond it.
                         restabilized: None,
                         from_start: false,
                         crosses: !is_neutral,
@@ -141,7 +141,7 @@ impl<B: BranchSolver> Search<'_, B> {
     /// Whether a branch without any damping starts to grow with the first friction.
     fn grows_from_zero(&self, state: &B::State) -> bool {
         let (point, growth) = (self.solver.point(state), self.growth(state));
-        let is_neutral = growth <= 0.0 && growth > -1e2 * self.round_off(state);
+        let is_neutral = growth <= 0.0 && growth > -1e2 * self.round_off(state); // Zero but for some rounding errors.
         is_neutral && point.rate.re > RESIDUAL_BOUND * point.eigenvalue.norm()
     }
 
@@ -170,9 +170,8 @@ impl<B: BranchSolver> Search<'_, B> {
     ) -> Result<Vec<B::State>, B::Error> {
         let (first, last) = (self.solver.point(start), self.solver.point(end));
         let cubic = Cubic::between(&first, &last);
-        // What the cubic may be wrong by, generously.
         let (a, b) = (first.eigenvalue.re, last.eigenvalue.re);
-        let doubt = NEAR * last.eigenvalue.norm() + 0.1 * (b - a).abs();
+        let doubt = NEAR * last.eigenvalue.norm() + 0.1 * (b - a).abs(); // What the cubic may be wrong by, generously.
         let mut states = Vec::new();
         for t in cubic.turning_points() {
             let value = cubic.real_part(t);
@@ -240,7 +239,7 @@ impl<B: BranchSolver> Search<'_, B> {
             friction = next;
         }
         let point = self.solver.point(&best);
-        let steep = 10.0 * B::TOLERANCE * (1.0 + point.friction_coefficient) * point.rate.re.abs();
+        let steep = 10.0 * B::TOLERANCE * (1.0 + point.friction_coefficient) * point.rate.re.abs(); // Growth over ten of the last steps.
         // Growth beyond that is a jump, unless it is as steep: another branch was taken for this one.
         let has_root =
             height(self, &best).abs() <= steep.max(SAME_EIGENVALUE * point.eigenvalue.norm());

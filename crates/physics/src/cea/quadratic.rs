@@ -98,7 +98,7 @@ impl Problem<'_> {
     fn window(&self, shift: f64, values: &mut Vec<c64>) -> Result<[usize; 2], CeaError> {
         let n = self.matrices[0].nrows();
         let ([mass, damping, stiffness], _) = self.scaled(shift);
-        let sum = Mat::from_fn(n, n, |i, j| stiffness[(i, j)] + damping[(i, j)] + mass[(i, j)]);
+        let sum = Mat::from_fn(n, n, |i, j| stiffness[(i, j)] + damping[(i, j)] + mass[(i, j)]); // T(sigma) of the scaled matrices.
         let factors = DenseLu::factorize(sum);
         let (mut x, mut y) = (stiffness, mass);
         factors.solve_in_place(x.as_mut());
@@ -141,7 +141,7 @@ impl Problem<'_> {
             k + shift * (c + shift * m)
         });
         let (mut rows, mut columns) = (vec![1.0; n], vec![1.0; n]);
-        let root = |largest: f64| (-0.5 * largest.max(f64::MIN_POSITIVE).log2()).round().exp2();
+        let root = |largest: f64| (-0.5 * largest.max(f64::MIN_POSITIVE).log2()).round().exp2(); // Half to the row, half to the column.
         for _ in 0..SCALINGS {
             for i in 0..n {
                 let entries = (0..n).map(|j| size[(i, j)] * rows[i] * columns[j]);
@@ -172,10 +172,9 @@ impl Problem<'_> {
             })
         };
 
-        // Off the eigenvalue by more than its round-off.
         let unit = eigenvalue / size;
-        let lu = ComplexDenseLu::factorize(pencil(unit * (1.0 + 1e-12)));
-        let mut x = Mat::from_fn(n, 1, |i, _| c64::new(1.0 + (1.7 * i as f64).sin(), 0.0));
+        let lu = ComplexDenseLu::factorize(pencil(unit * (1.0 + 1e-12))); // Off the eigenvalue by more than its round-off.
+        let mut x = Mat::from_fn(n, 1, |i, _| c64::new(1.0 + (1.7 * i as f64).sin(), 0.0)); // No symmetry hides the mode from it.
         for _ in 0..3 {
             lu.solve_in_place(x.as_mut());
             let length = x.norm_l2();
@@ -192,7 +191,7 @@ impl Problem<'_> {
         let largest = own.iter().fold(c64::ZERO, longer);
         QuadraticMode {
             eigenvalue,
-            residual: forces.norm_l2() / sizes,
+            residual: forces.norm_l2() / sizes, // |x| = 1, and the shift takes |lambda| out.
             uncertainty: ROUNDING_ERRORS * f64::EPSILON * sizes / slope.norm(),
             vector: own.iter().map(|v| v / largest).collect(),
         }

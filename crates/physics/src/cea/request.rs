@@ -70,8 +70,7 @@ impl<'a> SweepRequest<'a> {
                 "cea.friction_coefficients: {value} is not a finite number of at least 0"
             )));
         }
-        // -0.0 and 0.0 are one value.
-        let mut grid: Vec<f64> = values.iter().map(|value| value + 0.0).collect();
+        let mut grid: Vec<f64> = values.iter().map(|value| value + 0.0).collect(); // -0.0 and 0.0 are one value.
         grid.sort_by(f64::total_cmp);
         grid.dedup();
         Ok(grid)

@@ -205,7 +205,7 @@ impl UnstableInterval {
     /// Whether it may be of the branch of a mode: both waves of a pair have one name, and opposite directions.
     pub fn is_of(&self, mode: &ComplexMode) -> bool {
         (self.harmonic, self.branch) == (mode.harmonic, mode.branch)
-            && self.direction * mode.direction >= 0
+            && self.direction * mode.direction >= 0 // Opposite directions have a product below 0.
     }
 
     /// As [`ComplexMode::diameters`].
@@ -262,7 +262,7 @@ impl FrictionSweep {
             let mode = first.find(|mode| mode.branch > 0 && own.is_of(mode));
             own.frequency_hz = mode.map_or(own.frequency_hz, ComplexMode::frequency_hz);
             (own.critical_friction, own.unstable_from_start) = (lower, true);
-            (own.lost_after, own.crossing) = (None, None);
+            (own.lost_after, own.crossing) = (None, None); // The end of a range is no crossing.
         }
         found
     }

@@ -31,7 +31,7 @@ impl dyn SweepWatch + '_ {
     /// Keeps a value under a name.
     pub fn keep_value(&self, name: &str, value: &impl Serialize) {
         if let Ok(bytes) = postcard::to_stdvec(value) {
-            self.keep(name, bytes);
+            self.keep(name, bytes); // What was not kept is found anew.
         }
     }
 }

@@ -58,8 +58,8 @@ impl MultiplierSearch<'_> {
         loop {
             // One more vector.
             let mut next = apply(&basis[basis.len() - 1]);
-            let mut column = orthogonalize(&mut next, &basis);
-            column.push(norm(&next));
+            let mut column = orthogonalize(&mut next, &basis); // H_ik = v_i^T P v_k; what is left is P v_k - V H_k.
+            column.push(norm(&next)); // Below the diagonal stands the length of what is left.
             basis.push(unit(next));
             columns.push(column);
             let dimension = columns.len();
@@ -101,15 +101,15 @@ impl LeadingMultipliers {
 /// Ritz values by falling modulus, one of each conjugate pair.
 fn ritz(columns: &[Vec<f64>], basis: &[Vec<f64>], motion: &[f64]) -> Option<Vec<Ritz>> {
     let size = columns.len();
-    let matrix = Mat::from_fn(size, size, |i, j| columns[j].get(i).copied().unwrap_or(0.0));
+    let matrix = Mat::from_fn(size, size, |i, j| columns[j].get(i).copied().unwrap_or(0.0)); // Hessenberg: column j ends at row j + 1.
     let eigen = real_eigen(matrix.as_ref(), false, 0).ok()?;
-    let overflow = columns[size - 1][size];
+    let overflow = columns[size - 1][size]; // h of P V = V H + h v e^T.
     let shares: Vec<f64> = basis.iter().map(|unit| dot(unit, motion)).collect();
     let ritz = |i: usize| {
         let (value, factors) = (eigen.values[i], eigenvector(&eigen, i));
         let length = factors.iter().map(|y| y.norm_sqr()).sum::<f64>().sqrt();
         let along = factors.iter().zip(&shares).map(|(y, share)| y * share).sum::<c64>();
-        let residual = overflow * factors[size - 1].norm() / (length * value.norm());
+        let residual = overflow * factors[size - 1].norm() / (length * value.norm()); // |P x - rho x| = h |y_k| for x = V y.
         Ritz { value, residual, along: along.norm() / length, factors }
     };
     let mut all: Vec<Ritz> = (0..size).filter(|&i| eigen.values[i].im >= 0.0).map(ritz).collect();
@@ -119,7 +119,7 @@ fn ritz(columns: &[Vec<f64>], basis: &[Vec<f64>], motion: &[f64]) -> Option<Vec<
 
 fn eigenvector(eigen: &RealEigen, i: usize) -> Vec<c64> {
     let part = |row: usize| match eigen.values[i].im {
-        im if im > 0.0 => c64::new(eigen.right[(row, i)], eigen.right[(row, i + 1)]),
+        im if im > 0.0 => c64::new(eigen.right[(row, i)], eigen.right[(row, i + 1)]), // Columns i and i + 1: Re and Im of a pair.
         _ => c64::new(eigen.right[(row, i)], 0.0),
     };
     (0..eigen.right.nrows()).map(part).collect()

@@ -96,10 +96,10 @@ impl BasinRequest {
         }
         let is_contested = runs[0].winner == first && runs[1].winner == second;
         while is_contested && range[1] / range[0] > self.tolerance {
-            let middle = (range[0] * range[1]).sqrt();
+            let middle = (range[0] * range[1]).sqrt(); // Geometric mean: seeds differ by factors.
             let run = run(middle)?;
             let side = usize::from(run.winner == second);
-            (range[side], bounds[side]) = (middle, run.saturation_ratio);
+            (range[side], bounds[side]) = (middle, run.saturation_ratio); // The winner's end of the range moves in.
             runs.push(run);
         }
         Ok(BasinBoundary { low: bounds[0], high: bounds[1], runs })
@@ -187,7 +187,7 @@ impl Contest<'_> {
                 sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
             }
             if step % window == 0 {
-                let before = std::mem::replace(&mut share, sums[1] / sums[0]);
+                let before = std::mem::replace(&mut share, sums[1] / sums[0]); // A_2 / A_1, both averaged over the window.
                 sums = [0.0; 2];
                 let is_end = saturation_ratio.is_some() && is_final(before, share);
                 agreeing = if is_end { agreeing + 1 } else { 0 };
@@ -209,8 +209,8 @@ impl Contest<'_> {
     fn start(&self, seed_ratio: f64) -> Result<CentralDifference<'_>, CycleError> {
         let contact = &self.model.contact;
         let surface_speed = self.model.interface().surface_speed(contact.rotation_speed).abs();
-        let opening = contact.interference * TAU / self.period;
-        let scale = SEED * surface_speed.min(opening) / seed_ratio.max(1.0);
+        let opening = contact.interference * TAU / self.period; // omega delta: a wave of amplitude delta opens the contact.
+        let scale = SEED * surface_speed.min(opening) / seed_ratio.max(1.0); // max(a_1, a_2) = SEED min(V, omega delta).
         let seeds = [scale, scale * seed_ratio];
         let duration = self.request.periods as f64 * self.period;
         let wave = |(harmonic, velocity)| StandingWave { harmonic, velocity, phase: 0.0 };

@@ -60,9 +60,9 @@ impl DynamicCoefficients {
             damping: rate_change,
             support: 0.0,
             stiffness: rate_change * damping.stiffness_coefficient
-                + rate * damping_change.stiffness_coefficient,
+                + rate * damping_change.stiffness_coefficient, // dc = beta dlambda + lambda dbeta.
             mass: rate_change * (2.0 * rate + damping.mass_coefficient)
-                + rate * damping_change.mass_coefficient,
+                + rate * damping_change.mass_coefficient, // dm = (2 lambda + alpha) dlambda + lambda dalpha.
         }
     }
 }
@@ -112,7 +112,7 @@ impl WaveBody {
         let dofs = strip.wave_dofs();
         let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
         let mass = assemble_mass(&strip.mesh, material, MassKind::Lumped);
-        let mass = fold(0, &strip.folded(&mass));
+        let mass = fold(0, &strip.folded(&mass)); // A lumped mass couples no sectors: that of n = 0 serves every n.
         let block = |matrix: Triplets| {
             let mut block = Matrix2::zeros();
             matrix.entries.iter().for_each(|&(i, j, value)| block[(i % 2, j % 2)] = value);
@@ -144,7 +144,7 @@ impl WaveBody {
     fn support_at(&self, i: usize) -> Option<impl Fn(DynamicCoefficients) -> Receptance> {
         let [springs, dashpots] = self.support.filter(|_| i + 1 == self.masses.len())?;
         Some(move |at: DynamicCoefficients| {
-            complex(&springs) * c64::new(at.support, 0.0) + complex(&dashpots) * at.damping
+            complex(&springs) * c64::new(at.support, 0.0) + complex(&dashpots) * at.damping // K_s + lambda C_s.
         })
     }
 
@@ -189,10 +189,10 @@ impl WaveBody {
                 let outward = complex(outward);
                 // From the outer edge inwards: S_i = D_i - B_i S_i+1^-1 B_i^T.
                 let across = outward * inverses[i + 1] * outward.transpose();
-                matrix -= across * (at.stiffness * at.stiffness);
+                matrix -= across * (at.stiffness * at.stiffness); // A lumped mass couples no nodes: off the diagonal D is c B.
                 for (slope, (change, rate)) in slopes.iter_mut().zip(changes.iter().zip(&rates)) {
                     *slope -= across * (2.0 * at.stiffness * change.stiffness)
-                        + outward * rate * outward.transpose() * (at.stiffness * at.stiffness);
+                        + outward * rate * outward.transpose() * (at.stiffness * at.stiffness); // d(c^2 B S^-1 B^T), rate = d(S^-1).
                 }
             }
             let inverse = inverted(&matrix);
@@ -225,7 +225,7 @@ impl WaveBody {
         let mut sum = 0.0;
         for (i, u) in real.iter().enumerate() {
             let force = complex(&blocks.diagonal[i]) * u;
-            sum += damping.stiffness_coefficient * u.dotc(&force).re;
+            sum += damping.stiffness_coefficient * u.dotc(&force).re; // u_i^H beta K_ii u_i.
             sum += damping.mass_coefficient * self.masses[i] * u.norm_squared();
             if let Some([_, dashpots]) = self.support.filter(|_| i + 1 == real.len()) {
                 sum += u.dotc(&(complex(&dashpots) * u)).re;
@@ -258,10 +258,10 @@ fn complex(matrix: &Matrix2<f64>) -> Matrix2<c64> {
 
 fn inverted(m: &Matrix2<c64>) -> Matrix2<c64> {
     let reciprocal = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).inv();
-    Matrix2::new(m[(1, 1)], -m[(0, 1)], -m[(1, 0)], m[(0, 0)]) * reciprocal
+    Matrix2::new(m[(1, 1)], -m[(0, 1)], -m[(1, 0)], m[(0, 0)]) * reciprocal // adj(m) / det(m).
 }
 
 /// From the basis `(u_r, -i u_theta)` to `(u_r, u_theta)`.
 fn polar(m: &Matrix2<c64>) -> Matrix2<c64> {
-    Matrix2::new(m[(0, 0)], -c64::I * m[(0, 1)], c64::I * m[(1, 0)], m[(1, 1)])
+    Matrix2::new(m[(0, 0)], -c64::I * m[(0, 1)], c64::I * m[(1, 0)], m[(1, 1)]) // T m T^-1 with T = diag(1, i).
 }

@@ -77,7 +77,7 @@ impl<'a> Branch<'a> {
         direction: f64,
         pending: Option<Event>,
     ) -> Self {
-        let force_scale = state.normal.iter().sum::<f64>() / state.normal.len() as f64;
+        let force_scale = state.normal.iter().sum::<f64>() / state.normal.len() as f64; // Slacks and residuals are measured by it.
         Self {
             wave,
             parameter,
@@ -107,7 +107,7 @@ impl<'a> Branch<'a> {
         self.factorizations += 1;
         let mut inequalities = self.inequalities(&linear, &heading);
         let sense = match flipped {
-            Some(event) => inequalities.iter().find(|i| i.0 == event)?.2,
+            Some(event) => inequalities.iter().find(|i| i.0 == event)?.2, // The rate of its slack: it must come to hold.
             None if self.heading.is_none() => self.direction * heading.scalars()[2],
             None => 1.0,
         };
@@ -115,7 +115,7 @@ impl<'a> Branch<'a> {
             heading.reverse();
             inequalities.iter_mut().for_each(|inequality| inequality.2 *= -1.0);
         }
-        self.direction = heading.scalars()[2].signum();
+        self.direction = heading.scalars()[2].signum(); // Of the parameter, which folds turn.
         // As far as the first inequality that would break along it.
         let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
         // An inequality that breaks on the way after all becomes the goal; each such shortening is progress.
@@ -141,7 +141,7 @@ impl<'a> Branch<'a> {
             }
             let before = inequalities.iter().find(|i| i.0 == event);
             let before = before.map_or(0.0, |i| i.1.max(0.0));
-            length *= before / (before - slack);
+            length *= before / (before - slack); // slack(s) = before + s (slack - before) = 0.
             goal = Goal::Event(event);
         }
         None
@@ -195,7 +195,7 @@ impl<'a> Branch<'a> {
         };
         self.state.contact[i] = state;
         if matches!(event, Event::Lift(_) | Event::Touch(_)) {
-            (self.state.normal[i], self.state.tangential[i]) = (0.0, 0.0);
+            (self.state.normal[i], self.state.tangential[i]) = (0.0, 0.0); // Contact ends and begins at N = 0, hence T = 0.
         }
         check
     }
@@ -216,7 +216,7 @@ impl<'a> Branch<'a> {
                 heading.tangential()[i],
                 linear.scales[0] * gap[i],
                 linear.scales[1] * slip[i],
-                friction * normal + self.state.normal[i] * rise,
+                friction * normal + self.state.normal[i] * rise, // d(mu N) = mu dN + N dmu.
             ];
             (event, slack, event.slack(self.state.contact[i].drag(), rates))
         };
@@ -243,7 +243,7 @@ impl<'a> Branch<'a> {
             );
             let by = by_frequency[row].iter().zip(&by_parameter[row]);
             for (value, (by_frequency, by_parameter)) in rate.iter_mut().zip(by) {
-                *value += by_frequency * frequency + by_parameter * parameter;
+                *value += by_frequency * frequency + by_parameter * parameter; // At fixed forces: by omega and by the parameter.
             }
             rate
         })
@@ -270,7 +270,7 @@ impl<'a> Branch<'a> {
         let [_, _, rise] = heading.scalars();
         let ahead = samples.ahead(value, rise > 0.0, SAME * value.abs());
         if let Some(&sample) = ahead.first() {
-            let length = (sample - value) / rise;
+            let length = (sample - value) / rise; // value + length rise = sample.
             if length <= best.0 {
                 best = (length, Goal::Value(sample));
             }
@@ -286,7 +286,7 @@ impl<'a> Branch<'a> {
         goal: Goal,
     ) -> Option<(WaveState, Linearization)> {
         let mut state = self.state.clone();
-        heading.add_to(&mut state, length, self.parameter);
+        heading.add_to(&mut state, length, self.parameter); // Predictor x + l dx, corrected below.
         let predicted = state.clone();
         let mut previous = f64::INFINITY;
         for _ in 0..8 {
@@ -300,7 +300,7 @@ impl<'a> Branch<'a> {
             let (matrix, residual) = system.assemble(&linear, closure);
             let largest = residual.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
             if largest < CONVERGED || (largest < STAGNANT && largest > 0.25 * previous) {
-                let strayed = system.distance(&predicted);
+                let strayed = system.distance(&predicted); // Farther than the step is long: another curve.
                 return (strayed <= length.max(SHORTEST_REACH)).then_some((state, linear));
             }
             if !residual.iter().all(|value| value.abs() < 1e6) {

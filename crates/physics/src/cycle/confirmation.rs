@@ -81,7 +81,7 @@ fn telling_periods(leading: Option<&FloquetMultiplier>, e_folds: f64, least: usi
 
 /// Angle that an amplitude turns through, rad.
 fn turned(amplitudes: &[c64]) -> f64 {
-    amplitudes.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum()
+    amplitudes.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum() // Known where looks are closer than half a turn.
 }
 
 impl MeshStepping<'_> {
@@ -136,7 +136,7 @@ impl MeshStepping<'_> {
         let main = main.filter(|(_, own)| size(own) > least);
         let found = Confirmation {
             periods,
-            main_frequency_hz: main.as_ref().map(|(_, own)| turned(own).abs() / TAU / duration),
+            main_frequency_hz: main.as_ref().map(|(_, own)| turned(own).abs() / TAU / duration), // Turns over time.
             main_harmonic: main.map(|(harmonic, _)| harmonic),
             status: counts.fractions(),
             external_power: powers.external / counted as f64,

@@ -77,7 +77,7 @@ impl Values {
 
     /// Those between two, farther than `slightly` from both, in the order from the one to the other.
     pub fn between(&self, from: f64, to: f64, slightly: f64) -> Vec<f64> {
-        let [low, high] = [from.min(to) + slightly, from.max(to) - slightly];
+        let [low, high] = [from.min(to) + slightly, from.max(to) - slightly]; // Open at both ends: those are known.
         let between = self.0.iter().filter(|&&value| value > low && value < high);
         if to < from { between.rev().copied().collect() } else { between.copied().collect() }
     }
@@ -117,7 +117,7 @@ impl Turning {
         if ahead >= 0.0 {
             self.farthest = value;
         } else if -ahead > self.share * self.farthest.abs() {
-            self.folds.push(self.farthest);
+            self.folds.push(self.farthest); // Farther back than the grid's error: a fold.
             self.direction = -self.direction;
             self.farthest = value;
         }
@@ -154,11 +154,11 @@ pub(super) trait Way {
         if let Some((known, kept)) = watch.recalled(name)
             && self.take_up(kept).is_some()
         {
-            end = known;
+            end = known; // None: it was interrupted on the way.
         }
         while end.is_none() {
             self.begin_block();
-            let next = self.count().saturating_add(Self::BLOCK);
+            let next = self.count().saturating_add(Self::BLOCK); // A block may be `usize::MAX`: all at once.
             while end.is_none() && self.count() < next {
                 end = self.advance()?;
             }
@@ -186,7 +186,7 @@ where
         let end = if is_out { BranchEnd::Range } else { way.run(name, watch)? };
         Ok((way, end))
     };
-    let (down, up) = rayon::join(|| follow("down", -1.0), || follow("up", 1.0));
+    let (down, up) = rayon::join(|| follow("down", -1.0), || follow("up", 1.0)); // They share nothing: one thread gives the same bytes.
     Ok([down?, up?])
 }
 

@@ -20,7 +20,7 @@ pub(super) fn field(
     let (rays, sectors) = (wave.body.rays, wave.body.sector_count);
     let mut fields = [0, 1].map(|_| vec![0.0; 2 * rays * sectors]);
     for (k, (u, &rate)) in edge.displacement.iter().zip(&edge.rates).enumerate() {
-        let share = if k == 0 { 1.0 } else { 2.0 } / wave.points() as f64;
+        let share = if k == 0 { 1.0 } else { 2.0 } / wave.points() as f64; // Sums over M points, and -k beside k.
         let at = DynamicCoefficients::new(rate, &state.point.damping);
         let profile = wave.body.profile(k, at, u.map(|value| value * share));
         let around = wave.circumferential(k, harmonics);
@@ -34,7 +34,7 @@ pub(super) fn field(
                     let dof = 2 * (sector * rays + i) + component;
                     let amplitude = value[component] * turn;
                     fields[0][dof] += amplitude.re;
-                    fields[1][dof] += (amplitude * rate).re;
+                    fields[1][dof] += (amplitude * rate).re; // v = Re(lambda u e^{i phase}).
                 }
             }
         }
@@ -60,7 +60,7 @@ pub(super) fn amplitude(edge: &[f64], harmonic: isize) -> c64 {
     let count = edge.len() as isize;
     let terms = edge.iter().enumerate().map(|(j, &value)| {
         let angle = TAU * (harmonic * j as isize).rem_euclid(count) as f64 / count as f64;
-        value * c64::from_polar(2.0 / count as f64, -angle)
+        value * c64::from_polar(2.0 / count as f64, -angle) // (2 / N) sum_j u_j e^{-i n theta_j}.
     });
     terms.sum()
 }

@@ -138,12 +138,12 @@ fn leading_multipliers(
         ))
     })?;
     // The shift along the cycle neither grows nor decays: what it does is the error.
-    let neutral = found.shift.map(|shift| shift.ln() / period.duration);
+    let neutral = found.shift.map(|shift| shift.ln() / period.duration); // lambda_0 = ln(rho_0) / T, exactly 0 in theory.
     let mut modes = vec![0.0; period.dimension()];
     let mut multipliers = Vec::new();
     for ritz in &found.listed {
         let vector = found.vector(ritz);
-        modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im);
+        modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im); // Re and Im span the plane of a complex mode.
         multipliers.push(multiplier(period, ritz, &vector, neutral));
     }
     Ok((
@@ -160,7 +160,7 @@ fn multiplier(
     neutral: Option<c64>,
 ) -> FloquetMultiplier {
     let omega = period.frequency();
-    let turning = ritz.value.arg() / period.duration;
+    let turning = ritz.value.arg() / period.duration; // Im lambda = arg(rho) / T, up to multiples of omega.
     let (sectors, per) = (period.sectors() as isize, period.sector_dofs());
     let half = vector.len() / 2;
     // Amplitude of e^{i m theta} in one dof of the edge, of displacement or velocity.
@@ -185,9 +185,9 @@ fn multiplier(
     let fixed = turning + whole * omega;
     // In the frame of the wave, harmonic p + k n has the frequency Im lambda + k omega.
     let (n, count) = (period.harmonic, period.harmonic.abs());
-    let rest = harmonic.rem_euclid(count);
+    let rest = harmonic.rem_euclid(count); // Harmonics that differ by multiples of n are of one class.
     let signed = if 2 * rest > count { rest - count } else { rest }; // The class: the harmonic of least size among p + k n.
-    let turns = (harmonic - signed) / n;
+    let turns = (harmonic - signed) / n; // k of m = p + k n.
     let residual = ritz.residual / period.duration;
     let shift = neutral.map_or(NEUTRAL[0] * omega, |neutral| 0.5 * neutral.norm());
     let mode = RidingMode {

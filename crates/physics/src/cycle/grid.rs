@@ -28,7 +28,7 @@ const CLEARANCE: f64 = 12.0;
 
 /// Landing time, as a share of the period, of a wave of about `frequency` (rad/s) on contact nodes of the frequency `node`.
 pub(super) fn landing_share(frequency: f64, node: f64) -> f64 {
-    LANDING / node * frequency / TAU
+    LANDING / node * frequency / TAU // tau / T = LANDING omega / (2 pi omega_node).
 }
 
 impl PhaseGrid {
@@ -45,9 +45,9 @@ impl PhaseGrid {
         let period = 2.0 * nodes;
         let clearance = CLEARANCE.min(0.25 * period);
         let resonant = period * (wished / period).round().max(1.0);
-        let distance = (wished - resonant).abs();
+        let distance = (wished - resonant).abs(); // To where the highest harmonics resonate.
         let points = if distance < clearance { resonant - clearance } else { wished };
-        let points = 2 * (points as usize / 2).max(2) + 1;
+        let points = 2 * (points as usize / 2).max(2) + 1; // M = 2 H + 1, at least 5: no harmonic at half the phases.
         Self { points, landing_share: wanted.max(RESOLVED / points as f64) }
     }
 }

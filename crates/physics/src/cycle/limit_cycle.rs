@@ -87,7 +87,7 @@ impl LimitCycle {
         let mut harmonics = [0.0; HARMONIC_COUNT];
         for (k, spectrum) in edge.displacement.iter().enumerate() {
             if let Some(place) = harmonics.get_mut(k * wave.body.harmonic.unsigned_abs()) {
-                let share = if k == 0 { 1.0 } else { 2.0 };
+                let share = if k == 0 { 1.0 } else { 2.0 }; // k > 0 stands for -k, too.
                 *place = share * spectrum[1].norm() / count;
             }
         }
@@ -118,7 +118,7 @@ impl LimitCycle {
         let interference = self.state.point.contact.interference;
         let gaps = self.points.iter().filter(|point| point.status == ContactStatus::Open);
         let (deepest, widest) = gaps.fold((0.0_f64, 0.0_f64), |(deepest, widest), point| {
-            let gap = point.displacement[0] - interference;
+            let gap = point.displacement[0] - interference; // Negative inside the cylinder.
             (deepest.min(gap), widest.max(gap))
         });
         let is_outside = -deepest < 0.02 * (interference + widest);
@@ -146,7 +146,7 @@ impl EdgeMotion {
         let displacement = rates.iter().enumerate().map(|(k, &rate)| {
             let at = DynamicCoefficients::new(rate, &state.point.damping);
             let (r, []) = wave.body.receptance(k, at, []);
-            [0, 1].map(|row| r[(row, 0)] * normal[k] + r[(row, 1)] * tangential[k])
+            [0, 1].map(|row| r[(row, 0)] * normal[k] + r[(row, 1)] * tangential[k]) // (u_r, u_theta)_k = R(lambda_k) (N, T)_k.
         });
         Self { displacement: displacement.collect(), rates }
     }
@@ -154,7 +154,7 @@ impl EdgeMotion {
     pub fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {
         let displacement = [0, 1].map(|c| wave.values(self.displacement.iter().map(|u| u[c])));
         let velocity = [0, 1].map(|component| {
-            let rate = |k: usize| wave.contact_rate(k, state.frequencies());
+            let rate = |k: usize| wave.contact_rate(k, state.frequencies()); // b, as the laws of contact have it.
             wave.values(self.displacement.iter().enumerate().map(|(k, u)| u[component] * rate(k)))
         });
         let length = wave.body.tributary_length;
@@ -184,7 +184,7 @@ pub(super) fn powers(
     let surface_speed = contact.rotation_speed * wave.body.radius;
     let mut powers = ContactPowers::default();
     let velocity = [0, 1].map(|component| {
-        wave.values(edge.displacement.iter().zip(&edge.rates).map(|(u, rate)| u[component] * rate))
+        wave.values(edge.displacement.iter().zip(&edge.rates).map(|(u, rate)| u[component] * rate)) // v = i s u, which keeps energy.
     });
     for (i, point) in points.iter().enumerate() {
         let (normal, tangential) = (state.normal[i], state.tangential[i]);
@@ -199,7 +199,7 @@ pub(super) fn powers(
     }
     let nodes = wave.body.sector_count as f64;
     CyclePowers {
-        contact: powers.scaled(nodes / points.len() as f64),
+        contact: powers.scaled(nodes / points.len() as f64), // Mean over the phases, times the nodes: each goes through all of them.
         material_damping: nodes * material_damping(wave, state, edge),
     }
 }
@@ -209,11 +209,11 @@ fn material_damping(wave: &Wave<'_>, state: &WaveState, edge: &EdgeMotion) -> f6
     let count = wave.points() as f64;
     let pairs = edge.displacement.iter().zip(&edge.rates).enumerate();
     pairs
-        .skip(1)
+        .skip(1) // The mean displacement is at rest.
         .map(|(k, (&u, &rate))| {
             let damping = &state.point.damping;
             let profile = wave.body.profile(k, DynamicCoefficients::new(rate, damping), u);
-            2.0 / (count * count) * wave.body.damping_form(k, damping, &profile) * rate.norm_sqr()
+            2.0 / (count * count) * wave.body.damping_form(k, damping, &profile) * rate.norm_sqr() // A = 2 lambda u / M: A^H C A / 2.
         })
         .sum()
 }

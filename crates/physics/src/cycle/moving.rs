@@ -28,7 +28,7 @@ impl MovingDofs {
     pub fn motion(&self, displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
         let dofs = || self.dofs.iter();
         let weighed = dofs().map(|&(place, root)| self.frequency * root * displacement[place]);
-        weighed.chain(dofs().map(|&(place, root)| root * velocity[place])).collect()
+        weighed.chain(dofs().map(|&(place, root)| root * velocity[place])).collect() // |motion|^2 = omega^2 u^T M u + v^T M v.
     }
 
     /// Puts a motion into the fields.

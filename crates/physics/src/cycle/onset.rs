@@ -112,14 +112,14 @@ pub fn refined(wave: &Wave<'_>, damping: &RayleighDamping, onset: &Onset) -> Opt
     let friction = |frequency: f64| {
         let rate = c64::new(0.0, frequency * wave.order(1));
         let (r, []) = wave.body.receptance(1, DynamicCoefficients::new(rate, damping), []);
-        -r[(0, 0)] / r[(0, 1)]
+        -r[(0, 0)] / r[(0, 1)] // u_r = (R_rr + mu R_rt) N = 0.
     };
     let start = onset.frequency / wave.order(1);
     let (mut before, mut now) = (start, start * (1.0 + 1e-6));
     let mut value_before = friction(before).im;
     for _ in 0..40 {
         let value = friction(now).im;
-        let step = value * (now - before) / (value - value_before);
+        let step = value * (now - before) / (value - value_before); // Secant step to Im(mu) = 0.
         (before, value_before) = (now, value);
         // Round-off of the first step: an onset that is already right.
         if !step.is_finite() || step.abs() < 1e-13 * now {
@@ -150,17 +150,17 @@ pub fn largest_linear_wave(
         let at = DynamicCoefficients::new(rate, &point.damping);
         wave.body.receptance(k, at, []).0
     };
-    let mean = point.contact.interference / receptance(0)[(0, 0)].re;
+    let mean = point.contact.interference / receptance(0)[(0, 0)].re; // delta = R_rr(0) N_0: at n = 0 shear moves nothing radially.
     let edge = receptance(1);
     // Normal force for a tangential displacement of unit amplitude and phase zero.
-    let response = edge[(1, 0)] + onset.friction_coefficient * edge[(1, 1)];
+    let response = edge[(1, 0)] + onset.friction_coefficient * edge[(1, 1)]; // u_theta = (R_tr + mu R_tt) N.
     let force = 1.0 / response;
-    let velocity = onset.frequency * wave.contact_orders(1)[0];
+    let velocity = onset.frequency * wave.contact_orders(1)[0]; // b, as slip is measured.
     let turn = |i: usize| c64::from_polar(1.0, TAU * i as f64 / points as f64 + origin);
     let surface_speed = point.contact.rotation_speed * wave.body.radius;
     let mut limit = (f64::INFINITY, Event::Lift(0));
     for i in 0..points {
-        let (normal, speed) = ((force * turn(i)).re, (velocity * turn(i)).re);
+        let (normal, speed) = ((force * turn(i)).re, (velocity * turn(i)).re); // Of unit amplitude: N_0 + A N = 0 lifts, A v = V sticks.
         for (amplitude, event) in
             [(mean / -normal, Event::Lift(i)), (surface_speed / speed, Event::Rest(i))]
         {
@@ -177,6 +177,6 @@ pub fn largest_linear_wave(
         phases: Phase::of(&[[onset.frequency, origin]], [points, 1]),
         point,
     };
-    state.impose_law();
+    state.impose_law(); // T = mu N.
     (state, limit.1)
 }

@@ -95,7 +95,7 @@ impl CycleSolver {
         let node_frequency = body(0)?.node_frequency;
         let nodes = sectors as f64 / family.harmonic as f64;
         let grid = PhaseGrid::new(onset.frequency, node_frequency, nodes, points);
-        Ok(Self { family, onset: *onset, body: body(grid.points / 2)?, grid, model: *model })
+        Ok(Self { family, onset: *onset, body: body(grid.points / 2)?, grid, model: *model }) // M = 2 H + 1 phases carry H harmonics.
     }
 
     pub(super) fn wave(&self) -> Wave<'_> {
@@ -135,13 +135,13 @@ impl CycleSolver {
             }
             match half.reach() {
                 Ok(cycle) => return Ok(cycle),
-                Err(end) if end.0 > failure.0 => failure = end,
+                Err(end) if end.0 > failure.0 => failure = end, // The farthest tells why.
                 Err(_) => {}
             }
         }
         let mut error = self.not_reached(parameter, target, failure);
         if let (true, CycleError::NotReached { reason, .. }) = (is_below, &mut error) {
-            *reason = "it rises from its birth".to_owned();
+            *reason = "it rises from its birth".to_owned(); // No cycle lies below such a birth.
         }
         Err(error)
     }
@@ -200,7 +200,7 @@ impl CycleSolver {
         if !branch.folds.is_empty()
             && let Some(finer) = self.on_finer_grid(cycle, parameter, values)
         {
-            let near = FOLD_APART / self.grid.points as f64;
+            let near = FOLD_APART / self.grid.points as f64; // A point of a grid of M is worth 1 / M of the value.
             let is_there = |fold: &f64| {
                 finer.folds.iter().any(|other| (other - fold).abs() <= near * fold.abs())
             };
@@ -231,7 +231,7 @@ impl CycleSolver {
             Ok(Half::new(branch, &values, MOST_STEPS))
         };
         let Ok([(down, low_end), (up, high_end)]) = both_halves(&values, start, &Unwatched, half);
-        let own = values.contains(start).then(|| cycle.clone());
+        let own = values.contains(start).then(|| cycle.clone()); // Both halves begin beyond it.
         CycleBranch {
             parameter,
             cycles: joined(down.cycles, own, up.cycles),
@@ -284,7 +284,7 @@ impl<'a> Half<'a> {
 impl Way for Half<'_> {
     type Error = Infallible;
     type Kept = ();
-    const BLOCK: usize = usize::MAX;
+    const BLOCK: usize = usize::MAX; // Nothing is kept on the way.
 
     fn count(&self) -> usize {
         self.cycles.len()
@@ -315,9 +315,9 @@ impl Way for Half<'_> {
             }
         }
         if state.contact.iter().all(|&point| point == PointState::SlipForward) {
-            return Ok(Some(BranchEnd::Birth));
+            return Ok(Some(BranchEnd::Birth)); // Full slip: a linear wave, of any amplitude at its onset.
         }
-        let is_beyond = !(state.point.contact.friction_coefficient < self.highest);
+        let is_beyond = !(state.point.contact.friction_coefficient < self.highest); // Not a number ends it, too.
         Ok(is_beyond.then_some(BranchEnd::Lost))
     }
 }

@@ -104,7 +104,7 @@ pub fn differing<T: Copy>(branch: impl Iterator<Item = (Option<bool>, T)>) -> Ve
 /// about how far the change is.
 pub(super) fn crossing([(from, one), (to, other)]: [(f64, Option<f64>); 2]) -> f64 {
     let share = match (one, other) {
-        (Some(one), Some(other)) if one != other => (one / (one - other)).clamp(0.0, 1.0),
+        (Some(one), Some(other)) if one != other => (one / (one - other)).clamp(0.0, 1.0), // g_1 + share (g_2 - g_1) = 0.
         _ => 0.5,
     };
     from + share * (to - from)
@@ -153,7 +153,7 @@ impl FloquetMultipliers {
     /// What all of them together say for sure.
     pub fn verdict(&self) -> Verdict {
         let has = |wanted: Verdict| self.multipliers.iter().any(|own| own.verdict() == wanted);
-        let known = [Verdict::Unstable, Verdict::Undecided].into_iter().find(|&wanted| has(wanted));
+        let known = [Verdict::Unstable, Verdict::Undecided].into_iter().find(|&wanted| has(wanted)); // One that grows decides.
         known.unwrap_or(Verdict::Stable)
     }
 

@@ -42,8 +42,8 @@ impl PointState {
     pub(super) fn events(self) -> &'static [fn(usize) -> Event] {
         match self {
             Self::Open => &[Event::Touch],
-            Self::Stick => &[Event::Lift, Event::SlideForward, Event::SlideBackward],
-            Self::SlipForward | Self::SlipBackward => &[Event::Lift, Event::Rest],
+            Self::Stick => &[Event::Lift, Event::SlideForward, Event::SlideBackward], // N >= 0, mu N - T >= 0, mu N + T >= 0.
+            Self::SlipForward | Self::SlipBackward => &[Event::Lift, Event::Rest], // N >= 0, drag (v_t - V) <= 0.
         }
     }
 
@@ -81,7 +81,7 @@ impl Event {
             Self::Touch(_) => gap,
             Self::SlideForward(_) => limit - tangential,
             Self::SlideBackward(_) => limit + tangential,
-            Self::Rest(_) => -drag * slip,
+            Self::Rest(_) => -drag * slip, // Friction opposes the sliding.
         }
     }
 

@@ -92,8 +92,8 @@ impl MeshStepping<'_> {
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
         let point = &cycle.state.point;
         let duration = TAU / cycle.state.frequency();
-        let limit = stable_step_limit(self.largest_frequency, &point.damping);
-        let steps = (duration / (SAFETY * limit)).ceil() as usize;
+        let limit = stable_step_limit(self.largest_frequency, &point.damping); // 2 / omega_max (sqrt(1 + zeta^2) - zeta).
+        let steps = (duration / (SAFETY * limit)).ceil() as usize; // Whole steps, so that a period ends with one.
         let time_step = duration / steps as f64;
         let (annulus, material) = (&self.annulus, &self.solver.model.material);
         let model = TransientModel::of_annulus(annulus, material, point.damping, point.contact);
@@ -143,7 +143,7 @@ impl MeshStepping<'_> {
             period.contact.extend(nodes.map(|(status, force)| match status {
                 ContactStatus::Open => PointState::Open,
                 ContactStatus::Stick => PointState::Stick,
-                ContactStatus::Slip if force.is_sign_negative() => PointState::SlipBackward,
+                ContactStatus::Slip if force.is_sign_negative() => PointState::SlipBackward, // T = -mu N.
                 ContactStatus::Slip => PointState::SlipForward,
             }));
         }
@@ -186,10 +186,10 @@ impl Period<'_> {
         let half = self.moving.count();
         (0..self.dimension())
             .map(|i| {
-                let (part, at) = (i / half * half, i % half);
+                let (part, at) = (i / half * half, i % half); // All displacements come before all velocities.
                 let (sector, dof) = (at / per, at % per);
                 let value = |s: usize| self.start[part + (s % count) * per + dof];
-                value(sector + 1) - value(sector + count - 1)
+                value(sector + 1) - value(sector + count - 1) // Central difference along the circumference: a multiple of d / dxi.
             })
             .collect()
     }
@@ -199,8 +199,8 @@ impl Period<'_> {
         let operator = self.stepping.operator.as_ref();
         let mut fields = MotionFields::zeros(operator.field_length());
         self.moving.place(perturbation, &mut fields);
-        operator.multiply(&mut fields.displacement, &mut fields.elastic);
-        operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        operator.multiply(&mut fields.displacement, &mut fields.elastic); // q = M^-1 K du.
+        operator.multiply(&mut fields.velocity, &mut fields.elastic_rate); // z = M^-1 K dv.
         let mut before = vec![[0.0; 2]; self.places.len()];
         for contact in self.contact.chunks(self.places.len()) {
             self.push(&mut fields, contact, &mut before);
@@ -227,7 +227,7 @@ impl Period<'_> {
             // dN / m so that du_n = 0 after the step.
             let v_n = fields.velocity[n];
             let trial_n = v_n - dt * (q_n + (alpha * v_n + beta * fields.elastic_rate[n]));
-            let normal = -(fields.displacement[n] + dt * trial_n) / (dt * dt);
+            let normal = -(fields.displacement[n] + dt * trial_n) / (dt * dt); // u + dt (v + dt dN / m) = 0.
             let tangential = match state {
                 // dT / m so that dv_t = 0 after the step.
                 PointState::Stick => {
@@ -235,9 +235,9 @@ impl Period<'_> {
                     let trial_t = v_t - dt * (q_t + (alpha * v_t + beta * fields.elastic_rate[t]));
                     -trial_t / dt
                 }
-                slip => slip.drag() * self.friction_coefficient * normal,
+                slip => slip.drag() * self.friction_coefficient * normal, // dT = +-mu dN.
             };
-            fields.elastic[n] = q_n - normal;
+            fields.elastic[n] = q_n - normal; // The step subtracts q: forces count negative.
             fields.elastic[t] = q_t - tangential;
         }
     }
@@ -248,7 +248,7 @@ impl Period<'_> {
         for (i, &state) in contact.iter().enumerate() {
             if state != PointState::Open {
                 for (&place, elastic) in self.places[i].iter().zip(before[i]) {
-                    fields.elastic[place] = elastic + dt * fields.elastic_rate[place];
+                    fields.elastic[place] = elastic + dt * fields.elastic_rate[place]; // q_{n+1} = q_n + dt q'_{n+1/2}, without dN / m.
                 }
             }
         }

@@ -165,7 +165,7 @@ impl<'a> System<'a> {
         // A slipping point's normal force brings mu N along.
         let pressed = pressed.map(|&i| (i, [1.0, friction * self.state.contact[i].drag()]));
         let sheared = self.stick.iter().map(|&i| (i, [0.0, 1.0]));
-        let force = scale * self.force_scale;
+        let force = scale * self.force_scale; // For a unit of a scaled force.
         let mut row = Vec::with_capacity(self.size());
         row.extend(pressed.chain(sheared).map(|(i, weights)| force * response(i, weights)));
         row.extend(self.scalars().iter().zip(by).map(|((_, own), by)| scale * own * by));
@@ -193,7 +193,7 @@ impl<'a> System<'a> {
     ) -> Equation {
         let (phase, first) = (&self.state.phases[wave], &linear.first[wave]);
         let response = |i: usize, [pressed, sheared]: [f64; 2]| {
-            let angle = -std::f64::consts::TAU * phase.place(i) as f64 / phase.points as f64;
+            let angle = -std::f64::consts::TAU * phase.place(i) as f64 / phase.points as f64; // A unit force there: e^{-i xi_i}.
             let response = pressed * first.row[0] + sheared * first.row[1];
             part(c64::from_polar(1.0, angle) * response)
         };
@@ -249,7 +249,7 @@ impl<'a> System<'a> {
         };
         let friction = self.state.point.contact.friction_coefficient;
         let rise = match self.parameter {
-            Parameter::FrictionCoefficient => force * self.parameter_scale() / self.force_scale,
+            Parameter::FrictionCoefficient => force * self.parameter_scale() / self.force_scale, // d(mu N) = N dmu.
             _ => 0.0,
         };
         let sheared = self.contact.len() + place(&self.stick);
@@ -297,7 +297,7 @@ impl<'a> System<'a> {
 
     /// The change that takes the residual away.
     pub fn solve(&self, matrix: Mat<f64>, residual: &[f64]) -> Option<Heading> {
-        let right_side = residual.iter().map(|value| -value).collect();
+        let right_side = residual.iter().map(|value| -value).collect(); // J dx = -r.
         Some(self.heading(&self.solved(matrix, right_side)?))
     }
 

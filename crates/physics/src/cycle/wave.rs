@@ -112,7 +112,7 @@ impl<'a> Wave<'a> {
 
     /// Factor that turns a displacement into `u + tau v`.
     pub fn look_ahead(&self, k: usize) -> c64 {
-        1.0 + TAU * self.landing_share * self.contact_rate(k, [1.0, self.ratio])
+        1.0 + TAU * self.landing_share * self.contact_rate(k, [1.0, self.ratio]) // 1 + tau b, tau = landing_share 2 pi / omega_1.
     }
 
     /// `k_1 omega_1 + k_2 omega_2` of harmonic `k`, rad/s.
@@ -143,7 +143,7 @@ impl<'a> Wave<'a> {
         plans[0].process(values);
         let [first, second] = self.sides;
         if second > 1 {
-            let at = |i: usize| (i % second) * first + i / second;
+            let at = |i: usize| (i % second) * first + i / second; // Places of the grid with the second phase contiguous.
             let mut across: Vec<c64> = (0..values.len()).map(|i| values[at(i)]).collect();
             plans[1].process(&mut across);
             (0..values.len()).for_each(|i| values[at(i)] = across[i]);
@@ -284,7 +284,7 @@ impl Linearization {
         let phases = &state.phases; // How they change with each frequency and the parameter.
         let scalars = || (1..=phases.len()).chain([3]);
         let slip_change = |k: usize, which: usize| {
-            slip_rate(k, 0) * moved[k][which][1] + slip_rate(k, which) * moved[k][0][1]
+            slip_rate(k, 0) * moved[k][which][1] + slip_rate(k, which) * moved[k][0][1] // d(b u) = b du + u db.
         };
         let by = scalars()
             .map(|which| [gap_of(&|k| moved[k][which][0]), values(&|k| slip_change(k, which))]);

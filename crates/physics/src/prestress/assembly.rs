@@ -216,7 +216,7 @@ impl<'a> Assembly<'a> {
         // What each point has along its normal: springs or none, and how far it is pushed in.
         let springs =
             of_points().map(|(own, point)| own.base_stiffness().map(|k| k * point.weight));
-        let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap);
+        let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap); // p_i = delta - g_i.
         // An edge is the only contact of its body, and has no section with a name.
         let named = contacts.iter().filter(|(own, _)| !own.is_edge());
         let named = named.map(|(own, surface)| (own.section(), surface.points.len()));

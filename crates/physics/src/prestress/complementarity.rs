@@ -89,7 +89,7 @@ fn follow(
                     end_between(bodies, set, [lowest(0).min(upper), least])?
                 }
             };
-            Ok([begin.min(upper - SHORTEST_RANGE), upper])
+            Ok([begin.min(upper - SHORTEST_RANGE), upper]) // Long enough for a polynomial.
         };
         let own = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked[k])?;
         found.left_out = found.left_out.max(own.left_out);

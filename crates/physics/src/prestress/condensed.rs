@@ -88,7 +88,7 @@ impl<'a> CondensedContact<'a> {
                 }
             }
         }
-        self.unpressed = self.points.separations(&self.solver.solve(self.points.load()));
+        self.unpressed = self.points.separations(&self.solver.solve(self.points.load())); // c_0 = n . K*^-1 f.
     }
 
     /// `1 / k_i`, m/N.
@@ -103,7 +103,7 @@ impl PressedBodies for CondensedContact<'_> {
     }
 
     fn stiffness_at(&self, point: usize) -> f64 {
-        self.normal_response[(point, point)].recip()
+        self.normal_response[(point, point)].recip() // 1 / A_ii.
     }
 
     fn usual_points(&self, [_, upper]: [f64; 2]) -> ([f64; 2], usize) {
@@ -120,7 +120,7 @@ impl PressedBodies for CondensedContact<'_> {
             let own = f64::from(u8::from(i == j));
             if is_pressed[j] {
                 let yields = self.compliance(j);
-                let pushes = a[(i, j)] * (1.0 - springs[j] * yields);
+                let pushes = a[(i, j)] * (1.0 - springs[j] * yields); // A_ij (1 - kappa_j / k_j).
                 (-own * yields - pushes - friction_coefficient * b[(i, j)]) / scale[j]
             } else {
                 own - a[(i, j)] * springs[j]
@@ -143,7 +143,7 @@ impl PressedBodies for CondensedContact<'_> {
             if is_pressed[i] {
                 let force = solution[(i, 0)] / scale[i];
                 state.normal_forces[i] = force;
-                state.separations[i] = pushed[i] - self.compliance(i) * force;
+                state.separations[i] = pushed[i] - self.compliance(i) * force; // c = p - N / k.
             } else {
                 state.separations[i] = solution[(i, 0)];
             }
@@ -162,6 +162,6 @@ fn spring_stiffnesses(points: &[Point], stiffness: &Triplets) -> Vec<f64> {
     let (sum, count) =
         diagonal.fold((0.0, 0_usize), |(sum, count), entry| (sum + entry.2.abs(), count + 1));
     let whole: f64 = points.iter().map(|point| point.weight).sum();
-    let total = sum / count.max(1) as f64;
+    let total = sum / count.max(1) as f64; // Mean of |K_ii|.
     points.iter().map(|point: &Point| total * point.weight / whole).collect()
 }

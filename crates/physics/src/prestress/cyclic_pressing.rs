@@ -145,5 +145,5 @@ impl Pressing<'_> {
 
 /// Entry `k` of a vector that has no symmetry, between -0.5 and 0.5.
 pub(crate) fn without_symmetry(k: usize) -> f64 {
-    (1.0 + k as f64).sqrt().fract() - 0.5
+    (1.0 + k as f64).sqrt().fract() - 0.5 // Fractions of roots repeat nowhere.
 }

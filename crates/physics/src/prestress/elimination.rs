@@ -206,7 +206,7 @@ impl Elimination {
         (friction, weights): (&[RigidFriction], FrictionWeights),
     ) -> Vec<Triplets> {
         let powers = weights.times_mu(power).filter(|_| !friction.is_empty());
-        let last = powers.fold(power, |last, (at, _)| last.max(at));
+        let last = powers.fold(power, |last, (at, _)| last.max(at)); // The highest power that friction leads to.
         let mut projected = vec![Triplets::default(); last + 1];
         for &(row, column, value) in &self.congruent(full).entries {
             let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
@@ -224,7 +224,7 @@ impl Elimination {
             lifts[row].iter().for_each(|&(i, share)| forces[i].push((column, share * value)));
         }
         for (rigid, force) in friction.iter().zip(&forces) {
-            let [slip, force] = [&rigid.slip, force].map(|row| self.over(unknowns, row));
+            let [slip, force] = [&rigid.slip, force].map(|row| self.over(unknowns, row)); // T^T of both.
             // Row of slip less mu times the normal force: - mu slip_i^T (lift_i^T A T).
             for (at, factor) in weights.times_mu(power) {
                 projected[at].push_product(-factor, &slip, &force);
@@ -254,11 +254,11 @@ pub(super) fn factorized(stiffness: &Triplets, unknowns: &DofMap) -> Result<Spar
     let place = |dof: usize| unknowns.unknown_of[dof];
     let entries = stiffness.entries.iter();
     let kept =
-        entries.filter_map(|&(row, column, value)| Some((place(row)?, place(column)?, value)));
+        entries.filter_map(|&(row, column, value)| Some((place(row)?, place(column)?, value))); // What is held is left out.
     let matrix = MatrixPolynomial::from_triplets(unknowns.len(), &[kept.collect()]);
     let analysis = LuAnalysis::new(matrix.pattern());
     let factors = analysis.and_then(|own| SparseLu::symmetric(&own, matrix.evaluate(0.0)));
-    let definite = factors.ok().filter(|own| own.negative_count() == 0);
+    let definite = factors.ok().filter(|own| own.negative_count() == 0); // No negative pivot.
     definite.ok_or(PrestressError::Singular)
 }
 

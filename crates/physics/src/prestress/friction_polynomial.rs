@@ -23,7 +23,7 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, reach: f64
         for power in 0..powers.len() {
             for at in 0..values[k].len() {
                 let above = powers.get(power + 1).map_or(0.0, |p| p[at]);
-                powers[power][at] -= points[k] * above;
+                powers[power][at] -= points[k] * above; // p <- p (mu - mu_k).
             }
         }
         for (sum, value) in powers[0].iter_mut().zip(&values[k]) {

@@ -29,7 +29,7 @@ impl<'a> FullSliding<'a> {
         let separations = points.iter().map(|point| basis.require(&point.normal));
         let separations = separations.collect::<Result<Vec<usize>>>()?;
         let stiffness = basis.congruent(stiffness).into_owned();
-        separations.iter().for_each(|&dof| basis.drop_unknown(dof));
+        separations.iter().for_each(|&dof| basis.drop_unknown(dof)); // Prescribed, no unknowns.
         let unknowns = basis.unknowns();
         let solver = factorized(&stiffness, &unknowns)?;
         Ok(Self { points, basis, separations, stiffness, unknowns, solver })
@@ -41,7 +41,7 @@ impl<'a> FullSliding<'a> {
         let pressed = self.refined(&load, self.pressed_by(separations, &load));
         let normal_forces = self.normal_forces(&pressed, &load);
 
-        let sheared = self.sheared(self.points, &normal_forces);
+        let sheared = self.sheared(self.points, &normal_forces); // u_1: that of unit friction.
         PressedState {
             displacements: vec![self.basis.displacement(&pressed), sheared],
             is_pressed: vec![true; normal_forces.len()],
@@ -69,7 +69,7 @@ impl<'a> FullSliding<'a> {
 
     /// A response to a load with the load that round-off left solved for, too: slender bodies multiply it.
     pub fn refined(&self, load: &[f64], first: Vec<f64>) -> Vec<f64> {
-        let more = self.solve(&self.stiffness.residual(load, &first));
+        let more = self.solve(&self.stiffness.residual(load, &first)); // K^-1 (f - K u).
         first.iter().zip(more).map(|(first, more)| first + more).collect()
     }
 

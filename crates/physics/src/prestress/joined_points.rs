@@ -58,7 +58,7 @@ impl<'a> JoinedPoints<'a> {
     /// The load over the unknowns.
     pub fn load(&self) -> Vec<f64> {
         let Pressing { elimination, load, .. } = self.pressing;
-        self.unknowns.restrict(&elimination.transposed_forces(load))
+        self.unknowns.restrict(&elimination.transposed_forces(load)) // T^T f.
     }
 
     /// `P^-1` times `load` and, a column each, forces along the normals and drags of the points.
@@ -69,7 +69,7 @@ impl<'a> JoinedPoints<'a> {
             right_side.copy_from_slice(load);
             for (rows, forces) in self.normals.iter().zip(&self.drags).zip(forces) {
                 for (row, force) in [rows.0, rows.1].into_iter().zip(forces) {
-                    row.iter().for_each(|&(dof, a)| right_side[dof] += force * a);
+                    row.iter().for_each(|&(dof, a)| right_side[dof] += force * a); // f + sum_i F_i n_i + G_i drag_i t_i.
                 }
             }
         }

@@ -72,7 +72,7 @@ impl SlidingSurfaces {
     /// constant stiffness small motions have.
     pub(super) fn base_stiffness(&self) -> Option<f64> {
         match self.counter {
-            Counterpart::Edge(_) => self.stiffness.law.map(|law| law.stiffness(0.0)),
+            Counterpart::Edge(_) => self.stiffness.law.map(|law| law.stiffness(0.0)), // dp / dg where nothing presses yet.
             Counterpart::Surface(_) | Counterpart::Rigid(_) => self.stiffness.normal_stiffness,
         }
     }

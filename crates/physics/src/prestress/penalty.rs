@@ -160,7 +160,7 @@ impl<'a> PenaltyContact<'a> {
                 self.pushed[i] = pressing.pushed[i] - approach + force / self.springs[i];
             }
         }
-        self.systems.take_if(|_| stiffens);
+        self.systems.take_if(|_| stiffens); // Other springs are another family.
         stiffens
     }
 }

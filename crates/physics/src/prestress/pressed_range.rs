@@ -41,7 +41,7 @@ impl PressedRange {
     /// Friction coefficients between which a state holds.
     pub(super) fn span(&self, state: usize) -> [f64; 2] {
         let [first, last] = crate::order::range(self.friction_coefficients.iter().copied());
-        let lower = state.checked_sub(1).map_or(first, |before| self.changes[before]);
+        let lower = state.checked_sub(1).map_or(first, |before| self.changes[before]); // From where the one before gives way.
         [lower, self.changes.get(state).copied().unwrap_or(last)]
     }
 
@@ -49,7 +49,7 @@ impl PressedRange {
     /// the other.
     pub fn unknown_between(&self, before: usize) -> Range<f64> {
         let (end, begin) = (self.changes[before], self.begins[before]);
-        let is_empty = begin - end <= 4.0 * CHANGE_WIDTH;
+        let is_empty = begin - end <= 4.0 * CHANGE_WIDTH; // Either is known to a width of its own.
         end..if is_empty { end } else { begin }
     }
 

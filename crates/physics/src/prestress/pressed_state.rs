@@ -71,8 +71,8 @@ impl Pressing<'_> {
         let gaps = self.points.iter().zip(&self.pushed);
         PrestressError::GapEverywhere {
             total: self.points.len(),
-            distance: distances.fold(f64::INFINITY, f64::min).max(0.0),
-            interference: gaps.map(|(point, pushed)| pushed + point.gap).fold(0.0, f64::max),
+            distance: distances.fold(f64::INFINITY, f64::min).max(0.0), // The least g_i - delta.
+            interference: gaps.map(|(point, pushed)| pushed + point.gap).fold(0.0, f64::max), // p_i + g_i = delta.
         }
     }
 }
@@ -231,7 +231,7 @@ impl EstimatedState {
         }
         let left_out = FOLLOWING * last_terms(&normal_forces); // What follows the last terms is smaller than they are.
         let origin = origins[usize::from(!stiffnesses.is_empty())];
-        let beyond: Vec<f64> = nodes.iter().map(|mu| mu - origin).collect();
+        let beyond: Vec<f64> = nodes.iter().map(|mu| mu - origin).collect(); // mu - a.
         // The origin may be either end of the interval.
         let reach = interval.iter().map(|mu| (mu - origin).abs()).fold(0.0, f64::max);
         let through = |values: Vec<Vec<f64>>| match values.is_empty() {
@@ -292,7 +292,7 @@ pub(super) fn widened([lower, upper]: [f64; 2]) -> [f64; 2] {
 fn chebyshev_points(count: usize, [lower, upper]: [f64; 2]) -> Vec<f64> {
     let point = |k: usize| {
         let turn = std::f64::consts::PI * (k as f64 + 0.5) / count as f64;
-        lower + 0.5 * (upper - lower) * (1.0 - turn.cos())
+        lower + 0.5 * (upper - lower) * (1.0 - turn.cos()) // -cos(theta) rises from -1 to 1.
     };
     (0..count).map(point).collect()
 }

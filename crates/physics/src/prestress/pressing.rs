@@ -106,7 +106,7 @@ fn press_rigidly(
             law: None,
             rule,
             contact: *contact,
-            pressures: rings.iter().zip(&ring_forces).map(|(ring, f)| f / ring.area).collect(),
+            pressures: rings.iter().zip(&ring_forces).map(|(ring, f)| f / ring.area).collect(), // p = N / A.
             sliding: SectorSliding { state, points },
             is_pressed,
             approaches,
@@ -161,7 +161,7 @@ fn press_on_springs(
         // Settled: to round-off, as derivatives take differences of such states.
         let displacement = body.refined(&loads, displacement);
         let found = approaches(sector, contact.interference, &displacement);
-        let left = tangent.multiply(dofs, &difference(&difference(&pushed, &displacement), &at));
+        let left = tangent.multiply(dofs, &difference(&difference(&pushed, &displacement), &at)); // k (delta - u_n - g).
         let push: Vec<f64> = own.iter().zip(&left).map(|(own, left)| own + left).collect();
         return Ok(SolidSliding {
             law: Some(law),

@@ -60,7 +60,7 @@ impl Rotation {
         // The stress of the centrifugal load alone.
         let unknowns = basis.unknowns();
         let solver = factorized(&grounded(held(), (mesh, materials), basis), &unknowns)?;
-        let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
+        let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal)); // T^T f_c.
         let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
         let bases = [displacement];
         // Stress stiffens, and the strain that comes with it changes the centrifugal load itself.
@@ -124,7 +124,7 @@ fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<()>
             let velocity = motion.velocity(there.position);
             let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
             let along = dot(there.area, motion.axis);
-            let side = (dot(there.area, there.area) - along * along).max(0.0).sqrt();
+            let side = (dot(there.area, there.area) - along * along).max(0.0).sqrt(); // |dA| without its part along the axis.
             across += dot(velocity, there.area).abs();
             whole += dot(velocity, velocity).sqrt() * side;
         }

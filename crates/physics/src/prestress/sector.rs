@@ -40,7 +40,7 @@ impl SectorSliding {
             points: &points,
             contacts: Vec::new(),
             pushed: vec![contact.interference; points.len()],
-            stiffnesses: points.iter().map(|own| Some(own.weight * law?.stiffness(0.0))).collect(),
+            stiffnesses: points.iter().map(|own| Some(own.weight * law?.stiffness(0.0))).collect(), // w k(0); none of rigid contact.
             laws: vec![law; points.len()],
             known: None,
         };

@@ -112,7 +112,7 @@ impl SectorTangent {
         let terms = Terms::of_mesh((&strip.mesh, material), false, options);
         let base =
             SectorSliding::solve(strip, &alike(strip, &terms), contact, options.contact.law)?;
-        let nodes = |point: &Point| point.normal.iter().map(|own| own.0 / 2).collect();
+        let nodes = |point: &Point| point.normal.iter().map(|own| own.0 / 2).collect(); // Two dofs a node.
         let touching = Touching {
             turnings: ContactInterface::of_sector(strip).turnings(),
             places: base.points.iter().map(nodes).collect(),
@@ -188,11 +188,11 @@ impl Touching {
         let (points, state) = &self.law;
         let stiffness = options.contact;
         let part =
-            ContactPart { points, turnings: &[], state, first: 0, stiffness, has_own_dofs: false };
+            ContactPart { points, turnings: &[], state, first: 0, stiffness, has_own_dofs: false }; // The nodes turn, not these.
         part.add_to(&mut terms);
         if options.geometric_stiffness {
             let SectorSliding { points, state } = &self.base;
-            terms.add_stress((&strip.mesh, material), &self.base.repeated(2));
+            terms.add_stress((&strip.mesh, material), &self.base.repeated(2)); // Elements reach into the next sector.
             let turned = turned(points, &self.turnings, (state, 0));
             terms.add(Part::Contact(0), Kind::Prestress, turned);
         }
@@ -206,7 +206,7 @@ impl Touching {
         let SectorSliding { points, .. } = &self.base;
         let is_rigid = options.contact.normal_stiffness.is_none() && options.contact.law.is_none();
         let rigid = points.iter().filter(|_| is_rigid).map(RigidFriction::of);
-        let distances = points.iter().map(|point| &point.normal).filter(|row| row.len() > 1);
+        let distances = points.iter().map(|point| &point.normal).filter(|row| row.len() > 1); // One dof alone is no distance.
         let nodes = points.iter().flat_map(|point| &point.normal).map(|own| own.0 / components);
         let dofs = |nodes: &Vec<usize>| {
             nodes.iter().flat_map(|node| components * node..components * (node + 1)).collect()

@@ -54,7 +54,7 @@ impl SolidSliding {
             let radius = sector.nodes[node].radius;
             self.friction(radius).1.drag * force * radius
         });
-        friction_coefficient * arms.sum::<f64>() * sector.sector_count() as f64
+        friction_coefficient * arms.sum::<f64>() * sector.sector_count() as f64 // mu sum_i drag_i N_i r_i.
     }
 
     /// Normal force of the whole contact over its area, Pa.
@@ -149,7 +149,7 @@ pub(super) fn face_points(
 ) -> Vec<FacePoint> {
     let is_quadratic = sector.is_quadratic();
     let nodes =
-        face.nodes.iter().map(|(node, half)| (node + half / 2 * sector.node_count()) as u32);
+        face.nodes.iter().map(|(node, half)| (node + half / 2 * sector.node_count()) as u32); // Those of the next sector come after these.
     if !is_quadratic && rule == FaceRule::Nodal {
         let mut areas = vec![0.0; face.nodes.len()];
         for point in face_quadrature(is_quadratic) {
@@ -176,7 +176,7 @@ pub(super) fn face_points(
             true => [1.0, face.radius_at(sector, at), sector.half_angle() * x],
             false => face.on_chord(sector, at),
         };
-        let (sin, cos) = (sector.half_angle() + angle).sin_cos();
+        let (sin, cos) = (sector.half_angle() + angle).sin_cos(); // e_r = (cos, sin), e_theta = (-sin, cos) there.
         let shares: Vec<(u32, f64)> = nodes.iter().copied().zip(values).collect();
         let rows = [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
             .map(|direction| row_along(&sector.strip.mesh, &shares, direction, 1.0));
@@ -240,7 +240,7 @@ impl<'a> OverRings<'a> {
         }
         // Between the ends and what roots of c + b s + a s^2 are within.
         let (a, b, c) = (0.5 * (from + to) - middle, 0.5 * (to - from), middle);
-        let q = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
+        let q = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b)); // Without cancellation: roots q / a and c / q.
         let mut places = vec![-1.0, q / a, c / q, 1.0];
         places.retain(|place: &f64| place.abs() <= 1.0);
         places.sort_by(f64::total_cmp);

@@ -80,7 +80,7 @@ impl SlidingTangent {
         let free = self.unknowns.expand(unknowns);
         let mut full = free.clone();
         for (dof, row) in &self.distances {
-            full[*dof] = row.iter().map(|&(other, share)| free[other] * share).sum();
+            full[*dof] = row.iter().map(|&(other, share)| free[other] * share).sum(); // Separations and ties: u_p = sum_j T_pj y_j.
         }
         full
     }
@@ -198,7 +198,7 @@ impl ContactPart<'_> {
         terms.add(part, Kind::Stiffness, own.stiffness);
         terms.add(part, Kind::Dashpots, own.dashpots);
         terms.add(part, Kind::FrictionDashpots, own.friction);
-        terms.add(part, Kind::Prestress, turned(self.points, self.turnings, state));
+        terms.add(part, Kind::Prestress, turned(self.points, self.turnings, state)); // Forces of the base state turn with their points.
     }
 }
 

@@ -104,7 +104,7 @@ impl PartLaw {
     pub fn ratio(&self, root: c64) -> c64 {
         let gain = LossGain(self.table.clone());
         match &self.table {
-            Some(table) => table.reference() + gain.at(root),
+            Some(table) => table.reference() + gain.at(root), // The table's ratio at the mode's own frequency.
             None => 1.0 + self.loss_factor * gain.at(root),
         }
     }
@@ -140,7 +140,7 @@ impl<M> Terms<M> {
     /// None yet.
     pub fn new(options: &TangentOptions) -> Self {
         let tangent_damping =
-            RayleighDamping { mass_coefficient: 0.0, ..options.damping_of_tangent() };
+            RayleighDamping { mass_coefficient: 0.0, ..options.damping_of_tangent() }; // alpha_R is of masses alone.
         let (all, bodies, others, contacts) = Default::default();
         Self { all, bodies, others, contacts, tangent_damping }
     }
@@ -184,7 +184,7 @@ impl<M> Terms<M> {
             Kind::Prestress | Kind::Transport => c64::ONE,
             Kind::Dashpots | Kind::Gyroscopic | Kind::FrictionDashpots => c64::ZERO,
         };
-        own + root * self.factors(term)[1]
+        own + root * self.factors(term)[1] // What it has in C comes with lambda.
     }
 
     /// Adds `x^H A x` of a term's matrix to the forms of its part. Stress has a part in the damping alone. Gyroscopic forces, of which

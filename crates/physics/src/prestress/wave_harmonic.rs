@@ -99,7 +99,7 @@ impl MovingHarmonic {
         let mut sum = Cow::Borrowed(&self.matrices.stiffness[..]);
         for (gain, own) in &self.matrices.losses {
             let factor = gain.at(lambda);
-            sum.to_mut().iter_mut().zip(own).for_each(|(sum, value)| *sum += factor * value);
+            sum.to_mut().iter_mut().zip(own).for_each(|(sum, value)| *sum += factor * value); // K + sum_p g_p K_p.
         }
         sum
     }
@@ -127,7 +127,7 @@ impl MovingHarmonic {
     ) -> Vec<c64> {
         let mut sum = vec![c64::ZERO; x.len()];
         for (factor, band) in terms.into_iter().filter(|own| own.0 != c64::ZERO) {
-            let factor = if adjoint { factor.conj() } else { factor };
+            let factor = if adjoint { factor.conj() } else { factor }; // (f A)^H = conj(f) A^H.
             let image = self.image(band, x, adjoint);
             sum.iter_mut().zip(image).for_each(|(sum, value)| *sum += factor * value);
         }

@@ -79,7 +79,7 @@ impl WaveTangent {
     /// Dofs of a sector at which a force can act and a displacement be observed: a distance between two bodies is no such place.
     pub fn places(&self) -> WaveDofs {
         let mut dofs = self.dofs.clone();
-        self.contact.distances.iter().for_each(|row| dofs.unknown_of[row[0].0] = None);
+        self.contact.distances.iter().for_each(|row| dofs.unknown_of[row[0].0] = None); // A distance stands there.
         dofs
     }
 
@@ -136,7 +136,7 @@ impl WaveTangent {
 
     /// Along the sliding, and in space across it.
     fn tangential_components(&self) -> impl Iterator<Item = usize> + use<> {
-        [1].into_iter().chain((self.components == 3).then_some(2 - self.contact.normal))
+        [1].into_iter().chain((self.components == 3).then_some(2 - self.contact.normal)) // e_z on a cylinder, e_r on a face.
     }
 
     fn ascending(&self, dofs: impl Iterator<Item = usize>) -> Vec<usize> {
@@ -205,7 +205,7 @@ impl WaveTangent {
         let unknown = |own: &(usize, f64)| self.dofs.unknown_of[own.0];
         let slips = self.contact.rigid.iter().filter_map(|own| own.slip.iter().find_map(unknown));
         self.of_power(n, 1).map(|matrix| {
-            let row = |slip: usize| (0..self.dofs.count).map(|k| matrix.get(slip, k)).collect();
+            let row = |slip: usize| (0..self.dofs.count).map(|k| matrix.get(slip, k)).collect(); // In it stands -s times the normal row.
             slips.clone().map(row).collect()
         })
     }

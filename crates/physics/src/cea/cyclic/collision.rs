@@ -37,7 +37,7 @@ pub(super) fn pass(
         let beyond = (stuck.parameter + jump).min(target);
         pair_near(follower, &follower.problem.at(beyond), beyond, &stuck, &met)
     })?;
-    paths[index.min(partner)].points.push(first);
+    paths[index.min(partner)].points.push(first); // By number, whichever of the two was stuck.
     paths[index.max(partner)].points.push(second);
     Some(())
 }
@@ -94,8 +94,7 @@ fn invariant_pair(
     };
     let [[(k11, m11), (k12, m12)], [(k21, m21), (k22, m22)]] =
         [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]];
-    // det(K + t M) = 0.
-    let quadratic = m11 * m22 - m12 * m21;
+    let quadratic = m11 * m22 - m12 * m21; // det(K + t M) = 0.
     let linear = k11 * m22 + m11 * k22 - k12 * m21 - m12 * k21;
     let constant = k11 * k22 - k12 * k21;
     let root = (linear * linear - 4.0 * quadratic * constant).sqrt(); // Both roots of the quadratic.

@@ -79,7 +79,7 @@ fn region(tangent: &WaveTangent, limit: f64) -> Region {
     for (from, to) in (0..4).map(|side| (corners[side], corners[(side + 1) % 4])) {
         for i in 0..SIDE_POINTS {
             let kappa = rayleigh.kappa(from + (to - from) * (i as f64 / SIDE_POINTS as f64));
-            region.real = region.real.max(1.001 * kappa.re);
+            region.real = region.real.max(1.001 * kappa.re); // A little more, since the edge bends between the points.
             region.imaginary = region.imaginary.max(1.001 * kappa.im.abs());
         }
     }
@@ -105,7 +105,7 @@ fn missed(
     mu: f64,
 ) -> Option<i64> {
     let (known_at_rest, known) = paths.map_or((Vec::new(), Vec::new()), |paths| known(paths, mu));
-    let (rest, now) = (problem.at_damping(0.0), problem.at(mu));
+    let (rest, now) = (problem.at_damping(0.0), problem.at(mu)); // At rest and undamped its zeros are those of the inertia count.
     let (mut lu, mut values) = (problem.workspace(), Vec::new());
     let mut ln_at = |theta: c64| -> c64 {
         let mut ln_determinant = |at: &Matrices| {
@@ -114,7 +114,7 @@ fn missed(
             lu.ln_determinant()
         };
         let factors = |known: &[c64]| known.iter().map(|k| (theta - k).ln()).sum::<c64>();
-        ln_determinant(&now) - ln_determinant(&rest) - factors(&known) + factors(&known_at_rest)
+        ln_determinant(&now) - ln_determinant(&rest) - factors(&known) + factors(&known_at_rest) // Its zeros are what was missed.
     };
     let mut missing = |corners: [c64; 4], size: f64| -> Option<i64> {
         let found = count_zeros(&corners, &|_| NEAR * size, &mut |points| {
@@ -131,7 +131,7 @@ fn missed(
     let ahead = missing(upper, limit)?;
     match problem.tangent.is_standing {
         true => Some(ahead),
-        false => Some(ahead + missing(upper.map(|point| -point), limit)?),
+        false => Some(ahead + missing(upper.map(|point| -point), limit)?), // The lower half: conjugates of -n.
     }
 }
 
@@ -142,7 +142,7 @@ fn known(paths: &HarmonicPaths, mu: f64) -> (Vec<c64>, Vec<c64>) {
     let at_rest = match problem.is_proportional() {
         true => at_rest.map(|&kappa| c64::new(kappa, 0.0)).collect(),
         false => at_rest
-            .flat_map(|kappa| [1.0, -1.0].map(|s| c64::I * s * kappa.max(0.0).sqrt()))
+            .flat_map(|kappa| [1.0, -1.0].map(|s| c64::I * s * kappa.max(0.0).sqrt())) // theta = +-i omega.
             .collect(),
     };
     let points = paths.paths.iter().flat_map(|path| &path.points);

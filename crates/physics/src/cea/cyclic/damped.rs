@@ -34,7 +34,7 @@ pub(super) fn follow_damped(
     let mut course = Course {
         problem: &problem,
         follower: Follower::new(&problem),
-        largest: range.margin.sqrt(),
+        largest: range.margin.sqrt(), // kappa = omega^2.
         paths: Vec::new(),
         next_branch: (pairs.len() + 1).max(FIRST_BORN),
     };
@@ -104,7 +104,7 @@ impl Course<'_> {
             match nearest.filter(|&k| (all[k] - theta).norm() <= SAME_EIGENVALUE * theta.norm()) {
                 Some(k) => is_claimed[k] = true,
                 None => {
-                    tracked.path.points.truncate(tracked.reached);
+                    tracked.path.points.truncate(tracked.reached); // Back to where it was one of all.
                     tracked.is_open = false;
                 }
             }
@@ -127,7 +127,7 @@ impl Course<'_> {
             let found = self.found(value, friction, &shared);
             match found {
                 Some(found) => self.add(value, found, before, &was_open),
-                None if -value.re > NEARLY_CRITICAL * value.norm() => creeping.push(value),
+                None if -value.re > NEARLY_CRITICAL * value.norm() => creeping.push(value), // Creep that dashpots hide.
                 None => {
                     let harmonic = self.problem.tangent.harmonic;
                     return Err(CeaError::unrefined(harmonic, friction, value));
@@ -185,7 +185,7 @@ impl Course<'_> {
     /// The eigenvalue with its vectors; nothing where two meet, or creep against dashpots hides them.
     fn found(&mut self, value: c64, friction: f64, shared: &Matrices) -> Option<Eigenpair> {
         [1.0, 1.0 + MULTIPLE].into_iter().find_map(|shift| {
-            let found = self.follower.find(shared, friction, value * shift)?;
+            let found = self.follower.find(shared, friction, value * shift)?; // Beside it, if a shift on it is singular.
             let is_it = (found.theta - value).norm() <= SAME_EIGENVALUE * value.norm();
             is_it.then_some(found)
         })
@@ -201,7 +201,7 @@ impl Course<'_> {
         back.reverse();
         let joined = was_open.iter().copied().find(|&index| {
             let tracked = &self.paths[index];
-            let left = &tracked.path.points[tracked.reached - 1];
+            let left = &tracked.path.points[tracked.reached - 1]; // Its last point before this step.
             let is_there = left.parameter == back[0].parameter;
             !tracked.is_open && is_there && left.is_same(&back[0], SAME_EIGENVALUE)
         });
@@ -215,7 +215,7 @@ impl Course<'_> {
             None => {
                 let path = Path {
                     branch: self.next_branch,
-                    waves: if value.im > 0.0 { Waves::Forward } else { Waves::Backward },
+                    waves: if value.im > 0.0 { Waves::Forward } else { Waves::Backward }, // With Im < 0 it is the conjugate of the wave -n.
                     points: back,
                 };
                 self.next_branch += 1;
@@ -269,10 +269,10 @@ fn spectrum(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Vec<c
 /// The same of one stiffness.
 fn spectrum_of(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Vec<c64>, CeaError> {
     let n = problem.dimension;
-    let (sigma, scale) = (c64::new(0.7 * size, 0.0), c64::new(size, 0.0));
+    let (sigma, scale) = (c64::new(0.7 * size, 0.0), c64::new(size, 0.0)); // On the positive axis: far from all that decays or vibrates.
     let [mass, damping, stiffness] = problem.dense(at);
     let shifted = Mat::from_fn(n, n, |i, j| {
-        stiffness[(i, j)] + sigma * (damping[(i, j)] + sigma * mass[(i, j)])
+        stiffness[(i, j)] + sigma * (damping[(i, j)] + sigma * mass[(i, j)]) // T(sigma) = K + sigma C + sigma^2 M.
     });
     let factors = ComplexDenseLu::factorize(shifted);
     let (mut x, mut y) = (stiffness, mass);
@@ -285,5 +285,5 @@ fn spectrum_of(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Ve
         (false, true) => x[(i - n, j)] / scale,
         (false, false) => -sigma * y[(i - n, j - n)],
     });
-    Ok(complex_eigenvalues(inverse.as_ref())?.iter().map(|value| sigma + value.inv()).collect())
+    Ok(complex_eigenvalues(inverse.as_ref())?.iter().map(|value| sigma + value.inv()).collect()) // nu = 1 / (lambda - sigma).
 }

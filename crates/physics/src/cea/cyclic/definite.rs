@@ -40,7 +40,7 @@ pub(super) fn is_empty(
 
 /// Weights of the monomials `mu^0 .. mu^3` in the Bernstein coefficient `corner` of a cubic on `[0, length]`.
 fn bernstein_weights(corner: usize, length: f64) -> [f64; 4] {
-    let i = corner as f64;
+    let i = corner as f64; // b_i = sum_k C(i, k) / C(3, k) length^k a_k.
     [
         1.0,
         length * i / 3.0,
@@ -105,7 +105,7 @@ impl<'a> TestSpace<'a> {
     fn interior(&self, weights: &[f64; 4], shift: f64) -> BandedFactor<c64> {
         let half_bandwidth = self.tangent.mass[0].half_bandwidth();
         let entry = |row: usize, column: usize| {
-            let inertia = c64::new(-shift * self.tangent.mass[0].get(row, column), 0.0);
+            let inertia = c64::new(-shift * self.tangent.mass[0].get(row, column), 0.0); // sum_k i^k w_k K_k - kappa M_0.
             let powers = self.tangent.stiffness.iter().enumerate();
             powers
                 .fold(inertia, |sum, (k, own)| sum + UNITS[k] * (weights[k] * own.get(row, column)))
@@ -131,7 +131,7 @@ impl<'a> TestSpace<'a> {
         let lines: Vec<[Vec<c64>; 2]> =
             (0..count).map(|index| self.tested_row_and_column(index, weights, kappa)).collect();
         let borders = lines.iter().map(|[row, column]| {
-            let border = |&dof: &usize| 0.5 * (column[dof] + row[dof].conj());
+            let border = |&dof: &usize| 0.5 * (column[dof] + row[dof].conj()); // Hermitian part of T (K - kappa M).
             self.others.iter().map(border).collect()
         });
         let borders: Vec<Vec<c64>> = borders.collect();
@@ -164,7 +164,7 @@ impl<'a> TestSpace<'a> {
                     row[other] += plain * matrix.get(place, other);
                     column[other] += plain * matrix.get(other, place);
                 }
-                let turned = factor * UNITS[k + 1] * weights[k + 1];
+                let turned = factor * UNITS[k + 1] * weights[k + 1]; // z^{k+1} psi^T A_k.
                 for (sum, value) in row.iter_mut().zip(&tested[k]) {
                     *sum += turned * *value;
                 }

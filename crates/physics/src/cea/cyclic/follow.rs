@@ -70,7 +70,7 @@ impl<'a> Follower<'a> {
                 // A shift that is an eigenvalue to the last bit makes the factor singular: a shift beside it does not.
                 is_moved = true;
                 theta += theta * RESIDUAL_BOUND;
-                [x, y] = before;
+                [x, y] = before; // Solutions with a singular factor are worth nothing.
                 continue;
             }
             let change = (next - theta).norm(); // Newton's step of the Rayleigh functional.
@@ -80,7 +80,7 @@ impl<'a> Follower<'a> {
                 theta = self.problem.without_round_off(theta);
                 let residual = self.problem.residual(at, theta, &x);
                 if residual > 1e-14 && change > ROUND_OFF * theta.norm() {
-                    continue;
+                    continue; // Not yet at round-off: once more.
                 }
                 let rate = self.problem.rate_of(at, theta, &x, &y, slope);
                 return Some(Eigenpair::new(parameter, [theta, rate], [x, y], residual));
@@ -110,7 +110,7 @@ impl<'a> Follower<'a> {
     pub fn find(&mut self, at: &Matrices, parameter: f64, guess: c64) -> Option<Eigenpair> {
         let start = |phase: f64| -> Vec<c64> {
             (0..self.problem.dimension)
-                .map(|i| c64::new(1.0 + (1.7 * i as f64).sin(), (phase + 0.9 * i as f64).cos()))
+                .map(|i| c64::new(1.0 + (1.7 * i as f64).sin(), (phase + 0.9 * i as f64).cos())) // No symmetry hides a mode from it.
                 .collect()
         };
         self.refine(at, parameter, guess, &start(0.3), &start(1.1))

@@ -35,10 +35,10 @@ fn point(
     }
     let key = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
     modes.sort_by(|a, b| {
-        a.eigenvalue.im.total_cmp(&b.eigenvalue.im).then_with(|| key(a).cmp(&key(b)))
+        a.eigenvalue.im.total_cmp(&b.eigenvalue.im).then_with(|| key(a).cmp(&key(b))) // Ties by name: one order everywhere.
     });
     let mut point = FrictionPoint::within(wanted.request.limit, friction, modes);
-    point.above.iter_mut().for_each(|mode| (mode.shape, mode.wave) = (None, None));
+    point.above.iter_mut().for_each(|mode| (mode.shape, mode.wave) = (None, None)); // Only what is listed carries shapes.
     point
 }
 
@@ -52,7 +52,7 @@ fn mode(
 ) -> Option<ComplexMode> {
     let problem = &paths.problem;
     let harmonic = problem.tangent.harmonic;
-    let found = path.points.binary_search_by(|p| p.parameter.total_cmp(&friction)).ok()?;
+    let found = path.points.binary_search_by(|p| p.parameter.total_cmp(&friction)).ok()?; // Grid values are points of each path.
     let pair = &path.points[found];
     let eigenvalue = problem.eigenvalue(waves.own(pair.theta));
     if eigenvalue.im <= 0.0 || problem.is_ending(pair.theta) {
@@ -65,7 +65,7 @@ fn mode(
         eigenvalue,
         harmonic,
         branch: path.branch,
-        direction: if friction == 0.0 { 0 } else { direction },
+        direction: if friction == 0.0 { 0 } else { direction }, // At rest nothing tells the two apart.
         residual: pair.residual,
         uncertainty: pair.uncertainty,
         contact_share: pair.contact_share,
@@ -90,10 +90,10 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
     let mut wave = tangent.displacement(x);
     for (dof, u) in wave.iter_mut().enumerate() {
         if dof % components == 1 {
-            *u *= c64::I;
+            *u *= c64::I; // u_theta = i (-i u_theta).
         }
         if is_backward {
-            *u = u.conj();
+            *u = u.conj(); // The wave -n is the conjugate.
         }
     }
     let nodes = || wave.chunks_exact(components);
@@ -102,7 +102,7 @@ fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Ve
     let peak = nodes().fold(&wave[..components], larger);
     let larger =
         peak.iter().fold(peak[0], |best, v| if v.norm() > best.norm() { *v } else { best });
-    let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);
+    let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE); // Largest |u| is 1, its largest component real.
     let sign = if is_backward { -1.0 } else { 1.0 };
     let phases = (0..2 * sectors).map(|turns| {
         let angle = sign * PI * turns as f64 / sectors as f64;

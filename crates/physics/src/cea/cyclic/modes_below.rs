@@ -75,7 +75,7 @@ fn of_all_waves(tangent: &WaveTangent, n: usize, modes: &Modes) -> Vec<f64> {
 fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
     kappas.sort_by(f64::total_cmp);
     let total = kappas.len();
-    let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + RESIDUAL_BOUND));
+    let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + RESIDUAL_BOUND)); // So that this one lies below it, too.
     highest.ok_or_else(|| CeaError::too_many_modes(asked, total))
 }
 
@@ -91,7 +91,7 @@ pub(super) fn at_rest(
         return Ok(None);
     }
     let modes = pencil.lowest(counted);
-    let found = modes.iter().filter(|mode| mode.0 < kappa).count();
+    let found = modes.iter().filter(|mode| mode.0 < kappa).count(); // Counted by inertia, found by iteration: two ways.
     match found == counted {
         true => Ok(Some(AtRest { harmonic: n, pencil, modes })),
         false => Err(CeaError::Harmonic(format!(
@@ -112,8 +112,7 @@ pub(super) fn modes_below(
     let (mut all, mut empty) = (Vec::new(), Vec::new());
     let (mut n, mut in_a_row, mut step) = (0, 0, 1);
     while n <= largest {
-        // Several harmonics side by side.
-        let last = if step == 1 { (n + BATCH - 1).min(largest) } else { n };
+        let last = if step == 1 { (n + BATCH - 1).min(largest) } else { n }; // Several harmonics side by side.
         let own = (n..=last).map(|n| (n, known.get_mut(n).and_then(Option::take)));
         let found: Result<Vec<Option<AtRest>>, CeaError> =
             crate::parallel::map(own, |own| at_rest(tangent, own, kappa));

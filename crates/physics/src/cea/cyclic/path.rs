@@ -42,7 +42,7 @@ impl Eigenpair {
     /// Whether another is the same: their distance relative to it is within `near`, and their vectors are parallel.
     pub fn is_same(&self, other: &Self, near: f64) -> bool {
         let is_close = (self.theta - other.theta).norm() <= near * self.theta.norm();
-        is_close && dot(&self.x, &other.x).norm() > 0.99
+        is_close && dot(&self.x, &other.x).norm() > 0.99 // |x^H x'| of unit vectors.
     }
 }
 

@@ -107,7 +107,7 @@ pub(super) fn follow_pairs(
 ) -> Result<HarmonicPaths, CeaError> {
     let mut follower = Follower::new(&problem);
     let paths = follow_all(&mut follower, pairs, range, StepControl::NORMAL)
-        .or_else(|_| follow_all(&mut follower, pairs, range, StepControl::FINE))?;
+        .or_else(|_| follow_all(&mut follower, pairs, range, StepControl::FINE))?; // Fine steps only where the usual ones lose a branch.
     let factorizations = follower.factorizations;
     Ok(HarmonicPaths::new(problem, paths, pairs, factorizations))
 }
@@ -157,7 +157,7 @@ fn follow_all(
                             follower.walk(points, target, control, &mut matrices);
                         }
                     };
-                let may_meet = problem.tangent.is_standing && problem.is_proportional();
+                let may_meet = problem.tangent.is_standing && problem.is_proportional(); // Real kappa meet; complex ones pass by.
                 let passed = may_meet
                     .then(|| collision::pass(follower, &mut paths, index, friction, approach));
                 passed.flatten().ok_or_else(|| lost(friction))?;
@@ -167,7 +167,7 @@ fn follow_all(
             describe(problem, &shared, &mut path.points, range.kept);
         }
         if !are_distinct(&paths) {
-            return Err(lost(friction));
+            return Err(lost(friction)); // Two have come to one: another is lost.
         }
     }
     Ok(paths)
@@ -210,7 +210,7 @@ pub(super) fn start(
         return Some(vec![path(waves, point)]);
     }
     // From the undamped mode, damping grows to its full value; then friction starts.
-    let undamped = c64::new(0.0, kappa.max(0.0).sqrt());
+    let undamped = c64::new(0.0, kappa.max(0.0).sqrt()); // lambda = i omega.
     let mut damped = vec![follower.at_rest(&problem.at_damping(0.0), undamped, x)];
     let mut matrices = |share: f64| Rc::new(problem.at_damping(share));
     if !follower.walk(&mut damped, 1.0, StepControl::NORMAL, &mut matrices) {
@@ -219,7 +219,7 @@ pub(super) fn start(
     let last = damped.pop()?;
     let conjugate = |v: &[c64]| v.iter().map(|v| v.conj()).collect::<Vec<_>>();
     let (theta, x) = (last.theta, last.x);
-    let mirrored = follower.at_rest(at_rest, theta.conj(), conjugate(&x));
+    let mirrored = follower.at_rest(at_rest, theta.conj(), conjugate(&x)); // The other root of one real problem, Im < 0.
     let mut paths = vec![path(Waves::Forward, follower.at_rest(at_rest, theta, x))];
     if !problem.tangent.is_standing {
         paths.push(path(Waves::Backward, mirrored));

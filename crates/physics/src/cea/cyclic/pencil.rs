@@ -45,14 +45,14 @@ impl Pencil {
     pub fn stiffened(&self, factor: f64, a: &BandedMatrix) -> Option<Self> {
         let [mass, stiffness] = &self.bands;
         let mut stiffness = stiffness.clone();
-        stiffness.add_scaled(factor, a);
+        stiffness.add_scaled(factor, a); // K + factor A.
         Self::new(mass.clone(), stiffness)
     }
 
     /// Number of modes below `kappa`.
     pub fn count_below(&self, kappa: f64) -> usize {
         let [mass, stiffness] = &self.bands;
-        BandedFactor::new(stiffness, mass, kappa).negative_count()
+        BandedFactor::new(stiffness, mass, kappa).negative_count() // Sylvester: as many negative pivots of K - kappa M.
     }
 
     /// The `count` modes of lowest frequency; fewer where the iteration does not settle.
@@ -61,7 +61,7 @@ impl Pencil {
         let settled = pairs.ok().filter(|pairs| pairs.converged == pairs.values.len());
         let modes = |pairs: SymmetricPairs| {
             let mode = |(j, theta): (usize, &f64)| {
-                (self.shift + theta.recip(), column(pairs.vectors.as_ref(), j).to_vec())
+                (self.shift + theta.recip(), column(pairs.vectors.as_ref(), j).to_vec()) // theta = 1 / (kappa - shift).
             };
             pairs.values.iter().enumerate().map(mode).collect()
         };
@@ -76,7 +76,7 @@ impl BlockOperator for Pencil {
 
     fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
         let mut images = self.mass_times(x);
-        (0..x.ncols()).for_each(|j| self.factor.solve(images.col_as_slice_mut(j)));
+        (0..x.ncols()).for_each(|j| self.factor.solve(images.col_as_slice_mut(j))); // (K - shift M)^-1 M x.
         images
     }
 }

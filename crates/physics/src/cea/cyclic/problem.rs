@@ -87,9 +87,9 @@ impl HarmonicProblem {
     pub fn at_damping(&self, damped: f64) -> Matrices {
         let mut own = self.at(0.0);
         let now = &mut own.now.matrices;
-        own.rates = now.map(|own| Some(own.clone()));
+        own.rates = now.map(|own| Some(own.clone())); // Linear in the share: the rates are the full matrices.
         (own.rates.mass, own.rates.stiffness) = (None, None);
-        let changing = now.losses.iter_mut().map(|(_, own)| own).chain([&mut now.damping]);
+        let changing = now.losses.iter_mut().map(|(_, own)| own).chain([&mut now.damping]); // Mass and stiffness stay: losses and C grow.
         changing.flatten().for_each(|value| *value *= damped);
         own
     }
@@ -97,12 +97,12 @@ impl HarmonicProblem {
     fn norms(&self, now: &MotionMatrices<Vec<c64>>) -> [f64; 3] {
         let norm = |values: &[c64]| {
             let rows = values.chunks_exact(2 * self.half_bandwidth + 1);
-            let sums = rows.map(|row| row.iter().map(|v| v.re.abs() + v.im.abs()).sum::<f64>());
+            let sums = rows.map(|row| row.iter().map(|v| v.re.abs() + v.im.abs()).sum::<f64>()); // At most sqrt(2) times the sum of moduli.
             sums.fold(0.0, f64::max)
         };
         let (m, k) = (norm(&now.mass), norm(&now.stiffness));
         let proportional = self.tangent.rayleigh.mass_coefficient.abs() * m
-            + self.tangent.rayleigh.stiffness_coefficient.abs() * k;
+            + self.tangent.rayleigh.stiffness_coefficient.abs() * k; // |C| <= alpha |M| + beta |K|.
         [m, if self.is_proportional() { proportional } else { norm(&now.damping) }, k]
     }
 
@@ -114,9 +114,9 @@ impl HarmonicProblem {
     /// `(a, b)` and their derivatives at `theta`.
     fn factors(&self, theta: c64) -> [c64; 4] {
         if self.is_proportional() {
-            [-theta, c64::ZERO, c64::new(-1.0, 0.0), c64::ZERO]
+            [-theta, c64::ZERO, c64::new(-1.0, 0.0), c64::ZERO] // T = K - kappa M.
         } else {
-            [theta * theta, theta, theta + theta, c64::ONE]
+            [theta * theta, theta, theta + theta, c64::ONE] // T = K + theta C + theta^2 M.
         }
     }
 
@@ -151,7 +151,7 @@ impl HarmonicProblem {
         let distance = |candidate: c64| (candidate - theta).norm();
         let nearest = if distance(candidates[0]) <= distance(candidates[1]) { 0 } else { 1 };
         let root = candidates[nearest];
-        let slope = m * root * 2.0 + c;
+        let slope = m * root * 2.0 + c; // y^H T' x = 2 m theta + c.
         let step = self.own_step(at, theta, [x, y], (root - theta, slope));
         (step.map_or(root, |step| theta + step), slope)
     }
@@ -220,7 +220,7 @@ impl HarmonicProblem {
     pub fn uncertainty(&self, at: &Matrices, pair: &Eigenpair) -> f64 {
         let lambda = self.eigenvalue(pair.theta);
         let slope = dot(&pair.y, &at.now.apply_slope(lambda, &pair.x, false));
-        f64::EPSILON * self.size(at, lambda, &pair.x) / (slope.norm() * lambda.norm())
+        f64::EPSILON * self.size(at, lambda, &pair.x) / (slope.norm() * lambda.norm()) // Of unit vectors: eps |T| / (|y^H T' x| |lambda|).
     }
 
     /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding
@@ -233,7 +233,7 @@ impl HarmonicProblem {
         let sums = damping.chunks_exact(2 * h + 1).enumerate().map(|(row, band)| {
             let (first, last) = (row.saturating_sub(h), (row + h + 1).min(self.dimension));
             let entries = band[first + h - row..last + h - row].iter();
-            entries.zip(&x[first..last]).map(|(c, x)| c.norm() * x.norm()).sum::<f64>()
+            entries.zip(&x[first..last]).map(|(c, x)| c.norm() * x.norm()).sum::<f64>() // sum_j |c_ij| |x_j|.
         });
         sums.fold(0.0, f64::max) / largest(x)
     }
@@ -253,7 +253,7 @@ impl HarmonicProblem {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let full = |values: &[c64]| {
             Mat::from_fn(n, n, |i, j| match i.abs_diff(j) <= h {
-                true => values[i * (2 * h + 1) + j + h - i],
+                true => values[i * (2 * h + 1) + j + h - i], // Row i begins at column i - h.
                 false => c64::ZERO,
             })
         };
@@ -266,7 +266,7 @@ impl HarmonicProblem {
     pub fn shares(&self, x: &[c64]) -> [f64; 2] {
         let real: Vec<f64> = x.iter().map(|v| v.re).collect();
         let imaginary: Vec<f64> = x.iter().map(|v| v.im).collect();
-        let energy = |form: &BandedMatrix| energy(form, &real) + energy(form, &imaginary);
+        let energy = |form: &BandedMatrix| energy(form, &real) + energy(form, &imaginary); // x^H F x of a real symmetric F.
         let HarmonicTangent { shares, mass, .. } = &self.tangent;
         shares.each_ref().map(|part| energy(part) / energy(&mass[0]))
     }
@@ -323,10 +323,10 @@ fn rate(polynomial: &FrictionPolynomial, z: c64) -> Option<Vec<c64>> {
         return None;
     }
     let mut values = vec![c64::ZERO; polynomial[0].values().len()];
-    let mut factor = c64::I;
+    let mut factor = c64::I; // dz / dmu = i.
     for (power, coefficient) in polynomial.iter().enumerate().skip(1) {
         for (value, v) in values.iter_mut().zip(coefficient.values()) {
-            *value += factor * (power as f64 * v);
+            *value += factor * (power as f64 * v); // d(z^p) / dmu = i p z^{p-1}.
         }
         factor *= z;
     }

@@ -56,9 +56,9 @@ impl Reduction {
         };
         let mut loads: Vec<Vec<f64>> = contact.iter().map(|&u| unit(u)).collect();
         loads.extend(normals);
-        loads.extend(lossy.iter().flat_map(|own| modes.iter().map(|mode| own.multiply(&mode.1))));
+        loads.extend(lossy.iter().flat_map(|own| modes.iter().map(|mode| own.multiply(&mode.1)))); // Forces of parts on the modes.
         let first = main_directions(pencil, loads);
-        let mut loads: Vec<Vec<f64>> = first.iter().map(|x| pencil.mass.multiply(x)).collect();
+        let mut loads: Vec<Vec<f64>> = first.iter().map(|x| pencil.mass.multiply(x)).collect(); // Second term: K^-1 M K^-1 b.
         loads.extend(normal_masses);
         let second = main_directions(pencil, loads);
 
@@ -75,7 +75,7 @@ impl Reduction {
                 }
             }
             let momentum = pencil.mass.multiply(&x);
-            let left = length(&x, &momentum);
+            let left = length(&x, &momentum); // What lies beyond the columns so far.
             if left > HALF_THE_DIGITS * before {
                 columns.push(x.iter().map(|v| v / left).collect());
                 momenta.push(momentum.iter().map(|v| v / left).collect());
@@ -87,10 +87,10 @@ impl Reduction {
 
     /// The same space with a basis in which the dashpots across the sliding are diagonal, the strongest first.
     pub fn turned(self, across: &Across) -> Self {
-        let form = transpose_product(self.basis.as_ref(), self.images(&across.dashpots).as_ref());
+        let form = transpose_product(self.basis.as_ref(), self.images(&across.dashpots).as_ref()); // V^T A V.
         let (values, vectors) = symmetric_eigen(&form);
         let size = values.len();
-        let turn = Mat::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]);
+        let turn = Mat::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]); // Values rise: turned round, the strongest come first.
         let strengths = values.iter().rev().take(across.rank);
         Self {
             basis: product(self.basis.as_ref(), turn.as_ref()),
@@ -106,7 +106,7 @@ impl Reduction {
     pub fn mode(&self, k: usize) -> Vec<f64> {
         let size = self.basis.ncols();
         match &self.turned {
-            Some(turned) => (0..size).map(|j| turned.modes[(k, j)]).collect(),
+            Some(turned) => (0..size).map(|j| turned.modes[(k, j)]).collect(), // Old column k in the new ones.
             None => (0..size).map(|j| f64::from(u8::from(j == k))).collect(),
         }
     }
@@ -120,7 +120,7 @@ impl Reduction {
             Some(turned) => {
                 let mut powers = self.project(&across.along);
                 for (j, strength) in turned.strengths.iter().enumerate() {
-                    powers[0].add(j, j, *strength);
+                    powers[0].add(j, j, *strength); // Set, not projected: that would spread its rounding.
                 }
                 Some(powers)
             }
@@ -160,7 +160,7 @@ impl Reduction {
         let left = at.apply(lambda, &y, true);
         let part = |of: fn(&c64) -> f64| {
             let mut part: Vec<f64> = right.iter().map(of).collect();
-            pencil.factor.solve(&mut part);
+            pencil.factor.solve(&mut part); // K^-1 r.
             part
         };
         let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
@@ -196,7 +196,7 @@ impl Reduction {
         for j in 0..size {
             for i in 0..size {
                 let other = if is_symmetric { form[(j, i)] } else { form[(i, j)] };
-                result.add(i, j, 0.5 * (form[(i, j)] + other));
+                result.add(i, j, 0.5 * (form[(i, j)] + other)); // (A + A^T) / 2, or A.
             }
         }
         result
@@ -217,7 +217,7 @@ fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         return Vec::new();
     }
     let size = loads.len();
-    let scale: Vec<f64> = (0..size).map(|i| dot(&responses[i], &loads[i]).sqrt().recip()).collect();
+    let scale: Vec<f64> = (0..size).map(|i| dot(&responses[i], &loads[i]).sqrt().recip()).collect(); // To b^T K^-1 b = 1.
     let mut gram = Mat::zeros(size, size);
     for j in 0..size {
         for i in 0..=j {
@@ -232,7 +232,7 @@ fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     kept.map(|k| {
         let mut x = vec![0.0; responses[0].len()];
         for (i, response) in responses.iter().enumerate() {
-            add(&mut x, vectors[(i, k)] * scale[i], response);
+            add(&mut x, vectors[(i, k)] * scale[i], response); // x_k = sum_i v_ik s_i K^-1 b_i.
         }
         x
     })

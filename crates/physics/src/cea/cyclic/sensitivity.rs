@@ -48,7 +48,7 @@ pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<O
     let direction = tangent.sliding_direction;
     let pair = |&(branch, friction): &(&ModeBranch, f64)| {
         let is_backward = f64::from(branch.direction) * direction > 0.0;
-        let waves = if is_backward { Waves::Backward } else { Waves::Forward };
+        let waves = if is_backward { Waves::Backward } else { Waves::Forward }; // The wave -n travels with the rotor.
         pair_of(&harmonics[&branch.harmonic], (branch, friction), waves)
     };
     crate::parallel::map(wanted, pair)
@@ -143,9 +143,8 @@ fn pair_of(
     let at = problem.at(friction);
     let found = Follower::new(problem).find(&at, friction, guess)?;
     let BranchPoint { eigenvalue, rate, .. } = point_of(problem, waves, &found);
-    // Not so of what is not a number.
-    let is_it = (eigenvalue - start).norm() <= BESIDE * start.norm();
-    let (root, right, left) = (waves.own(eigenvalue), found.x, found.y);
+    let is_it = (eigenvalue - start).norm() <= BESIDE * start.norm(); // Not so of what is not a number.
+    let (root, right, left) = (waves.own(eigenvalue), found.x, found.y); // Back to the root of +n.
     let slope = dot(&left, &at.now.apply_slope(root, &right, false));
     let own_slope = problem.own_slope(&at, root, [&right, &left]).map(|own| own / slope);
     is_it.then_some(WavePair {

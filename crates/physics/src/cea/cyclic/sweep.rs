@@ -126,9 +126,8 @@ fn follow(
         false => modes_below::bound(tangent, limit)?,
     };
 
-    // Modes at rest, and what of them is wanted.
-    let span = if is_direct { 1.0 } else { reduced::SPAN };
-    let kappa = bound * (margin * span).powi(2);
+    let span = if is_direct { 1.0 } else { reduced::SPAN }; // Modes at rest, and what of them is wanted.
+    let kappa = bound * (margin * span).powi(2); // kappa goes with the square of the frequency.
     let (mut found, counted) = match (harmonics, limit) {
         (Some(own), ModeLimit::MaxFrequency(_)) => {
             let found: Result<Vec<_>, CeaError> =
@@ -142,8 +141,7 @@ fn follow(
     let margin = wanted * margin * margin;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
 
-    // Each harmonic by itself.
-    let range = Range { grid: &asked.grid, kept: &asked.kept(), wanted, margin };
+    let range = Range { grid: &asked.grid, kept: &asked.kept(), wanted, margin }; // Each harmonic by itself.
     let followed: Result<Vec<HarmonicPaths>, CeaError> =
         crate::parallel::map(found, |mut found| {
             if !is_direct {
@@ -161,7 +159,7 @@ fn follow(
         ModeLimit::Lowest(_) if is_direct => {
             highest.fold(0.0_f64, |top, mode| top.max(mode.eigenvalue.im))
         }
-        _ => wanted.sqrt(),
+        _ => wanted.sqrt(), // kappa = omega^2.
     };
     Ok((Found { followed, points, limit, margin: margin.sqrt() }, counted))
 }

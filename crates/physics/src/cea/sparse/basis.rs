@@ -121,7 +121,7 @@ impl<'a> BasisBuilder<'a> {
                 own.watch.keep_value(&name, &columns_of(&columns));
                 Ok(columns)
             });
-        self.steps += values.len();
+        self.steps += values.len(); // Steps are known by number, whatever order they end in.
         self.watch.reached(SweepProgress {
             stage: SweepStage::Blocks,
             solved: self.steps,
@@ -140,7 +140,7 @@ impl<'a> BasisBuilder<'a> {
             let x = self.model.expand(coordinates);
             let (residuals, momenta) = matrices.residuals_and_momenta(&entries, x.as_ref());
             let mut corrections = residuals.clone();
-            self.factors.solve_in_place(corrections.as_mut());
+            self.factors.solve_in_place(corrections.as_mut()); // t = (K(0) - sigma M(0))^-1 r.
             let is_open = |entry: &&PackedEntry| {
                 let size = |own| entry.vector(own).norm();
                 let energy = |a: &Mat<f64>, b: &Mat<f64>| -> f64 {
@@ -251,11 +251,11 @@ pub(super) fn turn_to_real(vectors: &mut Mat<f64>) {
     for j in (0..vectors.ncols()).step_by(2) {
         let (p, q) = (column(vectors.as_ref(), j), column(vectors.as_ref(), j + 1));
         let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));
-        let angle = 0.5 * (2.0 * pq).atan2(pp - qq);
+        let angle = 0.5 * (2.0 * pq).atan2(pp - qq); // tan 2 phi = 2 p.q / (p.p - q.q).
         let length = (pp + qq).sqrt().max(f64::MIN_POSITIVE);
         let (cosine, sine) = (angle.cos() / length, angle.sin() / length);
         let turned: Vec<[f64; 2]> =
-            p.iter().zip(q).map(|(p, q)| [cosine * p + sine * q, cosine * q - sine * p]).collect();
+            p.iter().zip(q).map(|(p, q)| [cosine * p + sine * q, cosine * q - sine * p]).collect(); // (p + i q) e^{-i phi}.
         for half in 0..2 {
             let target = column_mut(vectors, j + half).iter_mut();
             target.zip(&turned).for_each(|(v, t)| *v = t[half]);

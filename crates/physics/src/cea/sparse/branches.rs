@@ -61,7 +61,7 @@ impl BranchEnd {
 
 /// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
 fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
-    let decay = -(mode.eigenvalue.re + mode.derivative.re * step);
+    let decay = -(mode.eigenvalue.re + mode.derivative.re * step); // -Re(lambda + lambda' step).
     decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
 }
 
@@ -96,7 +96,7 @@ pub fn label_first(
 /// The next name of a harmonic, of which branches with the harmonics of `others` may have some.
 fn label(edge: &ContactEdge, harmonic: usize, others: impl Iterator<Item = usize>) -> BranchLabel {
     let below = others.filter(|&other| other == harmonic).count();
-    let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
+    let branch = if edge.is_paired(harmonic) { below / 2 } else { below }; // Both waves of a pair have one name.
     BranchLabel { harmonic, branch: branch + 1 }
 }
 
@@ -124,7 +124,7 @@ fn split_degenerate(
             crate::order::sort_by_number(&mut order, |&i| values[i].re);
             let rights: Vec<Vec<c64>> = cluster.iter().map(|mode| mode.right.clone()).collect();
             for (mode, j) in cluster.iter_mut().zip(order) {
-                let part = |row: usize| (0..size).map(|i| parts[(i, j)] * rights[i][row]).sum();
+                let part = |row: usize| (0..size).map(|i| parts[(i, j)] * rights[i][row]).sum(); // x_j = sum_i u_ij x_i.
                 mode.right = (0..rights[0].len()).map(part).collect();
             }
             model.complete(cluster, &at, *mu);
@@ -166,7 +166,7 @@ pub fn track(
         let step = after.friction_coefficient - before.friction_coefficient;
         let stays = |mode: &ReducedMode| !leaves_range(mode, step, after.range_end);
         let last_to_stay = before.modes[..before.wanted].iter().rposition(stays);
-        let needed = last_to_stay.map_or(0, |i| i + 1);
+        let needed = last_to_stay.map_or(0, |i| i + 1); // Modes that must be linked beyond doubt.
         let links = match_modes(
             (before.friction_coefficient, &before.modes),
             (after.friction_coefficient, &after.modes),
@@ -176,14 +176,14 @@ pub fn track(
         )?;
         for branch in &mut branches {
             let last = branch.modes[k - 1];
-            let next = last.and_then(|i| links[i].as_ref().ok());
+            let next = last.and_then(|i| links[i].as_ref().ok()); // On to the mode that continues it.
             branch.passed.extend(next.iter().flat_map(|(_, passed)| passed.iter().cloned()));
             let next = next.map(|(i, _)| *i);
             if let Some(i) = last
                 && let Err((seen, lost_at)) = &links[i]
                 && i < needed
                 && stays(&before.modes[i])
-                && let rest = after.friction_coefficient - seen.mu
+                && let rest = after.friction_coefficient - seen.mu // Not those that leave the range on the way.
                 && !leaves_range(&seen.mode, rest, after.range_end)
             {
                 branch.end = Some(BranchEnd {
@@ -194,9 +194,9 @@ pub fn track(
                     diverges_at: None,
                 });
             }
-            branch.modes.push(next);
+            branch.modes.push(next); // None where it ends, or has not begun.
         }
-        adopt_newcomers(&mut branches, after, edge, k);
+        adopt_newcomers(&mut branches, after, edge, k); // What no branch has come to.
     }
     Ok(branches)
 }
@@ -242,13 +242,13 @@ fn match_modes(
         *solved += 1;
         let modes = model.solve_between(middle, [from.1, to.1])?;
         let first = match_modes(from, (middle, &modes), needed, model, (depth + 1, solved))?;
-        let reached = first.iter().take(needed).flatten().map(|(i, _)| i + 1).max().unwrap_or(0);
+        let reached = first.iter().take(needed).flatten().map(|(i, _)| i + 1).max().unwrap_or(0); // Up to the last that these have come to.
         let second = match_modes((middle, &modes), to, reached, model, (depth + 1, solved))?;
         let links = first.into_iter().zip(from.1).map(|(link, own)| {
             let (i, mut passed) = link?;
             let (j, beyond) = second[i].clone()?;
             let mode = &modes[i];
-            let changes = mode.is_growing() != own.is_growing() || !passed.is_empty();
+            let changes = mode.is_growing() != own.is_growing() || !passed.is_empty(); // A sign that changes and changes back is kept.
             if changes || may_turn(mode, middle - from.0) {
                 passed.push(ModeAt { mu: middle, mode: mode.clone() });
             }
@@ -310,14 +310,14 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
     let mut taken = vec![false; to.1.len()];
     for (i, link) in links.iter_mut().enumerate() {
         let a = &from.1[i];
-        let distance = |j: usize| (overlaps[(i, j)] - 1.0).abs();
+        let distance = |j: usize| (overlaps[(i, j)] - 1.0).abs(); // The overlap of one mode is 1.
         let best = (0..to.1.len()).min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
         let Some(j) = best.filter(|&j| distance(j) < ALIKE && !taken[j]) else { continue };
         let b = &to.1[j];
-        let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
+        let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step); // Trapezoid of the derivatives.
         let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
         let error = (b.eigenvalue - predicted).norm();
-        let accuracy = if distance(j) < SAME { BESIDE } else { SAME_EIGENVALUE };
+        let accuracy = if distance(j) < SAME { BESIDE } else { SAME_EIGENVALUE }; // Where vectors leave no doubt, values may differ more.
         if error <= 0.5 * reach + accuracy * a.eigenvalue.norm() {
             *link = Some(j);
             taken[j] = true;

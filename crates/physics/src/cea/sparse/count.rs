@@ -54,7 +54,7 @@ impl<'a> ModeCounter<'a> {
         let mut count = ModeCount {
             friction_coefficient: mu,
             region: *region,
-            known: known.iter().filter(|own| region.holds(**own)).count(),
+            known: known.iter().filter(|own| region.holds(**own)).count(), // Those outside only smooth the way.
             recovered: 0,
             missing: Ok(0),
             near: None,
@@ -67,7 +67,7 @@ impl<'a> ModeCounter<'a> {
         });
         match found {
             Ok(ZeroCount { count: missing, sum }) => {
-                count.missing = Ok(missing);
+                count.missing = Ok(missing); // Zeros that no known eigenvalue takes out.
                 // Their mean, to some parts in a thousand of the highest frequency.
                 count.near = (missing != 0).then(|| sum / missing as f64);
                 count.determinants = determinants;

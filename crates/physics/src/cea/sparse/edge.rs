@@ -56,7 +56,7 @@ impl ContactEdge {
             if energy > best.1 {
                 best = (n, energy);
             }
-            phases.iter_mut().zip(&turns).for_each(|(phase, turn)| *phase *= turn);
+            phases.iter_mut().zip(&turns).for_each(|(phase, turn)| *phase *= turn); // e^{i (n + 1) theta}.
         }
         best.0
     }
@@ -82,7 +82,7 @@ impl ContactEdge {
 
     /// Whether modes of this harmonic come in pairs `e^{-i n theta}`, `e^{+i n theta}`.
     pub fn is_paired(&self, harmonic: usize) -> bool {
-        harmonic > 0 && 2 * harmonic != self.angles.len()
+        harmonic > 0 && 2 * harmonic != self.angles.len() // At 0 and N / 2 both are one wave.
     }
 
     /// Amplitudes of the waves `e^{-i n theta}` and `e^{+i n theta}` of a mode's edge, whose `e^{i n theta}` at the nodes are `phases`.
@@ -91,7 +91,7 @@ impl ContactEdge {
         for component in edge.chunks(phases.len().max(1)) {
             let (mut f, mut b) = (c64::new(0.0, 0.0), c64::new(0.0, 0.0));
             for (value, phase) in component.iter().zip(phases) {
-                f += value * phase;
+                f += value * phase; // The part that moves as e^{-i n theta}.
                 b += value * phase.conj();
             }
             forward += f.norm_sqr();

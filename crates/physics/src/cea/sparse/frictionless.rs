@@ -77,20 +77,12 @@ impl FrictionlessModes {
         limit: ModeLimit,
     ) -> Result<Self, CeaError> {
         let unknowns = tangent.stiffness.dimension();
-        // Between slower motions K - sigma M is singular to working precision: nothing is counted there.
-        let least = ROUND_OFF * inertia.largest_ratio();
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
         let (below, mut shift) = match limit {
             // The first guess serves modes far below the largest eigenvalue of the mesh.
             ModeLimit::Lowest(count) => (count, SHIFT * NEAR * inertia.largest_ratio()),
             ModeLimit::MaxFrequency(hz) => {
-                let omega = TAU * hz;
-                let above =
-                    [0.0, 1.0, 10.0, 100.0].map(|share| omega.hypot((share * least).sqrt()));
-                let below =
-                    above.into_iter().find_map(|own| inertia.bound_below(tangent, own).ok());
-                let below = below.map_or_else(|| inertia.bound_below(tangent, omega), Ok)?;
-                (below, SHIFT * omega.powi(2))
+                (inertia.bound_below(tangent, TAU * hz)?, SHIFT * (TAU * hz).powi(2))
             }
         };
         // One mode above tells that none below a frequency is missing under friction, and whether the next one grows.
@@ -100,7 +92,7 @@ impl FrictionlessModes {
             let request = (below.max(1) + beyond + GUARD_MODES + extra).min(unknowns);
             let found = inertia.lowest(request, &mut shift)?;
             let rigid = found.rigid;
-            let displaced = found.unheld + overdamped(tangent, &found);
+            let displaced = found.unheld + overdamped(tangent, &found); // These do not oscillate.
             let wanted = match limit {
                 ModeLimit::Lowest(asked) if asked > unknowns - rigid => {
                     return Err(CeaError::too_many_modes(asked, unknowns - rigid));
@@ -108,10 +100,11 @@ impl FrictionlessModes {
                 ModeLimit::Lowest(count) => (count + displaced).min(unknowns - rigid),
                 ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
             };
-            // Rigid motions took places of modes.
+            // Rigid motions took places of modes, and between slow ones there is no counting.
             let elastic = request - rigid;
-            if elastic < (wanted.max(1) + beyond + 1).min(unknowns - rigid) {
-                extra += rigid + displaced + 1;
+            let slow = found.kappas[rigid..].partition_point(|own| *own < inertia.least_shift());
+            if elastic < (wanted.max(slow).max(1) + beyond + 1).min(unknowns - rigid) {
+                extra += rigid + displaced + slow + 1;
                 continue;
             }
             let frequencies: Vec<f64> =
@@ -119,14 +112,8 @@ impl FrictionlessModes {
             if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
                 return Err(CeaError::NoModes { limit_hz, lowest_hz: frequencies[0] / TAU });
             }
-            // The cut, in a gap, and the proof that none is missing below it.
-            let mut kept = elastic;
+            let mut kept = elastic; // The cut, in a gap, and the proof that none is missing below it.
             if request < unknowns {
-                let slow = frequencies.partition_point(|own| own * own < least);
-                if slow == elastic {
-                    extra += BLOCK;
-                    continue;
-                }
                 kept = widest_gap(&frequencies, (wanted + beyond).max(slow).min(elastic - 1));
                 let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
                 let counted = inertia.count_below(middle)?;
@@ -139,15 +126,7 @@ impl FrictionlessModes {
                     continue;
                 }
             }
-            let centre = found.centre(kept + rigid, least);
-            let factors = inertia.factors(&frequencies[..kept], centre.shift.powi(2))?;
-            return Ok(Self {
-                vectors: found.vectors.get(.., ..rigid + kept).to_owned(),
-                rigid,
-                frequencies: frequencies[..kept].to_vec(),
-                centre,
-                factors,
-            });
+            return Ok(found.modes(inertia, frequencies, kept)?);
         }
     }
 }
@@ -166,7 +145,7 @@ fn overdamped(tangent: &SlidingTangent, found: &Lowest) -> usize {
     let is_overdamped = |j: &usize| {
         let x = found.vectors.get(.., *j..*j + 1);
         let [damping, inertia] = [&tangent.damping, &tangent.mass].map(|own| form(own, x));
-        damping >= 2.0 * found.kappas[*j].max(0.0).sqrt() * inertia
+        damping >= 2.0 * found.kappas[*j].max(0.0).sqrt() * inertia // x^T K x = kappa x^T M x.
     };
     leading.take_while(is_overdamped).count()
 }
@@ -208,6 +187,20 @@ impl Lowest {
         let rigid = if self.rigid == 0 { 0.0 } else { self.rounding.sqrt() };
         Centre { shift, rigid }
     }
+
+    /// The rigid motions and, of these angular frequencies, the first `kept` modes, with factors amid them.
+    fn modes(
+        self,
+        inertia: &Inertia<'_>,
+        mut frequencies: Vec<f64>,
+        kept: usize,
+    ) -> Result<FrictionlessModes, LinalgError> {
+        frequencies.truncate(kept);
+        let (rigid, centre) = (self.rigid, self.centre(self.rigid + kept, inertia.least_shift()));
+        let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
+        let vectors = self.vectors.get(.., ..rigid + kept).to_owned();
+        Ok(FrictionlessModes { vectors, rigid, frequencies, centre, factors })
+    }
 }
 
 /// `K + c^2 M` and `M`.
@@ -224,7 +217,7 @@ impl BlockOperator for ShiftedPencil<'_> {
 
     fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
         let mut images = self.mass_times(x);
-        self.factors.solve_in_place(images.as_mut());
+        self.factors.solve_in_place(images.as_mut()); // (K + c^2 M)^-1 M x.
         images
     }
 }
@@ -243,7 +236,7 @@ fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
         own => own / frequencies[i - 1],
     };
     (wanted.max(1)..frequencies.len())
-        .max_by(|&i, &j| gap(i).total_cmp(&gap(j)).then(j.cmp(&i)))
+        .max_by(|&i, &j| gap(i).total_cmp(&gap(j)).then(j.cmp(&i))) // Of equal gaps the first.
         .unwrap_or(frequencies.len())
 }
 
@@ -251,7 +244,7 @@ fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
 /// so dense there that `K - sigma M` would be nearly singular: factors at a pair of equal ones magnify round-off by all digits.
 fn frequency_amid(frequencies: &[f64]) -> Option<f64> {
     let highest = frequencies.last()?;
-    let [least, most] = [0.4_f64, 0.65].map(|part| part.sqrt() * highest);
+    let [least, most] = [0.4_f64, 0.65].map(|part| part.sqrt() * highest); // omega^2 from 0.4 to 0.65 of the highest.
     let gaps = frequencies.windows(2).map(|pair| {
         let place = (0.5 * (pair[0] + pair[1])).clamp(least, most);
         // Negative where the whole gap lies elsewhere.
@@ -286,7 +279,7 @@ impl<'a> Inertia<'a> {
                 match self.factors_at(-*shift) {
                     Ok(factors) if factors.negative_count() == 0 => break factors,
                     Err(error) if !(*shift < self.largest_ratio()) => return Err(error),
-                    _ => *shift *= 10.0,
+                    _ => *shift *= 10.0, // Farther below all eigenvalues.
                 }
             };
             let pencil =
@@ -297,7 +290,7 @@ impl<'a> Inertia<'a> {
             }
             converged = pairs.converged;
             // The highest pair is known well enough to place the shift by it.
-            let placed = SHIFT * (pairs.values.last().map_or(0.0, |theta| theta.recip()) - *shift);
+            let placed = SHIFT * (pairs.values.last().map_or(0.0, |theta| theta.recip()) - *shift); // kappa = 1 / theta - c^2.
             *shift = match attempt {
                 0 if placed > 0.0 => placed,
                 _ => 10.0 * *shift,
@@ -340,13 +333,17 @@ impl<'a> Inertia<'a> {
         Lowest { vectors, kappas, rigid, unheld, rounding }
     }
 
-    /// Motions below an angular frequency, at least as many as there are.
+    /// Motions below an angular frequency, at least as many as there are: where `K - omega^2 M` is singular to working precision those
+    /// below one a little higher.
     fn bound_below(&self, tangent: &SlidingTangent, omega: f64) -> Result<usize, LinalgError> {
-        let below = self.count_below(omega)?;
+        let above = |share: f64| omega.hypot((share * self.least_shift()).sqrt());
+        let count = |share: f64| self.count_below(above(share));
+        let shares = [1.0, 10.0, 100.0].into_iter();
+        let below = shares.fold(count(0.0), |found, share| found.or_else(|_| count(share)))?;
         if !tangent.is_gyroscopic {
             return Ok(below);
         }
-        let unheld = self.factors_at(0.0).map_or(0, |own| own.negative_count());
+        let unheld = self.factors_at(0.0).map_or(0, |own| own.negative_count()); // Motions with kappa < 0.
         Ok(below.max(gyroscopic_count(tangent, omega)? + unheld))
     }
 
@@ -362,6 +359,11 @@ impl<'a> Inertia<'a> {
         let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
         let values = stiffness.iter().zip(&mass).map(|(k, m)| k - shift * m);
         SparseLu::symmetric(&self.analysis, values.collect())
+    }
+
+    /// Shift below which `K + shift M`, or `K - shift M` between slow motions, is singular to working precision.
+    fn least_shift(&self) -> f64 {
+        ROUND_OFF * self.largest_ratio()
     }
 
     /// About the largest eigenvalue of the pencil: the largest ratio of the diagonals.

@@ -76,6 +76,6 @@ impl<'a> FullProblem<'a> {
 
 /// `w^T P x` of a matrix with these nonzero `values`.
 pub fn form(pattern: &SparsityPattern, values: &[f64], w: &[c64], x: &[c64]) -> c64 {
-    let along = |j: usize| -> c64 { pattern.column(j).map(|(at, i)| w[i] * values[at]).sum() };
+    let along = |j: usize| -> c64 { pattern.column(j).map(|(at, i)| w[i] * values[at]).sum() }; // sum_i w_i P_ij.
     (0..pattern.dimension()).map(|j| along(j) * x[j]).sum()
 }

@@ -50,18 +50,18 @@ pub(super) fn gyroscopic_count(tangent: &SlidingTangent, omega: f64) -> Result<u
                 let value = |all: &[f64], at: Option<usize>| at.map_or(0.0, |at| all[at]);
                 let skew = || {
                     let other = value(&damping, pattern.position(j, i));
-                    0.5 * omega * (value(&damping, own) - other)
+                    0.5 * omega * (value(&damping, own) - other) // omega (C - C^T) / 2.
                 };
                 values.push(match (row < n, column < n) {
                     (true, true) | (false, false) => {
-                        value(&stiffness, own) - omega * omega * value(&mass, own)
+                        value(&stiffness, own) - omega * omega * value(&mass, own) // A = K - omega^2 M.
                     }
-                    (false, true) => skew(),
+                    (false, true) => skew(), // B = omega G.
                     (true, false) => -skew(),
                 });
             }
         }
         SparseLu::symmetric(&analysis, values)
     })?;
-    Ok(negative / 2)
+    Ok(negative / 2) // Each eigenvalue is there twice.
 }

@@ -65,7 +65,7 @@ fn start_of(
         return (value, left.clone());
     }
     let largest = left.iter().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
-    let turn = largest.map_or(c64::ONE, |own| own.conj() / own.norm());
+    let turn = largest.map_or(c64::ONE, |own| own.conj() / own.norm()); // The phase that makes its largest entry real.
     (value.re.into(), left.iter().map(|own| (turn * own).re.into()).collect())
 }
 
@@ -73,7 +73,7 @@ fn start_of(
 fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64 {
     let square: f64 = left.iter().map(|v| v.norm_sqr()).sum();
     let product: c64 = left.iter().zip(right).map(|(w, x)| w * x).sum();
-    0.5 * eigenvalue.norm() * square / product.norm()
+    0.5 * eigenvalue.norm() * square / product.norm() // |lambda|^2 w^H M w with w^T M x = 1 / (2 lambda).
 }
 
 /// The problem among some motions `Z`: `P^T Z` and `Z^T P^T Z` of the matrices of `T(lambda)`.
@@ -86,7 +86,7 @@ struct AmongModes {
 impl AmongModes {
     fn of(matrices: &StructureMatrices<'_>, modes: Mat<f64>) -> Self {
         let images = matrices.images(modes.as_ref());
-        let small = images.map(|image| transpose_product(modes.as_ref(), image.as_ref()));
+        let small = images.map(|image| transpose_product(modes.as_ref(), image.as_ref())); // Z^T P^T Z.
         Self { modes, images, small }
     }
 
@@ -97,7 +97,7 @@ impl AmongModes {
         (left, linearization): (Mat<f64>, Linearization),
         [vectors, images]: [&mut Mat<f64>; 2],
     ) {
-        let along = transpose_product(self.modes.as_ref(), left.as_ref());
+        let along = transpose_product(self.modes.as_ref(), left.as_ref()); // Z^T r.
         let mut shares = Mat::zeros(along.nrows(), along.ncols());
         for (entry, factors) in entries.iter().zip(factors) {
             let own = entry.vector(&along);
@@ -109,7 +109,7 @@ impl AmongModes {
                 target.for_each(|(to, own)| *to = part(own));
             }
         }
-        add_product(vectors.as_mut(), 1.0, self.modes.as_ref(), shares.as_ref());
+        add_product(vectors.as_mut(), 1.0, self.modes.as_ref(), shares.as_ref()); // + Z E^-1 Z^T r.
         let value = |entry: &PackedEntry| linearization.value(entry.inverse_value);
         let terms: Vec<_> =
             entries.iter().map(|own| linearization.terms(&self.images, value(own))).collect();
@@ -141,9 +141,9 @@ fn correct_group(
         let all = [vectors, images, solved];
         entries.iter().map(|entry| all.each_ref().map(|own| entry.joined(own))).collect()
     };
-    let goals: Vec<f64> = pairs.iter().map(left_energy).collect();
+    let goals: Vec<f64> = pairs.iter().map(left_energy).collect(); // Beside them corrections are negligible.
     let PackedModes { coordinates, entries } = together(starts.iter().enumerate().collect());
-    let (images, _) = matrices.residuals_and_momenta(&entries, coordinates.as_ref());
+    let (images, _) = matrices.residuals_and_momenta(&entries, coordinates.as_ref()); // T(lambda)^T w_0.
     let mut lefts = mapped(&entries, coordinates, images);
     let energy = |[_, residual, correction]: &Mapped| dot(correction, residual).re.abs();
     let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
@@ -155,7 +155,7 @@ fn correct_group(
             break;
         }
         if among.is_empty() {
-            let beside = |own: &c64| linearization.value(*own) * (1.0 + BESIDE);
+            let beside = |own: &c64| linearization.value(*own) * (1.0 + BESIDE); // On it E would be singular.
             let small = |own| weighted_sum(&linearization.terms(&modes.small, beside(own)));
             among =
                 inverse_values.iter().map(|own| ComplexDenseLu::factorize(small(own))).collect();
@@ -169,16 +169,8 @@ fn correct_group(
         let left = (left.coordinates - &images, linearization);
         modes.complete((&entries, &own), left, [&mut vectors, &mut images]);
         // The least residual over all directions so far.
-        for (&k, mut own) in open.iter().zip(mapped(&entries, vectors, images)) {
-            for other in &directions[k] {
-                let share = dot(&other[2], &own[2]);
-                subtract(&mut own, share, other);
-            }
-            let length = length(&own[2]);
-            own.iter_mut().flatten().for_each(|v| *v /= length);
-            let share = dot(&own[2], &lefts[k][2]);
-            subtract(&mut lefts[k], share, &own);
-            directions[k].push(own);
+        for (&k, own) in open.iter().zip(mapped(&entries, vectors, images)) {
+            descend(&mut lefts[k], &mut directions[k], own);
         }
     }
     for (pair, [left, ..]) in pairs.iter_mut().zip(lefts) {
@@ -186,6 +178,19 @@ fn correct_group(
             pair.left = left;
         }
     }
+}
+
+/// Takes out of a left vector what it has along one more direction, in the measure of the residual, beside those before.
+fn descend(left: &mut Mapped, directions: &mut Vec<Mapped>, mut own: Mapped) {
+    for other in directions.iter() {
+        let share = dot(&other[2], &own[2]);
+        subtract(&mut own, share, other);
+    }
+    let length = length(&own[2]);
+    own.iter_mut().flatten().for_each(|v| *v /= length); // |P^-1 T^T t| is 1.
+    let share = dot(&own[2], &left[2]); // Least |P^-1 T^T (w - share t)|.
+    subtract(left, share, &own);
+    directions.push(own);
 }
 
 /// `from -= share other`.

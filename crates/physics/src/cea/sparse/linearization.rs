@@ -60,10 +60,10 @@ impl Linearization {
             return Cow::Borrowed(&tangent.stiffness);
         }
         let sum = MatrixPolynomial::combination;
-        let inert = sum(1.0, &tangent.stiffness, shift * shift, &tangent.mass);
+        let inert = sum(1.0, &tangent.stiffness, shift * shift, &tangent.mass); // K + c^2 M.
         Cow::Owned(match self {
             Self::Reduced(..) => inert,
-            Self::Companion { .. } => sum(1.0, &inert, shift, &tangent.damping),
+            Self::Companion { .. } => sum(1.0, &inert, shift, &tangent.damping), // K + c C + c^2 M.
         })
     }
 
@@ -79,7 +79,7 @@ impl Linearization {
     /// The matrices of the problem at such a value, with their factors.
     pub fn terms<P>(self, matrices: &MotionMatrices<P>, value: c64) -> Vec<(c64, &P)> {
         match self {
-            Self::Reduced(..) => vec![(c64::ONE, &matrices.stiffness), (-value, &matrices.mass)],
+            Self::Reduced(..) => vec![(c64::ONE, &matrices.stiffness), (-value, &matrices.mass)], // K - kappa M.
             Self::Companion { .. } => matrices.terms(value),
         }
     }

@@ -47,7 +47,7 @@ fn meeting(pair: &Pair<'_>, mu: [f64; 2], rates: &[ProjectedMatrices; 2]) -> Opt
         }
         let own = pair.map(|own| own.1[end].clone());
         let forms = rates[end].pencil_forms(&own, &own);
-        let coupling = forms[(0, 1)] * forms[(1, 0)] * (step * step);
+        let coupling = forms[(0, 1)] * forms[(1, 0)] * (step * step); // c_ij c_ji d^2.
         let [a, b] = own.map(|mode| mode.eigenvalue + mode.derivative * step);
         let (mean, half) = (0.5 * (a + b), 0.5 * (a - b));
         // Coupling twice as strong as it seems is looked at, too.
@@ -79,10 +79,9 @@ pub fn grown_between(
 ) -> Result<Vec<Vec<ModeAt>>, LinalgError> {
     let (mu, mut grown) = ([from.0, to.0], vec![Vec::new(); links.len()]);
     let rates = mu.map(|mu| model.derivative_at(mu));
-    // Branches that do not grow all the way.
     let linked = links.iter().enumerate();
     let linked = linked.filter_map(|(i, link)| Some((i, [&from.1[i], &to.1[(*link)?]])));
-    let calm: Vec<_> = linked.filter(|(_, own)| !own.iter().all(|m| m.is_growing())).collect();
+    let calm: Vec<_> = linked.filter(|(_, own)| !own.iter().all(|m| m.is_growing())).collect(); // Branches that do not grow all the way.
     for (k, first) in calm.iter().enumerate().filter(|(_, own)| own.0 < needed) {
         for second in &calm[k + 1..] {
             let pair = [*first, *second];
@@ -109,7 +108,7 @@ pub fn grown_between(
             let rates = [0, 1].map(|end| pair.map(|own| own.1[end].derivative));
             let [a, b] = rates.map(|[a, b]| (a - b).norm());
             let [p, q] = [growing, decaying].map(|j| modes[j].eigenvalue);
-            let reach = (p - q).norm() / a.min(b);
+            let reach = (p - q).norm() / a.min(b); // Over so much friction they part as far again.
             let (own, ends) = pair[i];
             let beside = |sign: f64, end: usize| {
                 let places = (1..=MOST_ATTEMPTS).map(|k| place + sign * reach * (1 << k) as f64);

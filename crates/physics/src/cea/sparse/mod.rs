@@ -1,14 +1,12 @@
 //! Sweep over the friction coefficient on any mesh, with sparse matrices.
 //!
-//! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by Krylov-Schur iteration; the inertia of
-//!    `K - sigma M` proves that none is missing.
-//! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. It takes up the modes at a few of
-//!    these, chosen where residuals are largest, each from a Krylov iteration ([`crate::linalg::krylov_schur`]). Of a
-//!    small body it spans all motions.
-//! 3. [`SparseSweep::solve`]: the projected problem at each friction coefficient, in parallel; every mode is
-//!    held to its residual in the full matrices. Where one fails a ladder is climbed: corrections by the factors
-//!    without friction, then by factors of the full problem beside the modes ([`FullProblem`]). Strongly damped
-//!    motions that fail then take no places.
+//! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by Krylov-Schur iteration; the inertia of `K - sigma M` proves that none is
+//!    missing.
+//! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. It takes up the modes at a few of these, chosen where
+//!    residuals are largest, each from a Krylov iteration ([`crate::linalg::krylov_schur`]). Of a small body it spans all motions.
+//! 3. [`SparseSweep::solve`]: the projected problem at each friction coefficient, in parallel; every mode is held to its residual in the
+//!    full matrices. Where one fails a ladder is climbed: corrections by the factors without friction, then by factors of the full problem
+//!    beside the modes ([`FullProblem`]). Strongly damped motions that fail then take no places.
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
 //! 5. [`ModeCounter`], where asked for: eigenvalues counted by the argument principle.
 //! 6. [`SparseSweep::finish`]: critical friction coefficients by root finding on the branches.

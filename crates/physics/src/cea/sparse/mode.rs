@@ -67,7 +67,7 @@ impl ReducedMode {
     pub fn round_off(&self) -> f64 {
         let condition =
             length(&self.left) * length(&self.right) / product(&self.left, &self.right).norm();
-        CONVERGED * condition.max(1.0)
+        CONVERGED * condition.max(1.0) // 1 where w is the conjugate of x.
     }
 
     /// Whether it grows by more than round-off.

@@ -56,7 +56,7 @@ fn counts(tangents: &[SlidingTangent], limit: ModeLimit) -> Result<Vec<Option<us
     let ModeLimit::Lowest(wanted) = limit else {
         return Ok(vec![None; tangents.len()]);
     };
-    let mut asked = vec![(2 * wanted).div_ceil(tangents.len()) + GUARD; tangents.len()];
+    let mut asked = vec![(2 * wanted).div_ceil(tangents.len()) + GUARD; tangents.len()]; // Twice as many, spread over all, and some.
     let mut found: Vec<Vec<f64>> = vec![Vec::new(); tangents.len()];
     loop {
         // Frequencies without friction, as many as may be among the lowest of all.
@@ -157,7 +157,7 @@ fn short_of(parts: &[Option<FrictionSweep>], count: usize, counts: &[Option<usiz
                 return false;
             };
             let own: Vec<f64> = frequencies(n, k).collect();
-            let is_cut = counts[n].is_some_and(|asked| own.len() >= asked);
+            let is_cut = counts[n].is_some_and(|asked| own.len() >= asked); // As many as were asked for: there may be more.
             is_cut && own.last().is_some_and(|highest| *highest <= last)
         })
     };
@@ -175,7 +175,7 @@ fn expanded(
         let scale = normalize(&mut right) / cyclic.weight(n);
         let left = left.map(|left| {
             let mut left = whole.left_displacement(&cyclic.expand(n, left), mu);
-            left.iter_mut().for_each(|v| *v *= scale);
+            left.iter_mut().for_each(|v| *v *= scale); // w^T (2 lambda M + C) x stays 1.
             left
         });
         (right, left)
@@ -249,11 +249,11 @@ fn ranked(parts: &mut [FrictionSweep]) -> BTreeMap<(usize, usize), usize> {
         let mu = point.friction_coefficient;
         all.extend(point.modes.iter().map(|mode| (mu, mode.eigenvalue.im, part, mode.branch)));
     }
-    all.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
+    all.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1))); // By friction, then by frequency.
     let mut rank_of: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (.., part, branch) in all {
         let next = rank_of.len() + 1;
-        rank_of.entry((part, branch)).or_insert(next);
+        rank_of.entry((part, branch)).or_insert(next); // In the order in which they appear.
     }
     for (part, sweep) in parts.iter_mut().enumerate() {
         for point in &mut sweep.points {
@@ -279,7 +279,7 @@ fn merged_counts(parts: &[FrictionSweep], points: &[FrictionPoint]) -> Vec<ModeC
         let mut whole = (*first).clone();
         for count in rest {
             let (region, own) = (&mut whole.region, count.region);
-            let shared = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])];
+            let shared = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])]; // What both ranges share.
             region.frequencies_hz = shared(region.frequencies_hz, own.frequencies_hz);
             region.growth_rates = shared(region.growth_rates, own.growth_rates);
             whole.recovered += count.recovered;

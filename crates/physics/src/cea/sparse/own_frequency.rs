@@ -25,7 +25,7 @@ pub(super) fn solve(
         let is_known =
             |mode: &ReducedMode| before.iter().flatten().any(|other| mode.is_same(other));
         if own[0].as_ref().is_some_and(|mode| mode.eigenvalue.im <= 0.0 || is_known(mode)) {
-            own[0] = None;
+            own[0] = None; // Two starts may end at one mode.
         }
     }
     for i in 0..found.len() {

@@ -20,7 +20,7 @@ pub fn forms(lefts: &[ReducedMode], p: &Mat<f64>, rights: &[ReducedMode]) -> Mat
     let all = transpose_product(parts(lefts, |mode| &mode.left).as_ref(), image.as_ref());
     let (a, b) = (lefts.len(), rights.len());
     Mat::from_fn(a, b, |i, j| {
-        c64::new(all[(i, j)] - all[(a + i, b + j)], all[(i, b + j)] + all[(a + i, j)])
+        c64::new(all[(i, j)] - all[(a + i, b + j)], all[(i, b + j)] + all[(a + i, j)]) // (a + i b)^T (c + i d), nothing conjugated.
     })
 }
 
@@ -136,7 +136,7 @@ impl PackedModes {
             let (first, end) = (own[0].columns.start, own[own.len() - 1].columns.end);
             let moved = own.iter().map(|PackedEntry { inverse_value, columns }| PackedEntry {
                 inverse_value: *inverse_value,
-                columns: columns.start - first..columns.end - first,
+                columns: columns.start - first..columns.end - first, // Places within the group.
             });
             (self.coordinates.get(.., first..end), moved.collect())
         };

@@ -71,7 +71,7 @@ pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Opt
             right,
             left,
         };
-        pair.derivative = pair.followed(-rate.form(*target, &pair.left, &pair.right));
+        pair.derivative = pair.followed(-rate.form(*target, &pair.left, &pair.right)); // -w^T (dT / dmu) x.
         Some(pair)
     };
     crate::parallel::map(targets, pair)
@@ -108,7 +108,7 @@ fn inverse_iterations(problem: &FullProblem<'_>, target: c64) -> Option<[Vec<c64
 fn single(x: &Mat<c64>) -> Option<Vec<c64>> {
     let [own, other] = [0, x.ncols() - 1].map(|j| x.col(j).iter().copied().collect::<Vec<c64>>());
     let overlap = dot(&own, &other);
-    let rest: f64 = own.iter().zip(&other).map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
+    let rest: f64 = own.iter().zip(&other).map(|(a, b)| (b - a * overlap).norm_sqr()).sum(); // What the other has across it.
     // No number at all is no vector either.
     (rest <= SETTLED).then_some(own)
 }

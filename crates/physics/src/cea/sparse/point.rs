@@ -27,7 +27,7 @@ pub struct ModeCheck {
 impl ModeCheck {
     /// Relative error of the eigenvalue that the residual leaves open.
     fn error(&self) -> f64 {
-        self.residual / f64::EPSILON * self.uncertainty
+        self.residual / f64::EPSILON * self.uncertainty // The uncertainty is what a residual of eps leaves open.
     }
 }
 
@@ -99,7 +99,7 @@ impl SolvedPoint {
         model.refine_lefts(&mut self.modes, self.friction_coefficient);
         let refined = lengths(&self.modes);
         for (check, (old, new)) in self.checks.iter_mut().zip(coarse.iter().zip(&refined)) {
-            check.uncertainty *= new / old;
+            check.uncertainty *= new / old; // It goes with the length of w.
         }
     }
 

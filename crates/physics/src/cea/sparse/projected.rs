@@ -46,7 +46,7 @@ impl ProjectedMatrices {
         for (gain, own) in &self.losses {
             let factor = gain.at(lambda);
             stiffness += Scale(factor.re) * own;
-            structural += Scale(factor.im) * own;
+            structural += Scale(factor.im) * own; // K + Re g K_p, H = Im g K_p.
         }
         Self {
             stiffness,
@@ -72,7 +72,7 @@ impl ProjectedMatrices {
             let lu = factors.get_or_insert_with(|| ComplexDenseLu::factorize(self.pencil(lambda)));
             let terms = match is_reused {
                 true => self.inert_first(lambda),
-                false => vec![(2.0 * lambda, &self.mass), (c64::new(1.0, 0.0), &self.damping)],
+                false => vec![(2.0 * lambda, &self.mass), (c64::new(1.0, 0.0), &self.damping)], // T' = 2 lambda M + C.
             };
             let mut moved = 0.0_f64;
             let [right, left] = [(&mode.right, false), (&mode.left, true)].map(|(own, is_left)| {
@@ -82,8 +82,7 @@ impl ProjectedMatrices {
                     true => lu.solve_transpose_in_place(new.as_mut()),
                     false => lu.solve_in_place(new.as_mut()),
                 }
-                // Along the vector a change is none.
-                let along = (own.adjoint() * &new)[(0, 0)] / own.squared_norm_l2();
+                let along = (own.adjoint() * &new)[(0, 0)] / own.squared_norm_l2(); // Along the vector a change is none.
                 let across = &new - Mat::from_fn(m, 1, |i, _| along * own[(i, 0)]);
                 let of = if is_reused { own.norm_l2() } else { new.norm_l2() };
                 moved = moved.max(across.norm_l2() / of);
@@ -95,10 +94,9 @@ impl ProjectedMatrices {
             });
             (mode.right, mode.left) = (right, left);
 
-            // What the eigenvalue is too large by, to first order.
             let own = std::slice::from_ref(&mode);
             let slope = self.overlaps(own, own)[(0, 0)];
-            let change = self.pencil_forms(own, own)[(0, 0)] / slope;
+            let change = self.pencil_forms(own, own)[(0, 0)] / slope; // What lambda is too large by: w^T T x / (w^T T' x).
             let step = self.followed(&mode, change, slope);
             mode.eigenvalue -= step;
             if !(step.norm() < guess.eigenvalue.norm()) {
@@ -116,8 +114,7 @@ impl ProjectedMatrices {
                 return Some(mode);
             }
             if is_reused {
-                // New ones cost as much as all steps by those from before.
-                factors = factors.filter(|_| moved <= LITTLE * before);
+                factors = factors.filter(|_| moved <= LITTLE * before); // New ones cost as much as all steps by those from before.
                 before = moved;
             }
         }
@@ -127,7 +124,7 @@ impl ProjectedMatrices {
     /// The matrices with their factors, in the order of falling powers of `lambda`.
     fn inert_first(&self, lambda: c64) -> Vec<(c64, &Mat<f64>)> {
         let mut terms = self.terms(lambda);
-        terms.swap(0, 2);
+        terms.swap(0, 2); // K, C, M become M, C, K.
         terms
     }
 
@@ -170,7 +167,7 @@ fn times(terms: &[(c64, &Mat<f64>)], x: &Mat<c64>, is_left: bool) -> Mat<c64> {
             true => transpose_product(p.as_ref(), parts.as_ref()),
             false => product(p.as_ref(), parts.as_ref()),
         };
-        sum += Mat::from_fn(x.nrows(), 1, |i, _| factor * c64::new(image[(i, 0)], image[(i, 1)]));
+        sum += Mat::from_fn(x.nrows(), 1, |i, _| factor * c64::new(image[(i, 0)], image[(i, 1)])); // P (p + i q), by one real product.
     }
     sum
 }

@@ -88,13 +88,13 @@ fn pair_lefts(modes: &mut [ReducedMode], overlaps: &Mat<c64>) {
         let is_one = |j: usize| (values[j] - values[i]).norm() <= MULTIPLE * values[i].norm();
         let own: Vec<usize> = (i..modes.len()).filter(|&j| !is_paired[j] && is_one(j)).collect();
         own.iter().for_each(|&j| is_paired[j] = true);
-        let gram = Mat::from_fn(own.len(), own.len(), |a, b| overlaps[(own[a], own[b])]);
+        let gram = Mat::from_fn(own.len(), own.len(), |a, b| overlaps[(own[a], own[b])]); // G = W^T N X.
         // Coordinates of an earlier basis are shorter.
         let rows = own.iter().map(|&j| modes[j].left.len()).max().unwrap_or(0);
         let mut lefts = Mat::from_fn(own.len(), rows, |a, row| {
             modes[own[a]].left.get(row).copied().unwrap_or_default()
         });
-        ComplexDenseLu::factorize(gram).solve_in_place(lefts.as_mut());
+        ComplexDenseLu::factorize(gram).solve_in_place(lefts.as_mut()); // G^-1 W^T, whose product with N X is 1.
         for (a, &j) in own.iter().enumerate() {
             modes[j].left = (0..rows).map(|row| lefts[(a, row)]).collect();
         }
@@ -168,7 +168,7 @@ impl ReducedModel {
             return new;
         }
         let basis = self.basis.columns();
-        self.terms.each_mut().flatten().for_each(|term| term.grow(basis, &new));
+        self.terms.each_mut().flatten().for_each(|term| term.grow(basis, &new)); // V and the new columns, before they are joined.
         self.basis.append(new.as_ref());
         new
     }
@@ -191,9 +191,9 @@ impl ReducedModel {
         });
         if let Linearization::Reduced(coefficients, _) = self.linearization {
             all.damping = Scale(coefficients.mass_coefficient) * &all.mass
-                + Scale(coefficients.stiffness_coefficient) * &all.stiffness;
+                + Scale(coefficients.stiffness_coefficient) * &all.stiffness; // C = alpha M + beta K.
         } else if self.share != 0.0 {
-            all.damping += Scale(self.share) * &all.stiffness;
+            all.damping += Scale(self.share) * &all.stiffness; // C = R + b K.
         }
         all
     }
@@ -291,7 +291,7 @@ impl ReducedModel {
     /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
     /// that of the nearest ones. Vectors at the same `mu` add to those held.
     pub fn hold_sample(&mut self, mu: f64, vectors: &Mat<f64>) {
-        self.hold_coordinates(mu, transpose_product(self.basis.columns(), vectors.as_ref()));
+        self.hold_coordinates(mu, transpose_product(self.basis.columns(), vectors.as_ref())); // V^T x.
     }
 
     /// Number of columns that span the modes held at `mu`, if there are any.
@@ -313,7 +313,7 @@ impl ReducedModel {
         let columns = spanned(Mat::identity(m, known), self.samples.iter());
         self.corrections.clear();
         for (_, held) in &mut self.samples {
-            *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref());
+            *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref()); // In the new orthonormal columns.
         }
         self.terms.each_mut().flatten().for_each(|term| term.compress(&columns));
         self.basis.combine(columns.as_ref());
@@ -346,7 +346,7 @@ impl ReducedModel {
     fn neighbours(&self) -> usize {
         let widths = self.samples.iter().map(|(_, coordinates)| coordinates.ncols());
         let widest = widths.max().unwrap_or(1).max(1);
-        (self.basis.columns().nrows().isqrt() / widest).max(NEIGHBOURS)
+        (self.basis.columns().nrows().isqrt() / widest).max(NEIGHBOURS) // About as many columns as the root of the unknowns.
     }
 
     /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without samples.

@@ -37,7 +37,7 @@ impl<'a> StructureMatrices<'a> {
     ) -> Self {
         let of = |p: &MatrixPolynomial| match is_transposed {
             false => p.pattern().by_rows(&p.evaluate(mu)),
-            true => p.evaluate(mu),
+            true => p.evaluate(mu), // Columns of P are the rows of P^T.
         };
         let values = match linearization {
             Linearization::Companion { .. } => MotionMatrices::of(tangent, of),
@@ -95,7 +95,7 @@ impl<'a> StructureMatrices<'a> {
         for entry in entries {
             let value = self.linearization.value(entry.inverse_value);
             for (factor, image) in self.linearization.terms(&images, value) {
-                add_complex_multiple(&mut residuals, factor, image, &entry.columns);
+                add_complex_multiple(&mut residuals, factor, image, &entry.columns); // sum f_p P_p x.
             }
         }
         (residuals, images.mass)
@@ -113,7 +113,7 @@ impl<'a> StructureMatrices<'a> {
 
     /// What turns `|M x|` into the size of the inertia force in the units of a residual: `|kappa|` or `|lambda|^2`.
     pub fn inertia_factor(&self, entry: &PackedEntry) -> f64 {
-        let value = entry.inverse_value.inv().norm();
+        let value = entry.inverse_value.inv().norm(); // 1 / s = kappa + c^2, or nu.
         match self.linearization {
             Linearization::Reduced(..) => value,
             Linearization::Companion { frequency_scale, .. } => (value * frequency_scale).powi(2),
@@ -135,10 +135,10 @@ impl<'a> StructureMatrices<'a> {
             (&tangent.damping, &own.damping),
             (&tangent.mass, &own.mass),
         ]
-        .map(|(p, values)| (p.cancellation(mu) / CANCELLING).max(1.0) * norm(values));
+        .map(|(p, values)| (p.cancellation(mu) / CANCELLING).max(1.0) * norm(values)); // Rounding of terms that cancel.
         let damped = match self.linearization {
             Linearization::Reduced(damping, _) => {
-                damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff
+                damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff // |C| <= alpha |M| + beta |K|.
             }
             Linearization::Companion { .. } => damped,
         };
@@ -171,7 +171,7 @@ impl<'a> ShiftInverted<'a> {
             Linearization::Reduced(..) => vec![mass.clone()],
             Linearization::Companion { frequency_scale: omega, centre } => {
                 let pairs = damping.iter().zip(mass);
-                let centred = pairs.map(|(c, m)| -omega * (c + 2.0 * centre.shift * m));
+                let centred = pairs.map(|(c, m)| -omega * (c + 2.0 * centre.shift * m)); // About c it is C + 2 c M.
                 vec![centred.collect(), mass.iter().map(|m| -omega * omega * m).collect()]
             }
         };
@@ -188,12 +188,12 @@ impl BlockOperator for ShiftInverted<'_> {
         let pattern = self.matrices.pattern;
         let [damping, mass] = &self.values[..] else {
             let [mut image] = pattern.multiply_sorted([&self.values[0]], z);
-            self.factors.solve_in_place(image.as_mut());
+            self.factors.solve_in_place(image.as_mut()); // K^-1 M z.
             return image;
         };
         let (x, y) = z.split_at_row(pattern.dimension());
         let mut top = pattern.multiply_sum([damping, mass], [x, y]);
-        self.factors.solve_in_place(top.as_mut());
+        self.factors.solve_in_place(top.as_mut()); // K^-1 (-omega C x - omega^2 M y).
         join_rows(top.as_ref(), x)
     }
 }

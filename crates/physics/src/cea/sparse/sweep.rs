@@ -145,7 +145,7 @@ impl<'a> SparseSweep<'a> {
         if lowest > 0.0 && !is_continued {
             grid.insert(0, 0.0);
         }
-        let highest = modes.frequencies.last().copied().unwrap_or(1.0);
+        let highest = modes.frequencies.last().copied().unwrap_or(1.0); // Without any mode every scale will do.
         let linearization = Linearization::of(tangent, highest, modes.centre);
         let rest = (&modes.vectors, modes.rigid);
         Ok(Self {
@@ -201,7 +201,7 @@ impl<'a> SparseSweep<'a> {
             let held: Vec<usize> = (self.first_asked()..self.grid.len()).filter(is_held).collect();
             let wide = held.windows(2).filter(|ends| ends[1] - ends[0] > MOST_BETWEEN_SAMPLES);
             let middles = wide.map(|ends| (ends[0] + ends[1]) / 2);
-            let middles: Vec<usize> = middles.filter(|k| !seen.contains(k)).collect();
+            let middles: Vec<usize> = middles.filter(|k| !seen.contains(k)).collect(); // Each of them once.
             if middles.is_empty() {
                 return Ok(());
             }
@@ -226,7 +226,7 @@ impl<'a> SparseSweep<'a> {
     /// Whether friction brings modes from above a limit in frequency: there may be more where all that are held lie below.
     fn lacks_modes(&self) -> bool {
         let held = self.builder.count;
-        let is_full = self.points.iter().any(|point| point.wanted >= held);
+        let is_full = self.points.iter().any(|point| point.wanted >= held); // All that are held are wanted: there may be more.
         matches!(self.limit, ModeLimit::MaxFrequency(_)) && is_full && held < self.elastic()
     }
 
@@ -246,7 +246,7 @@ impl<'a> SparseSweep<'a> {
         } else {
             let is_stale = |k: &usize| {
                 let own = self.builder.model.sample_width(self.grid[*k]);
-                own.is_none() || own != self.points[*k].solved_in
+                own.is_none() || own != self.points[*k].solved_in // Not the span that it was solved in.
             };
             let stale: Vec<usize> = all.iter().copied().filter(is_stale).collect();
             self.solve_anew(&stale)?;
@@ -261,7 +261,7 @@ impl<'a> SparseSweep<'a> {
             self.unconverged.extend(dropped.into_iter().map(|own| UnconvergedMode::of(mu, own)));
         }
         let model = &self.builder.model;
-        crate::parallel::map::<_, _, ()>(&mut self.points, |point| point.refine_lefts(model));
+        crate::parallel::map::<_, _, ()>(&mut self.points, |point| point.refine_lefts(model)); // Only now, as left vectors are dear.
         self.labels =
             label_first(&mut self.points[0], &self.builder.model, &self.edge, self.builder.count)?;
         Ok(())
@@ -315,7 +315,7 @@ impl<'a> SparseSweep<'a> {
             for (k, [seen_at, lost_at]) in open {
                 let (from, to) = (self.grid[k], self.grid[k + 1]);
                 if !self.builder.improve_between(from, to, 0.5 * (seen_at + lost_at))? {
-                    searched.push(k);
+                    searched.push(k); // The last resort, once for each interval.
                     self.builder.search(to, TRACKING_MARGIN)?;
                 }
             }

@@ -52,17 +52,17 @@ impl Term {
             (matrix.pattern(), &matrix.coefficients()[0], &self.projected);
         let (old, total) = (known.ncols(), known.ncols() + new.ncols());
         let [image] = pattern.multiply_sorted([sorted], new);
-        let above = transpose_product(basis, image.as_ref());
+        let above = transpose_product(basis, image.as_ref()); // V^T P W of the new columns W.
         let below = if *is_symmetric {
             above.transpose().to_owned()
         } else {
-            transpose_product(pattern.multiply_transpose(values, new).as_ref(), basis)
+            transpose_product(pattern.multiply_transpose(values, new).as_ref(), basis) // (P^T W)^T V = W^T P V.
         };
         let mut grown = Mat::zeros(total, total);
         grown.get_mut(..old, ..old).copy_from(known);
         grown.get_mut(..old, old..).copy_from(&above);
         grown.get_mut(old.., ..old).copy_from(&below);
-        grown.get_mut(old.., old..).copy_from(&transpose_product(new, image.as_ref()));
+        grown.get_mut(old.., old..).copy_from(&transpose_product(new, image.as_ref())); // W^T P W.
         grown
     }
 
@@ -71,7 +71,7 @@ impl Term {
         if self.coefficient.support.is_some() {
             self.restricted = product(self.restricted.as_ref(), columns.as_ref());
         }
-        self.projected = projected(&self.projected, columns);
+        self.projected = projected(&self.projected, columns); // Q^T (V^T P V) Q.
     }
 
     /// The projection alone in that span, which does not grow.

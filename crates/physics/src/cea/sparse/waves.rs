@@ -82,7 +82,7 @@ impl<'a> CyclicTangent<'a> {
             let pairs: Vec<[Vec<f64>; 2]> = pairs.collect();
             let mut largest = vec![0.0_f64; size];
             for (k, value) in pairs.iter().flat_map(|pair| pair[0].iter().enumerate()) {
-                largest[k % size] = largest[k % size].max(value.abs());
+                largest[k % size] = largest[k % size].max(value.abs()); // Each row by what it has in any power and sector.
             }
             let differs = |[a, b]: &[Vec<f64>; 2]| {
                 (0..total).find(|&k| (a[k] - b[k]).abs() > HALF_THE_DIGITS * largest[k % size])
@@ -120,14 +120,14 @@ impl<'a> CyclicTangent<'a> {
         // Where the entries in the rows of sector 0 come to stand, with their positions and factors.
         let entries_of = |row: usize| whole.stiffness.pattern().row(row).map(move |own| (row, own));
         let entries = (0..size).flat_map(entries_of).flat_map(|(row, (position, column))| {
-            let ([cos, sin], column) = (phases[column / size], column % size);
+            let ([cos, sin], column) = (phases[column / size], column % size); // Phase of the sector, and place in it.
             let all = [
                 (row, column, cos),
                 (row, size + column, sin),
                 (size + row, column, -sin),
                 (size + row, size + column, cos),
             ];
-            all.into_iter().take(blocks * blocks).map(move |own| (position, own))
+            all.into_iter().take(blocks * blocks).map(move |own| (position, own)) // One block, or [C S; -S C].
         });
         let entries: Vec<(usize, (usize, usize, f64))> = entries.collect();
         let positions = entries.iter().map(|&(_, (row, column, _))| (row, column));
@@ -138,11 +138,11 @@ impl<'a> CyclicTangent<'a> {
                 entries.map(|&(at, (row, column, factor))| (row, column, factor * values[at]))
             });
             let coefficients: Vec<Vec<_>> = coefficients.map(Iterator::collect).collect();
-            MatrixPolynomial::on_pattern(&pattern, &coefficients).frozen_below(matrix.origin())
+            MatrixPolynomial::on_pattern(&pattern, &coefficients).frozen_below(matrix.origin()) // Sums over the sectors: C and S.
         };
         let touched = |unknowns: &[usize]| -> Vec<usize> {
             let own = unknowns.iter().copied().filter(|unknown| *unknown < size);
-            (0..blocks).flat_map(|block| own.clone().map(move |k| block * size + k)).collect()
+            (0..blocks).flat_map(|block| own.clone().map(move |k| block * size + k)).collect() // In a and in b.
         };
         let MotionMatrices { stiffness, damping, mass, losses } =
             MotionMatrices::of(whole, of_waves);
@@ -153,7 +153,7 @@ impl<'a> CyclicTangent<'a> {
             losses,
             proportional: whole.proportional,
             is_gyroscopic: whole.is_gyroscopic,
-            unknowns: DofMap::excluding(blocks * size, []),
+            unknowns: DofMap::excluding(blocks * size, []), // Unknowns stand for dofs here.
             contact: ContactDofs {
                 tangential: touched(&whole.contact.tangential),
                 normal: touched(&whole.contact.normal),

@@ -154,9 +154,9 @@ impl BranchRequest<'_, '_> {
         let mut values = Values::new(self.values);
         let [least, most] = values.range();
         if self.kept > least && self.kept < most {
-            values = Values::new(&[self.values, &[self.kept]].concat());
+            values = Values::new(&[self.values, &[self.kept]].concat()); // Only one inside: the range must not grow.
         }
-        let scales = [most - least, found.image.amplitude];
+        let scales = [most - least, found.image.amplitude]; // Both parts of a place are of the size of one.
         let half = |direction: f64| {
             let mut corrector = Corrector::new((self.map)()?, self.tune, scales);
             corrector.map.step_in(found.steps);
@@ -164,9 +164,9 @@ impl BranchRequest<'_, '_> {
             Ok(Follower::new(corrector, &values, first, direction))
         };
         let [(down, low_end), (mut up, high_end)] = both_halves(&values, start, self.watch, half)?;
-        let mut points = joined(down.points, None, up.points.split_off(1));
+        let mut points = joined(down.points, None, up.points.split_off(1)); // Both begin with the start: once is enough.
         let slightly = 1e-9 * scales[0];
-        points.retain(|own| (least - slightly..=most + slightly).contains(&own.value));
+        points.retain(|own| (least - slightly..=most + slightly).contains(&own.value)); // A start may lie outside, and the steps from it.
         Ok(PeriodicBranch {
             parameter: self.parameter,
             kept: points.iter().filter(|own| own.value == self.kept).cloned().collect(),
@@ -188,7 +188,7 @@ impl BranchRequest<'_, '_> {
                 let mut map = (self.map)()?;
                 let motions = group.iter().enumerate().map(|(i, point)| {
                     (self.tune)(&mut map, point.value)?;
-                    map.step_in(point.found.steps);
+                    map.step_in(point.found.steps); // A motion repeats itself in its own number of steps alone.
                     let motion = PeriodicMotion::brief(&mut map, &point.found).0;
                     let stability = self.with_stability.then(|| match known.get(i) {
                         Some(known) => known.clone(),

@@ -54,7 +54,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             let later = GrowingMode { shape: &turned, ..mode };
             let pattern = |mode: &GrowingMode<'_>| {
                 let mut own = difference(&mode.state(&map, 1.0).motion, &rest.motion);
-                own.iter_mut().for_each(|value| *value /= slip);
+                own.iter_mut().for_each(|value| *value /= slip); // For each metre of its largest slip.
                 own
             };
             Seeded {
@@ -69,7 +69,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         let count = patterns.len();
         let gram = DMatrix::from_fn(count, count, |i, j| dot(patterns[i], patterns[j]));
         let zeros = DMatrix::zeros(count, count);
-        let inverse = gram.pseudo_inverse(1e-12).unwrap_or(zeros);
+        let inverse = gram.pseudo_inverse(1e-12).unwrap_or(zeros); // Least squares: s = (P^T P)^+ P^T (motion - base).
         // One step of steady sliding tells which nodes are open.
         map.place(&rest);
         map.run.advance();
@@ -137,7 +137,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
     /// mode itself grows or decays, as on a cycle.
     fn is_over(&self, before: f64, share: f64) -> bool {
         let rate = self.modes[0].mode.eigenvalue.re.abs();
-        let slow = OWN_RATE * rate * WINDOW as f64 * self.period;
+        let slow = OWN_RATE * rate * WINDOW as f64 * self.period; // A share of the logarithm of what the mode gains in a window.
         let change = share / before - 1.0;
         share < LOST && change < 0.0 || change.abs() < slow.min(CONSTANT)
     }
@@ -153,7 +153,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
                 let first = largest / ratio.max(1.0);
                 let velocities = [first, first * ratio];
                 let pairs = modes.iter().zip(velocities);
-                pairs.map(|(own, v)| v / own.mode.eigenvalue.norm()).collect()
+                pairs.map(|(own, v)| v / own.mode.eigenvalue.norm()).collect() // |slip| = v / |lambda|.
             }
         };
         let mut state = self.modes[0].mode.state(&self.map, 0.0);
@@ -177,7 +177,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             patterns.map(|pattern| dot(pattern, &motion)),
         );
         let found = &self.inverse * products;
-        found.as_slice().chunks_exact(2).map(|pair| pair[0].hypot(pair[1])).collect()
+        found.as_slice().chunks_exact(2).map(|pair| pair[0].hypot(pair[1])).collect() // Both phases: s_1 cos + s_2 sin.
     }
 
     /// Whether a node sticks, or more of them are open than in steady sliding.

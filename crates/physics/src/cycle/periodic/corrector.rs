@@ -113,7 +113,7 @@ impl Guess {
     pub fn through(points: &[Point], at: &[f64], to: f64) -> Self {
         let weight = |i: usize| {
             let others = at.iter().enumerate().filter(|(j, _)| *j != i);
-            others.map(|(_, other)| (to - other) / (at[i] - other)).product::<f64>()
+            others.map(|(_, other)| (to - other) / (at[i] - other)).product::<f64>() // Lagrange: prod_j (s - s_j) / (s_i - s_j).
         };
         Self::combined(points.iter().enumerate().map(|(i, point)| (point, weight(i))))
     }
@@ -173,7 +173,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         self.map.step_in(point.found.steps);
         let mut motion = self.map.mean(&point.found.state);
         let vibration = difference(&point.found.state.motion, &motion);
-        add(&mut motion, factor, &vibration);
+        add(&mut motion, factor, &vibration); // mean + factor (motion - mean).
         Ok(Guess { value, state: PeriodicState { motion, period: point.found.state.period } })
     }
 
@@ -207,7 +207,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
 
     fn search(&mut self, near: &Point, mut guess: Guess, goal: &Goal) -> Result<Point, CycleError> {
         self.weight = near.found.image.vibration;
-        self.secants.closure = goal.weights().map(|by| self.weight * by);
+        self.secants.closure = goal.weights().map(|by| self.weight * by); // Weighed like a residual.
         let first = self.map.periods();
         let mut last = Some(Iterate {
             state: near.found.state.clone(),
@@ -220,7 +220,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             // The map at the guess.
             (self.tune)(&mut self.map, guess.value)?;
             if self.map.fit(guess.state.period) {
-                self.secants.clear();
+                self.secants.clear(); // Another number of steps is another map.
                 last = None;
             }
             let image = self.map.image(&guess.state);
@@ -228,7 +228,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             let residual = self.judged(near, &image, periods)?;
             let place = [guess.value / self.scales[0], image.amplitude / self.scales[1]];
             let closure = goal.closure(place, self.scales);
-            let missed = residual.max(closure.abs() * TOLERANCE / CLOSED);
+            let missed = residual.max(closure.abs() * TOLERANCE / CLOSED); // A closure of CLOSED counts as much as a residual of TOLERANCE.
             if missed < 0.5 * improved.1 {
                 improved = (periods, missed);
             }
@@ -252,7 +252,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             last = Some(here);
             self.step(&mut guess, &image, closure);
             if let Goal::Value(value) = goal {
-                guess.value = *value;
+                guess.value = *value; // No step may leave the value asked for.
             }
         }
     }
@@ -309,7 +309,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
 fn accepted(best: Option<Point>, periods: usize) -> Result<Point, CycleError> {
     let Some(mut point) = best else { return Err(CycleError::unbounded(periods)) };
     let residual = point.found.residual;
-    point.found.residual = point.found.image.relative_residual();
+    point.found.residual = point.found.image.relative_residual(); // So far the larger of both misses; the motion's own is told.
     point.found.periods = periods;
     if residual <= ACCEPTED {
         return Ok(point);

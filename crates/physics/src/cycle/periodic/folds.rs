@@ -31,7 +31,7 @@ impl Follower<'_, '_, '_> {
                 // Hardly back, and to a smaller amplitude first: where nodes only just stick they do so no more.
                 let amplitude = -sense * length;
                 let factor = 1.0 + amplitude / place[1];
-                let value = here.value - 0.1 * length * along.signum() * scales[0];
+                let value = here.value - 0.1 * length * along.signum() * scales[0]; // Back by a tenth of what it goes off.
                 let guess = self.corrector.scaled(&here, factor, value)?;
                 let goal = Goal::Length { from: place, tangent: [0.0, -sense], length };
                 self.corrector.forget();
@@ -60,7 +60,7 @@ impl Follower<'_, '_, '_> {
         });
         let differences = around.map(|pair| {
             let share = (place[0] - pair[0][0]) / (pair[1][0] - pair[0][0]);
-            (place[1] - pair[0][1] - share * (pair[1][1] - pair[0][1])).abs()
+            (place[1] - pair[0][1] - share * (pair[1][1] - pair[0][1])).abs() // |A - A_branch(value)|, linear between two points.
         });
         differences.fold(f64::INFINITY, f64::min)
     }
@@ -95,7 +95,7 @@ impl Follower<'_, '_, '_> {
             let gain = (place(&next)[0] - places[1][0]) * sense;
             let is_above = amplitude > places[1][1];
             if gain > 0.0 {
-                three[if is_above { 0 } else { 2 }] = std::mem::replace(&mut three[1], next);
+                three[if is_above { 0 } else { 2 }] = std::mem::replace(&mut three[1], next); // The old extreme is the end behind.
             } else {
                 three[if is_above { 2 } else { 0 }] = next;
             }
@@ -126,7 +126,7 @@ impl Follower<'_, '_, '_> {
         let scales = self.corrector.scales;
         let places: Vec<f64> = three.iter().map(|point| point.place(scales)[1]).collect();
         let from = usize::from(amplitude > places[1]);
-        let share = (amplitude - places[from]) / (places[from + 1] - places[from]);
+        let share = (amplitude - places[from]) / (places[from + 1] - places[from]); // On the chord of the two around it.
         let guess = three[from].towards(&three[from + 1], share);
         let goal = Goal::Length { from: [0.0, 0.0], tangent: [0.0, 1.0], length: amplitude };
         self.corrector.correct(&three[1], guess, &goal).ok()
@@ -143,7 +143,7 @@ fn extreme(places: &[Place], turn: usize) -> Option<f64> {
     if !longer.is_finite() || low.max(high) < 1e-7 {
         return None;
     }
-    let vertex = b[1] + (left * high + right * low) / (2.0 * (left - right));
+    let vertex = b[1] + (left * high + right * low) / (2.0 * (left - right)); // b - p'(b) / p'' by divided differences.
     let margin = 0.02 * low.min(high);
     let is_useful =
         vertex > a[1] + margin && vertex < c[1] - margin && (vertex - b[1]).abs() > 1e-3 * margin;

@@ -129,7 +129,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         let slightly = 1e-9 * scale;
         let value = self.here().value;
         let next = *self.values.ahead(value, slope > 0.0, slightly).first()?;
-        let distance = (next / scale - place[0]) / slope;
+        let distance = (next / scale - place[0]) / slope; // p + slope s = next.
         if slope.abs() > ALONG && distance <= self.length {
             return Some((Goal::Value(next), distance));
         }
@@ -155,7 +155,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         let mut at = vec![0.0];
         for pair in last.windows(2) {
             let [from, to] = [&pair[0], &pair[1]].map(|point| point.place(scales));
-            at.push(at[at.len() - 1] + way(from, to).1);
+            at.push(at[at.len() - 1] + way(from, to).1); // Arc length by chords.
         }
         let mut guess = Guess::through(last, &at, at[at.len() - 1] + reach);
         if let Goal::Value(value) = goal {
@@ -192,7 +192,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         } else if cosine < 0.7 {
             self.length = 0.5 * reach;
         }
-        self.length = self.length.max(2.0 * STEPS[1]);
+        self.length = self.length.max(2.0 * STEPS[1]); // One failure may halve it and still go on.
 
         // Beyond the range: its end is the last point, if there is one.
         let [least, most] = self.values.range();

@@ -39,7 +39,7 @@ impl GrowingMode<'_> {
     /// The state of steady sliding with the mode at an amplitude (m where its shape has one).
     pub fn state(&self, map: &PeriodMap<'_>, amplitude: f64) -> PeriodicState {
         let (lambda, period) = (self.eigenvalue, TAU / self.eigenvalue.im);
-        let earlier = lambda * (lambda * (-0.5 * period / map.steps() as f64)).exp();
+        let earlier = lambda * (lambda * (-0.5 * period / map.steps() as f64)).exp(); // v half a step earlier: lambda e^{-lambda dt / 2}.
         let pairs = || self.base.iter().zip(self.shape);
         let displacement = pairs().map(|(base, shape)| base + amplitude * shape.re);
         let velocity = pairs().map(|(_, shape)| amplitude * (shape * earlier).re);
@@ -62,7 +62,7 @@ impl GrowingMode<'_> {
         let law = map.run.contact();
         let amplitudes = self.slips(map).into_iter().enumerate().map(|(i, slip)| {
             let speed = (slip * self.eigenvalue).norm();
-            law.counterface_speed(i).abs() / speed.max(f64::MIN_POSITIVE)
+            law.counterface_speed(i).abs() / speed.max(f64::MIN_POSITIVE) // A |lambda s| = V.
         });
         amplitudes.fold(f64::INFINITY, f64::min)
     }
@@ -87,7 +87,7 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
         _ => &[],
     };
     for factor in retries {
-        map.step_in(steps);
+        map.step_in(steps); // A search may have left it in other steps.
         found = find(map, scaled(map, mode, &start, *factor));
         if found.is_ok() {
             break;
@@ -141,7 +141,7 @@ fn shortest(map: &mut PeriodMap<'_>, found: Found) -> Found {
     for count in (2..=REPETITIONS).rev() {
         let mut state = found.state.clone();
         state.period /= count as f64;
-        map.step_in(1);
+        map.step_in(1); // One is too few or too long: fit chooses anew.
         map.fit(state.period);
         if map.image(&state).relative_residual() < REPEATED
             && let Ok(own) = find(map, state.clone())
@@ -163,7 +163,7 @@ pub fn balanced_start(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Period
     let grows = |map: &mut PeriodMap<'_>, amplitude: f64| {
         let start = mode.state(map, amplitude);
         let image = map.image(&start);
-        let size = |motion: &[f64]| norm(&difference(motion, &rest.motion));
+        let size = |motion: &[f64]| norm(&difference(motion, &rest.motion)); // Root of an energy, distance from steady sliding.
         size(&image.motion) > size(&start.motion)
     };
 

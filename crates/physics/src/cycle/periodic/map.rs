@@ -58,7 +58,7 @@ impl PeriodImage {
     /// The period that a state which comes back a little early or late should have had, less the one that it had: the shift
     /// along the motion that makes up for most of the residual, s.
     pub fn delay(&self) -> f64 {
-        -dot(&self.residual, &self.rate) / dot(&self.rate, &self.rate)
+        -dot(&self.residual, &self.rate) / dot(&self.rate, &self.rate) // Least |r + tau x'|, r the residual.
     }
 
     /// Whether every number is one.
@@ -115,7 +115,7 @@ impl<'a> PeriodMap<'a> {
         let is_short = self.steps < self.fewest_steps;
         let is_long = period / self.steps as f64 > self.longest_step;
         if is_long || is_short {
-            let own = (period / (FILLED * self.longest_step)).ceil() as usize;
+            let own = (period / (FILLED * self.longest_step)).ceil() as usize; // A little short: the period may grow.
             self.steps = own.max(self.fewest_steps);
         }
         is_long || is_short
@@ -199,7 +199,7 @@ impl<'a> PeriodMap<'a> {
         // Mean powers, and the rate of the last step.
         let per_step = self.steps as f64 / state.period;
         let mut rate = difference(&motion, &before);
-        rate.iter_mut().for_each(|value| *value *= per_step);
+        rate.iter_mut().for_each(|value| *value *= per_step); // x' = (x_N - x_{N-1}) / dt.
         let (contact, material_damping, counts) = self.run.take_sums();
         PeriodImage {
             residual: difference(&motion, &state.motion),
@@ -207,7 +207,7 @@ impl<'a> PeriodMap<'a> {
             rate,
             vibration: largest.max(f64::MIN_POSITIVE).sqrt(),
             amplitude: (sum / f64::from(looks.max(1))).sqrt(),
-            powers: CyclePowers { contact, material_damping }.scaled(1.0 / self.steps as f64),
+            powers: CyclePowers { contact, material_damping }.scaled(1.0 / self.steps as f64), // Sums over the steps so far.
             counts,
         }
     }

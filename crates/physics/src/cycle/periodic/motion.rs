@@ -118,7 +118,7 @@ impl PeriodicMotion {
             counterface_speed: map.run.contact().counterface_speed(node),
             friction_coefficient: map.run.contact().friction_coefficient(node),
             amplitude,
-            velocity: found.image.amplitude / map.mass().sqrt(),
+            velocity: found.image.amplitude / map.mass().sqrt(), // sqrt(<v^T M v> / m).
             harmonics: harmonics(&samples),
             ..Self::default()
         };
@@ -144,7 +144,7 @@ impl PeriodicMotion {
             }
             if let Some([displacement, earlier]) = fields {
                 let later = gather(map.run.operator(), &map.run.fields().velocity);
-                let velocity = earlier.iter().zip(&later).map(|(a, b)| 0.5 * (a + b)).collect();
+                let velocity = earlier.iter().zip(&later).map(|(a, b)| 0.5 * (a + b)).collect(); // v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
                 self.frames.push(MotionFrame {
                     time,
                     fields: [displacement, velocity],
@@ -167,7 +167,7 @@ impl PeriodicMotion {
     /// Whether another motion is this one, each in steps of its own: frequency, statuses, powers and amplitude agree but for what
     /// the time step makes of them.
     pub fn is(&self, other: &Self) -> bool {
-        let coarse = (SAME_STEPS / self.steps.min(other.steps) as f64).max(1.0);
+        let coarse = (SAME_STEPS / self.steps.min(other.steps) as f64).max(1.0); // Bounds widen in proportion to a longer step.
         let near = |a: f64, b: f64, share: f64| (a - b).abs() <= coarse * share * b.abs();
         let mut fractions = self.fractions.iter().zip(other.fractions);
         let [frequency, amplitude, power, status] = SAME;
@@ -188,7 +188,7 @@ pub fn velocity_level(velocity: f64) -> f64 {
 fn is_one_of(step: usize, steps: usize, count: usize) -> bool {
     let count = count.min(steps);
     let place = (step * count).div_ceil(steps);
-    count > 0 && place * steps / count == step
+    count > 0 && place * steps / count == step // step = floor(place steps / count).
 }
 
 /// Displacement and velocity of the contact nodes that the time loop is in.
@@ -263,7 +263,7 @@ fn later(map: &mut PeriodMap<'_>, state: &PeriodicState, steps: usize) -> Period
 /// Harmonics 1, 2, ... of displacements over one period: `samples[step][node]`, evenly spaced.
 fn harmonics(samples: &[Vec<[f64; 2]>]) -> Vec<MotionHarmonic> {
     let (steps, nodes) = (samples.len(), samples.first().map_or(0, Vec::len));
-    let highest = steps.saturating_sub(1) / 2;
+    let highest = steps.saturating_sub(1) / 2; // Below half the steps: none is its own alias.
     let mut squares = vec![[0.0; 2]; highest + 1];
     let transform = forward_transform(steps);
     for node in 0..nodes {
@@ -279,7 +279,7 @@ fn harmonics(samples: &[Vec<[f64; 2]>]) -> Vec<MotionHarmonic> {
     // Both signs of the frequency.
     let scale = 2.0 / steps.max(1) as f64;
     let amplitude = |square: f64| scale * (square / nodes.max(1) as f64).sqrt();
-    let total: f64 = squares.iter().skip(1).flatten().sum();
+    let total: f64 = squares.iter().skip(1).flatten().sum(); // Parseval: sums of squares are mean squares but for a factor.
     let mut rest: f64 = total;
     let of = |square: &[f64; 2]| {
         rest -= square[0] + square[1];

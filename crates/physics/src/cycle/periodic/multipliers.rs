@@ -32,7 +32,7 @@ impl FloquetMultipliers {
         let mut beside = Beside { map, state, image: &image };
         let mut apply = |direction: &[f64]| beside.change_of(direction, PERTURBATION);
         let mut noise = GaussianNoise::new(1);
-        let start = (0..state.motion.len()).map(|_| noise.draw().re).collect();
+        let start = (0..state.motion.len()).map(|_| noise.draw().re).collect(); // Noise has a part along every direction.
         let [reach, least] = NEUTRAL;
         let search = MultiplierSearch {
             dimensions: DIMENSIONS,
@@ -54,7 +54,7 @@ impl FloquetMultipliers {
         let against: Vec<f64> = along.iter().map(|value| -value).collect();
         let sums = apply(&along).into_iter().zip(apply(&against));
         let sums: Vec<f64> = sums.map(|(one, other)| one + other).collect();
-        let bend = norm(&sums) / first_listed.value.norm();
+        let bend = norm(&sums) / first_listed.value.norm(); // |P(x + d) - 2 P(x) + P(x - d)| / |rho d|, 0 of a smooth map.
         // What is open of every rate: how far the shift is from 1, the residual, and the bend.
         let shift = found.shift.map(|shift| shift.norm());
         let off = shift.map_or(NEUTRAL[0], |shift| shift.ln().abs());
@@ -78,19 +78,19 @@ impl FloquetMultipliers {
         let [growth, open] = followed(|length| {
             let mut next = beside.change_of(&direction, length);
             let shift = dot(&next, &rate);
-            add(&mut next, -shift, &rate);
+            add(&mut next, -shift, &rate); // A shift in phase neither grows nor decays.
             let growth = norm(&next).ln();
             direction = unit(next);
             growth
         });
         let period = beside.state.period;
-        let turned = c64::from_polar(growth.exp(), self.multipliers[0].multiplier.arg());
+        let turned = c64::from_polar(growth.exp(), self.multipliers[0].multiplier.arg()); // Of |P d| alone its angle is not known anew.
         let leading = FloquetMultiplier::new(turned, period, open / period);
         let most = leading.growth_rate + leading.uncertainty;
         self.multipliers[0] = leading;
         self.multipliers.retain(|other| other.growth_rate <= most);
         for other in &mut self.multipliers[1..] {
-            other.uncertainty = other.uncertainty.min(most - other.growth_rate);
+            other.uncertainty = other.uncertainty.min(most - other.growth_rate); // None may be thought to grow faster than the leading one.
         }
     }
 }
@@ -121,9 +121,9 @@ fn followed(mut growth: impl FnMut(f64) -> f64) -> [f64; 2] {
     let (lengths, turns, half) = FOLLOWED;
     let mut sum = |length, periods| (0..periods).map(|_| growth(length)).sum::<f64>();
     let sums = lengths.map(|length| [turns, half, half].map(|periods| sum(length, periods)));
-    let means = sums.map(|[_, one, other]| [one, other].map(|sum| sum / half as f64)).concat();
+    let means = sums.map(|[_, one, other]| [one, other].map(|sum| sum / half as f64)).concat(); // The turns to its direction do not count.
     let [least, most] = [f64::min, f64::max].map(|of| means.iter().copied().fold(means[0], of));
-    [means.iter().sum::<f64>() / means.len() as f64, most - least]
+    [means.iter().sum::<f64>() / means.len() as f64, most - least] // Mean and spread of four: two lengths, two halves.
 }
 
 #[cfg(test)]

@@ -93,13 +93,13 @@ pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, Cycl
         if best.is_accepted() || best.residual > NEARLY {
             break;
         }
-        map.step_in(2 * map.steps());
+        map.step_in(2 * map.steps()); // What statuses at whole steps leave falls with the step.
         best = counted(attempt(map, best.state, PLAIN), map.periods() - first)?;
     }
     if best.is_accepted() {
         return Ok(best);
     }
-    map.step_in(steps);
+    map.step_in(steps); // As it was before the refinements.
     Err(best.not_converged())
 }
 
@@ -156,7 +156,7 @@ fn attempt(
             return Ok(Found { periods, steps: map.steps(), ..best });
         }
         let is_far = image.relative_residual() > NEAR && search.is_plain;
-        search.is_plain = search.spent <= least || (is_far && search.spent <= most);
+        search.is_plain = search.spent <= least || (is_far && search.spent <= most); // No more after the first secant.
         if search.is_plain { search.go_plainly(image) } else { search.go(image) }
     }
 }
@@ -222,8 +222,8 @@ impl Search {
     /// One period further.
     fn go_plainly(&mut self, image: PeriodImage) {
         let limit = LONGEST * self.state.period;
-        self.state.period += image.delay().clamp(-limit, limit);
-        self.state.motion = image.motion;
+        self.state.period += image.delay().clamp(-limit, limit); // T <- T - r . x' / |x'|^2, within bounds.
+        self.state.motion = image.motion; // x <- P(x).
     }
 
     /// One step of the secants; from a state far worse than the best, back to that and a plain period on.
@@ -232,7 +232,7 @@ impl Search {
         let is_astray = residual > ASTRAY * self.best_residual() && self.returns < RETURNS;
         if let (true, Some(best)) = (is_astray, &self.best) {
             self.returns += 1;
-            self.improved.0 = self.spent;
+            self.improved.0 = self.spent; // Patience begins anew.
             self.state = best.state.clone();
             let image = best.image.clone();
             self.forget();

@@ -112,7 +112,7 @@ impl SecantSpace {
     pub fn new(unknowns: usize, least: f64) -> Self {
         let [fewest, most] = DEPTHS;
         Self {
-            depth: (NUMBERS / unknowns.max(1)).clamp(fewest, most),
+            depth: (NUMBERS / unknowns.max(1)).clamp(fewest, most), // As far as memory goes.
             least,
             closure: [0.0; 2],
             changes: VecDeque::new(),
@@ -137,7 +137,7 @@ impl SecantSpace {
     /// Adds a difference of iterates with that of their residuals; where there are too many, the oldest goes.
     pub fn push(&mut self, mut change: Change) {
         let length = match norm(&change.motion) {
-            0.0 => change.place[0].abs(),
+            0.0 => change.place[0].abs(), // Of the parameter alone.
             length => length,
         };
         if !(length > 0.0) {
@@ -145,7 +145,7 @@ impl SecantSpace {
         }
         let values = change.motion.iter_mut().chain(&mut change.residual);
         values.chain(&mut change.place).for_each(|value| *value /= length);
-        change.period /= length;
+        change.period /= length; // All of unit length, so that shares compare.
         self.changes.truncate(self.depth - 1);
         for (other, products) in &mut self.changes {
             products.push(dot(&change.residual, &other.residual));
@@ -166,16 +166,16 @@ impl SecantSpace {
         let product = |i: usize, j: usize| match (i < count, j < count) {
             (true, true) => {
                 let products = &self.changes[i].1;
-                products[i - j] + closures[i] * closures[j]
+                products[i - j] + closures[i] * closures[j] // dr_i . dr_j + dc_i dc_j, j the later by i - j changes.
             }
-            (false, true) => along[j],
+            (false, true) => along[j], // x' . dr_j: a period has no part in the closure.
             _ => dot(rate, rate),
         };
         let mut against: Vec<f64> = changes()
             .zip(&closures)
             .map(|(own, own_closure)| -dot(&own.residual, residual) - own_closure * closure)
             .collect();
-        against.push(-dot(rate, residual));
+        against.push(-dot(rate, residual)); // Right sides: -(dr . r + dc c), and -x' . r.
         let factors = least_squares(&product, &against, self.least);
 
         // What they make of the residual, and the motion that goes with it.
@@ -184,7 +184,7 @@ impl SecantSpace {
         for (factor, change) in factors.iter().zip(changes()) {
             if *factor != 0.0 {
                 add(&mut step.motion, *factor, &change.motion);
-                add(&mut step.motion, *factor, &change.residual);
+                add(&mut step.motion, *factor, &change.residual); // x + g dx, then one period: g dr.
                 step.period += factor * change.period;
                 step.value += factor * change.place[0];
             }
@@ -203,22 +203,22 @@ fn least_squares(product: &dyn Fn(usize, usize) -> f64, against: &[f64], least: 
         let mut row: Vec<f64> = Vec::with_capacity(kept.len() + 1);
         for (&j, other) in kept.iter().zip(&rows) {
             let own = product(i, j) - dot(&row, &other[..row.len()]);
-            row.push(own / other[row.len()]);
+            row.push(own / other[row.len()]); // l_ij = (a_ij - sum_k l_ik l_jk) / l_jj.
         }
         let whole = product(i, i);
-        let beyond = whole - dot(&row, &row);
+        let beyond = whole - dot(&row, &row); // l_ii^2.
         if !(beyond > least * least * whole) {
             continue;
         }
         let diagonal = beyond.sqrt();
-        solved.push((wanted - dot(&row, &solved)) / diagonal);
+        solved.push((wanted - dot(&row, &solved)) / diagonal); // L y = b.
         row.push(diagonal);
         kept.push(i);
         rows.push(row);
     }
     let mut factors = vec![0.0; against.len()];
     for last in (0..kept.len()).rev() {
-        let own = solved[last] / rows[last][last];
+        let own = solved[last] / rows[last][last]; // L^T g = y.
         factors[kept[last]] = own;
         add(&mut solved[..last], -own, &rows[last][..last]);
     }

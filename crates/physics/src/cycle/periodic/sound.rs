@@ -57,7 +57,7 @@ impl FlatFace {
                             group.push(other);
                         }
                     } else {
-                        is_curved |= normals[face].dot(&normals[other]) > CURVED;
+                        is_curved |= normals[face].dot(&normals[other]) > CURVED; // A facet of something round.
                     }
                 }
             }
@@ -88,7 +88,7 @@ impl FlatFace {
         let mut flat = Self::default();
         for (node, area) in areas {
             let node = node as usize;
-            let along = mesh.frame(node).transpose() * normal;
+            let along = mesh.frame(node).transpose() * normal; // Dofs stand in the node's own frame.
             flat.places.push(mesh.nodes[node]);
             flat.areas.push(area);
             flat.normals.push((0..3).map(|c| (3 * node + c, along[c])).collect());
@@ -119,7 +119,7 @@ impl FlatFace {
             let mut others = c64::ZERO;
             for (b, place) in sources[..i].iter().zip(&self.places) {
                 let parts = [0, 1, 2].map(|c| (place[c] - self.places[i][c]).powi(2));
-                let phase = wave_number * parts.iter().sum::<f64>().sqrt();
+                let phase = wave_number * parts.iter().sum::<f64>().sqrt(); // k r_ij.
                 others += b * (phase.sin() / phase);
             }
             // Each pair counts twice.
@@ -172,12 +172,12 @@ impl Sound {
             }
         }
         let powers = amplitudes.iter().enumerate().map(|(k, own)| {
-            let frequency = TAU * (k + 1) as f64 / state.period;
+            let frequency = TAU * (k + 1) as f64 / state.period; // omega_k = 2 pi k / T.
             let mut first = 0;
             let of_faces = faces.iter().map(|face| {
                 let range = first..first + face.areas.len();
                 first = range.end;
-                face.power(frequency, &own[range])
+                face.power(frequency, &own[range]) // Each face by itself.
             });
             of_faces.sum()
         });

@@ -41,8 +41,8 @@ fn frequencies(series: &[c64], rate: f64) -> Option<(f64, Option<f64>)> {
     let size = series.iter().map(|value| value.norm_sqr()).sum::<f64>() / series.len() as f64;
     let lines = rotating_lines(series, rate, WEAKEST_LINE * size.sqrt()).into_iter();
     let lines: Vec<(usize, RotatingLine)> =
-        lines.filter(|line| line.frequency_hz > 0.0).map(|line| (0, line)).collect();
-    let (first, second) = strongest_two(&lines, 0, rate / series.len() as f64)?;
+        lines.filter(|line| line.frequency_hz > 0.0).map(|line| (0, line)).collect(); // A real series has each line at both signs.
+    let (first, second) = strongest_two(&lines, 0, rate / series.len() as f64)?; // rate / N: what the record resolves.
     Some((first.frequency_hz, second.map(|line| line.frequency_hz)))
 }
 
@@ -73,7 +73,7 @@ fn strongest_node(samples: &[Vec<f64>]) -> Option<Vec<c64>> {
     let nodes = samples.first()?.len();
     let about_mean = |node: usize| {
         let own = samples.iter().map(move |sample| sample[node]);
-        let mean = own.clone().sum::<f64>() / count;
+        let mean = own.clone().sum::<f64>() / count; // A deflection at rest is no vibration.
         own.map(move |value| value - mean)
     };
     let strongest = (0..nodes).max_by(|&a, &b| {

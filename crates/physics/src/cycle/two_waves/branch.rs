@@ -109,7 +109,7 @@ impl Way for Half<'_> {
     fn take_up(&mut self, (shrinking, birth, states): Self::Kept) -> Option<()> {
         let waves = self.waves;
         let mut all = states.into_iter().map(|state| waves.motion(state));
-        (self.here, self.found) = (all.next()?, all.collect());
+        (self.here, self.found) = (all.next()?, all.collect()); // Here first, as they were kept.
         (self.shrinking, self.birth) = (shrinking, birth);
         Some(())
     }
@@ -132,10 +132,10 @@ impl Half<'_> {
         while self.value() != value {
             interruption::check();
             let rest = value - self.value();
-            let next = if rest.abs() <= step.abs() { value } else { self.value() + step };
+            let next = if rest.abs() <= step.abs() { value } else { self.value() + step }; // The last step ends exactly there.
             let mut start = self.here.state.clone();
             self.parameter.set(&mut start.point, next);
-            start.impose_law();
+            start.impose_law(); // T = +-mu N goes with the friction.
             let found = self.waves.solved(&start, self.parameter, Closure::Value(next));
             let found = found.map(|state| self.waves.motion(state));
             let before = self.here.amplitudes[weaker];
@@ -159,7 +159,7 @@ impl Half<'_> {
             return Some(BranchEnd::Birth);
         }
         interruption::check();
-        let amplitude = SHRINKS * self.here.amplitudes[weaker];
+        let amplitude = SHRINKS * self.here.amplitudes[weaker]; // It leads, and the parameter follows.
         let closure = Closure::Amplitude(weaker, amplitude);
         let Some(state) = self.waves.solved(&self.here.state, self.parameter, closure) else {
             return Some(BranchEnd::Lost);
@@ -171,7 +171,7 @@ impl Half<'_> {
         // The square of the amplitude is linear in the parameter there.
         self.birth = Some(to[0] - to[1] * (to[0] - from[0]) / (to[1] - from[1]));
         if (self.value() - last) * sense > 0.0 {
-            self.birth = None;
+            self.birth = None; // Beyond the range it was not reached.
             return Some(BranchEnd::Range);
         }
         self.found.push(self.here.clone());

@@ -71,7 +71,7 @@ impl History {
                     pairs.for_each(|(sum, force)| *sum += force / every as f64);
                 }
                 if step == every / 2 {
-                    let edge = slips(run);
+                    let edge = slips(run); // Amid the steps over which forces are averaged.
                     for (wave, &harmonic) in history.waves.iter_mut().zip(&harmonics) {
                         wave.push(amplitude(&edge, harmonic));
                     }
@@ -90,7 +90,7 @@ impl History {
             let mut own = lines.into_iter().filter(|line| {
                 line.frequency_hz > 0.0
                     && foreign.is_none_or(|first| {
-                        let multiple = (line.frequency_hz / first).round() * first;
+                        let multiple = (line.frequency_hz / first).round() * first; // Such lines are of the first wave.
                         (line.frequency_hz - multiple).abs() > APART * first
                     })
             });
@@ -127,9 +127,9 @@ impl History {
         let half = series.len() / 2;
         for _ in 0..3 {
             let [early, late] = [0, half].map(|from| demodulated(frequency, from, half));
-            frequency += (late * early.conj()).arg() / (half as f64 * self.interval);
+            frequency += (late * early.conj()).arg() / (half as f64 * self.interval); // Drift of the phase from one half to the other.
         }
-        let whole = demodulated(frequency, 0, series.len());
+        let whole = demodulated(frequency, 0, series.len()); // Weights of mean 1 leave the amplitude as it is.
         [frequency, whole.norm(), whole.arg()]
     }
 
@@ -155,14 +155,14 @@ impl History {
                     let share = (phase / TAU).rem_euclid(1.0);
                     (share * sides[wave] as f64).round() as usize % sides[wave]
                 });
-                let at = place[1] * sides[0] + place[0];
+                let at = place[1] * sides[0] + place[0]; // The first phase runs first.
                 counts[at] += 1.0;
                 sums[0][at] += forces[0][node];
                 sums[1][at] += forces[1][node];
             }
         }
         let mean = |sum: &[f64]| -> Vec<f64> {
-            sum.iter().zip(&counts).map(|(sum, count)| sum / f64::max(*count, 1.0)).collect()
+            sum.iter().zip(&counts).map(|(sum, count)| sum / f64::max(*count, 1.0)).collect() // Where no node has been there is no force.
         };
         let [normal, tangential] = [mean(&sums[0]), mean(&sums[1])];
         // Contact states as the mean forces have them.
@@ -172,7 +172,7 @@ impl History {
             PointState::of(*normal < OPEN * scale, *shear, limit)
         });
         let contact = contact.collect();
-        let phases = Phase::of(&measured.frequencies.map(|frequency| [frequency, 0.0]), sides);
+        let phases = Phase::of(&measured.frequencies.map(|frequency| [frequency, 0.0]), sides); // The phases hold their origins already.
         WaveState { normal, tangential, contact, phases, point: *point }
     }
 }

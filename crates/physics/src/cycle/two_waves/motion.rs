@@ -35,7 +35,7 @@ impl TwoWaves {
         let count = wave.points() as f64;
         let own = |phase: usize| edge.displacement[wave.first(phase)][1].norm();
         TwoWaveMotion {
-            amplitudes: [0, 1].map(|phase| 2.0 / count * own(phase)),
+            amplitudes: [0, 1].map(|phase| 2.0 / count * own(phase)), // Unscaled transform, both signs of the harmonic.
             powers: powers(&wave, &state, &edge, &points),
             fractions: state.fractions(),
             state,

@@ -48,10 +48,10 @@ impl TwoWaves {
         side: Option<usize>,
     ) -> Result<Self, CycleError> {
         let sectors = model.specification.circumferential_elements;
-        let reach = harmonics[0].unsigned_abs() + harmonics[1].unsigned_abs();
+        let reach = harmonics[0].unsigned_abs() + harmonics[1].unsigned_abs(); // The highest n is `half` times this.
         let is_clear = |half: &usize| {
             let above = (half * reach) % sectors;
-            half * reach < sectors / 2 || above.min(sectors - above) >= CLEARANCE
+            half * reach < sectors / 2 || above.min(sectors - above) >= CLEARANCE // Below half the sectors nothing is an alias.
         };
         let half = (4..=side.unwrap_or(SIDE) / 2).rev().find(is_clear).unwrap_or(4);
         let sides = [2 * half + 1; 2];
@@ -108,7 +108,7 @@ impl TwoWaves {
             let mut next = None;
             for share in if turn == 0 { &SHARES[..1] } else { &SHARES[..] } {
                 let trial = at(between(&here.state, &target, *share, parameter));
-                let is_less = turn == 0 || trial.missed < (1.0 - 0.1 * share) * here.missed;
+                let is_less = turn == 0 || trial.missed < (1.0 - 0.1 * share) * here.missed; // A tenth of what a linear problem would gain.
                 next = Some(trial);
                 if is_less {
                     break;
@@ -116,7 +116,7 @@ impl TwoWaves {
             }
             here = next?;
             // The best so far stays; without progress for some turns that is all there is.
-            let is_sound = here.state.frequencies().iter().all(|&omega| omega > 0.0);
+            let is_sound = here.state.frequencies().iter().all(|&omega| omega > 0.0); // A negative one is the wave turned round.
             if !here.missed.is_finite() || !is_sound {
                 break;
             }
@@ -174,6 +174,6 @@ impl Iterate {
 /// The state a share of the way from one to another, with the contact of the other.
 fn between(from: &WaveState, to: &WaveState, share: f64, parameter: Parameter) -> WaveState {
     let mut state = WaveState { contact: to.contact.clone(), ..from.clone() };
-    Heading::between(from, to, parameter).shift(&mut state, share, parameter);
+    Heading::between(from, to, parameter).shift(&mut state, share, parameter); // No law is imposed: what they are missed by counts.
     state
 }

@@ -77,7 +77,7 @@ impl MeshStepping<'_> {
         let waves = grid(&settled)?;
         let start = history.state(&waves, &settled, point);
         let parameter = Parameter::FrictionCoefficient;
-        let value = Closure::Value(point.contact.friction_coefficient);
+        let value = Closure::Value(point.contact.friction_coefficient); // The friction of the cycle itself: it stands still.
         let [a, b] = settled.frequencies.map(|omega| omega / std::f64::consts::TAU);
         let state = waves.solved(&start, parameter, value);
         let not_converged = || {
@@ -107,7 +107,7 @@ impl MeshStepping<'_> {
         for _ in 0..LOOKS {
             let history = History::of(&mut run, harmonics, steps, window);
             let Some([first, second]) = history.measured().map(|found| found.amplitudes) else {
-                before = f64::NAN;
+                before = f64::NAN; // Nothing to compare with.
                 continue;
             };
             if first < GONE * second {
@@ -136,7 +136,7 @@ impl MeshStepping<'_> {
                 "the amplitudes of both waves still change after {periods} periods of a transient"
             )));
         }
-        let history = History::of(&mut run, harmonics, steps, last);
+        let history = History::of(&mut run, harmonics, steps, last); // A longer record: lines to the inverse of its length.
         let settled = history.measured().ok_or_else(vanishes)?;
         Ok((settled, history))
     }

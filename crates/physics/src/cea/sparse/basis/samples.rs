@@ -36,7 +36,7 @@ impl BasisBuilder<'_> {
         self.sampled.retain(|held| *held != mu);
         self.sampled.push(mu);
         if self.rigid > 0 {
-            self.model.hold_coordinates(mu, Mat::identity(self.model.dimension(), self.rigid));
+            self.model.hold_coordinates(mu, Mat::identity(self.model.dimension(), self.rigid)); // The rigid ones are its first columns.
         }
     }
 
@@ -108,7 +108,7 @@ impl BasisBuilder<'_> {
         let unknowns = self.tangent.stiffness.dimension();
         self.begin_sample(mu);
         self.take(mu, &Mat::identity(unknowns, unknowns));
-        self.steps += 1;
+        self.steps += 1; // A step like any other, by number.
     }
 
     /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the
@@ -147,7 +147,7 @@ impl BasisBuilder<'_> {
         }
         let modes = self.model.solve_right(mu, self.count)?;
         self.hold_solved(mu, &modes);
-        self.model.restrict(known);
+        self.model.restrict(known); // What rounds added beside the modes goes.
         Ok(())
     }
 
@@ -194,7 +194,7 @@ impl BasisBuilder<'_> {
             }
             let both = sides.map(|is_left| builder.residuals((*mu, is_left), &[mode])).concat();
             let mut parts = side_by_side(builder.tangent.stiffness.dimension(), &both);
-            builder.factors.solve_in_place(parts.as_mut());
+            builder.factors.solve_in_place(parts.as_mut()); // t = (K(0) - sigma M(0))^-1 r.
             turn_to_real(&mut parts);
             parts
         })
@@ -222,7 +222,7 @@ impl BasisBuilder<'_> {
         crate::order::sort_by_number(&mut open, |own| own.eigenvalue.im);
 
         // Factors beside the middle one of each group; where an eigenvalue lies just there, another round has others.
-        let share = open.len().div_ceil(MOST_SHIFTS).max(1);
+        let share = open.len().div_ceil(MOST_SHIFTS).max(1); // So that MOST_SHIFTS factors serve all.
         let none = || Mat::zeros(unknowns, 0);
         let solved: Vec<Mat<f64>> = crate::parallel::map(open.chunks(share), |own| {
             let beside = own[own.len() / 2].eigenvalue * (1.0 + BESIDE);
@@ -257,7 +257,7 @@ impl BasisBuilder<'_> {
         // Motions near critical damping, which may be none, take no places.
         let mut far = (0..modes.len()).filter(|&j| !modes[j].is_nearly_critical());
         let held = far.nth(self.count - 1).map_or(modes.len(), |j| {
-            let end = CHANGE_PLACES * modes[j].eigenvalue.im;
+            let end = CHANGE_PLACES * modes[j].eigenvalue.im; // No cut parts two that may change places.
             modes.partition_point(|mode| mode.eigenvalue.im < end)
         });
         PackedModes::of(&modes[..held], self.model.dimension()).coordinates
@@ -287,7 +287,7 @@ impl BasisBuilder<'_> {
     pub fn improve_between(&mut self, from: f64, to: f64, place: f64) -> Result<bool, CeaError> {
         let is_between = |mu: &&f64| (from..to).contains(*mu);
         let has_many = self.sampled.iter().filter(is_between).count() > MOST_ATTEMPTS;
-        let mut values = [from, to, place].into_iter();
+        let mut values = [from, to, place].into_iter(); // Ends first: they serve the intervals beside it, too.
         match values.find(|mu| !self.sampled.contains(mu)) {
             Some(mu) if !has_many => self.improve_at(mu).map(|_| true),
             _ => Ok(false),

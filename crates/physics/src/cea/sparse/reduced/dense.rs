@@ -23,21 +23,21 @@ impl ReducedModel {
                 let at = at.frozen(frequency_hz);
                 self.solve_lossy(&at, count, true)
             };
-            let mut modes = own_frequency::solve(at, &frozen, start_hz)?;
+            let mut modes = own_frequency::solve(at, &frozen, start_hz)?; // Each at its own frequency.
             for mode in &mut modes {
                 mode.inverse_value = self.linearization.inverse_value(mode.eigenvalue);
             }
             return Ok(modes);
         }
         if !at.losses.is_empty() {
-            return self.solve_lossy(at, count, with_left);
+            return self.solve_lossy(at, count, with_left); // i H alone.
         }
         let centred = self.centred(at);
         let at = centred.as_ref().unwrap_or(at);
         let lu = DenseLu::factorize(at.stiffness.clone());
         let leading = match self.linearization {
             Linearization::Reduced(..) => count,
-            Linearization::Companion { .. } => 2 * count,
+            Linearization::Companion { .. } => 2 * count, // A pair has two values, and two real vectors.
         };
         let operator = self.shift_inverted(at, &lu);
         let eigen = real_eigen(operator.as_ref(), with_left, leading)?;
@@ -49,7 +49,7 @@ impl ReducedModel {
         }
 
         let mut order: Vec<usize> = (0..eigen.values.len()).collect();
-        crate::order::sort_by_number(&mut order, |&i| -eigen.values[i].norm());
+        crate::order::sort_by_number(&mut order, |&i| -eigen.values[i].norm()); // Largest |s| first: nearest to the centre.
         let mut modes: Vec<ReducedMode> = order
             .into_iter()
             .filter_map(|i| {
@@ -92,23 +92,8 @@ impl ReducedModel {
         else {
             return Ok(Vec::new());
         };
-        // The operator.
+        let (lu, operator) = lossy_operator(at, structural, omega);
         let m = at.stiffness.nrows();
-        let complex = |p: &Mat<f64>, factor: f64| {
-            Mat::from_fn(m, m, |i, j| c64::new(factor * p[(i, j)], 0.0))
-        };
-        let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, |i, j| {
-            c64::new(at.stiffness[(i, j)], structural[(i, j)])
-        }));
-        let (mut damped, mut inert) =
-            (complex(&at.damping, -omega), complex(&at.mass, -omega * omega));
-        lu.solve_in_place(damped.as_mut());
-        lu.solve_in_place(inert.as_mut());
-        let operator = Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
-            (true, true) => damped[(i, j)],
-            (true, false) => inert[(i, j - m)],
-            (false, _) => c64::new(f64::from(u8::from(i - m == j)), 0.0),
-        });
         let (values, right, left) = complex_eigen(operator.as_ref(), with_left)?;
         // The upper half of a left vector y^H of the operator is (K + i H)^T times that of the problem.
         let left = left.map(|left| {
@@ -169,7 +154,7 @@ impl ReducedModel {
         let values = values.filter(|s| s.im == 0.0).map(|s| self.linearization.value(s).re);
         let least = self.linearization.least_growth();
         let grows = |value: &f64| match self.linearization {
-            Linearization::Reduced(..) => -value > least * least,
+            Linearization::Reduced(..) => -value > least * least, // lambda^2 = -kappa.
             Linearization::Companion { .. } => *value > least,
         };
         Ok(values.filter(grows).count())
@@ -180,7 +165,7 @@ impl ReducedModel {
         let mut inertia = at.mass.clone();
         lu.solve_in_place(inertia.as_mut());
         match self.linearization {
-            Linearization::Reduced(..) => inertia,
+            Linearization::Reduced(..) => inertia, // K^-1 M.
             Linearization::Companion { frequency_scale: omega, .. } => {
                 let m = at.stiffness.nrows();
                 let mut damped = at.damping.clone();
@@ -193,6 +178,29 @@ impl ReducedModel {
             }
         }
     }
+}
+
+/// The factors of `K + i H`, and the operator of [`ReducedModel::solve_lossy`] that they make.
+fn lossy_operator(
+    at: &ProjectedMatrices,
+    structural: &Mat<f64>,
+    omega: f64,
+) -> (ComplexDenseLu, Mat<c64>) {
+    let m = at.stiffness.nrows();
+    let complex =
+        |p: &Mat<f64>, factor: f64| Mat::from_fn(m, m, |i, j| c64::new(factor * p[(i, j)], 0.0));
+    let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, |i, j| {
+        c64::new(at.stiffness[(i, j)], structural[(i, j)]) // K + i H.
+    }));
+    let (mut damped, mut inert) = (complex(&at.damping, -omega), complex(&at.mass, -omega * omega));
+    lu.solve_in_place(damped.as_mut());
+    lu.solve_in_place(inert.as_mut());
+    let operator = Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
+        (true, true) => damped[(i, j)],
+        (true, false) => inert[(i, j - m)],
+        (false, _) => c64::new(f64::from(u8::from(i - m == j)), 0.0),
+    });
+    (lu, operator)
 }
 
 /// The first `rows` entries of column `i` of packed vectors, as a complex vector, conjugated if asked.
@@ -208,7 +216,7 @@ fn unpack(
         im if im < 0.0 => (i - 1, Some(i), -1.0),
         _ => (i, None, 0.0),
     };
-    let sign = if conjugated { -sign } else { sign };
+    let sign = if conjugated { -sign } else { sign }; // w = conj y, as w^T T stands for y^H T.
     (0..rows)
         .map(|row| {
             let imaginary = im.map_or(0.0, |k| sign * vectors[(row, k)]);

@@ -26,7 +26,7 @@ impl BasisParts {
     /// Drops what holds anything at `mu`.
     pub fn change_at(&mut self, mu: f64) {
         let known = self.0.get_mut().unwrap_or_else(PoisonError::into_inner);
-        known.retain(|(places, _)| !(places[0]..=places[places.len() - 1]).contains(&mu));
+        known.retain(|(places, _)| !(places[0]..=places[places.len() - 1]).contains(&mu)); // A sample inside the range changes it.
     }
 }
 
@@ -48,8 +48,8 @@ impl ReducedModel {
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
         crate::order::sort_by_number(&mut nearest, |a| (a.0 - mu).abs());
         nearest.truncate(NEIGHBOURS);
-        crate::order::sort_by_number(&mut nearest, |a| a.0);
-        let places: Vec<f64> = nearest.iter().map(|sample| sample.0).collect();
+        crate::order::sort_by_number(&mut nearest, |a| a.0); // Rising: one span from any mu among them.
+        let places: Vec<f64> = nearest.iter().map(|sample| sample.0).collect(); // A part is known by its samples.
         let mut parts = self.parts.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, known)) = parts.iter().find(|(own, _)| *own == places) {
             return Some(Arc::clone(known));

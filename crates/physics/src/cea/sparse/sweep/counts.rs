@@ -64,7 +64,7 @@ impl SparseSweep<'_> {
         };
         let (first, last) = (all[0], all[all.len() - 1]);
         let mut chosen = vec![first, all[all.len() / 2], last];
-        chosen.extend(all[1..].iter().filter(|&&k| unstable(k) != unstable(k - 1)));
+        chosen.extend(all[1..].iter().filter(|&&k| unstable(k) != unstable(k - 1))); // Where another number of modes grows.
         chosen.sort_unstable();
         chosen.dedup();
         chosen
@@ -83,7 +83,7 @@ impl SparseSweep<'_> {
             // Of the lowest modes one above all that are listed is none.
             let (Some(above), ModeLimit::Lowest(_)) = (above, self.limit) else { break };
             let determinants = count.determinants;
-            top = 0.5 * (highest + above.im.min(top));
+            top = 0.5 * (highest + above.im.min(top)); // Between the highest listed and what is missing.
             count = count_below(counter, point, &known, top);
             count.determinants += determinants;
         }
@@ -137,7 +137,7 @@ fn upper_end(point: &SolvedPoint, known: &[c64], limit: ModeLimit) -> f64 {
     let gap = gaps.find(|pair| pair[1] - pair[0] > 4.0 * SAME_EIGENVALUE * pair[1]);
     match gap {
         Some(pair) => 0.5 * (pair[0] + pair[1]),
-        None => 1.02 * above.last().copied().unwrap_or(limit),
+        None => 1.02 * above.last().copied().unwrap_or(limit), // Nothing is known beyond the last one.
     }
 }
 

@@ -32,8 +32,7 @@ impl SparseSweep<'_> {
         let after = &self.grid[1..];
         let last = &after[after.len().saturating_sub(1)..];
         if place.is_none() {
-            // At rest all is held by positive stiffness.
-            let is_held = self.grid[0] == 0.0 && !self.is_unheld;
+            let is_held = self.grid[0] == 0.0 && !self.is_unheld; // At rest all is held by positive stiffness.
             let start = (self.grid[0], if is_held { 1.0 } else { self.sign_at(self.grid[0])? });
             if self.sign_change(start, last)?.is_some() {
                 place = self.sign_change(start, after)?;
@@ -84,7 +83,7 @@ impl SparseSweep<'_> {
 
     /// Sign of `det K(mu)`.
     fn sign_at(&self, mu: f64) -> Result<f64, CeaError> {
-        Ok(self.ln_static(mu)?.im.cos())
+        Ok(self.ln_static(mu)?.im.cos()) // Im ln is pi where it is negative.
     }
 
     /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
@@ -93,7 +92,7 @@ impl SparseSweep<'_> {
         let growth = self.linearization.least_growth();
         let [damping, mass] = [&self.tangent.damping, &self.tangent.mass].map(|p| p.evaluate(mu));
         let terms = values.iter_mut().zip(damping.iter().zip(&mass));
-        terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m));
+        terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m)); // K + s C + s^2 M.
         let found = SparseLu::ln_determinant(self.builder.family()?, &values);
         Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }

@@ -44,8 +44,7 @@ impl Ladder {
                 Rung::Without if is_small => Rung::Whole,
                 Rung::Without | Rung::Whole | Rung::Spent => Rung::Spent,
             };
-            // A rung begins with a round of its own.
-            (self.error, self.rounds) = (f64::INFINITY, 0);
+            (self.error, self.rounds) = (f64::INFINITY, 0); // A rung begins with a round of its own.
         }
         self.rung
     }
@@ -88,7 +87,7 @@ impl SparseSweep<'_> {
         let (mu, point) = (self.grid[k], &self.points[k]);
         match rung {
             Rung::AtRest => {
-                let is_near = is_alone && point.worst().1 <= NEAR;
+                let is_near = is_alone && point.worst().1 <= NEAR; // Corrections do where the error is small already.
                 let modes = &point.modes[..point.checks.len()];
                 if !self.builder.is_whole && (is_near || self.builder.is_sampled(mu)) {
                     self.builder.take_up(mu, modes);
@@ -131,7 +130,7 @@ impl SparseSweep<'_> {
     fn missing_points(&self) -> Vec<usize> {
         let first = match self.linearization {
             Linearization::Reduced(..) => 0,
-            Linearization::Companion { .. } => self.first_asked(),
+            Linearization::Companion { .. } => self.first_asked(), // At rest its branches only begin.
         };
         let goal = self.goal();
         let all = first..self.grid.len();

@@ -16,7 +16,7 @@ const STEPS_BACK: usize = 8;
 
 /// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
 pub fn doubt(ModeAt { mode, .. }: &ModeAt) -> f64 {
-    mode.round_off() * mode.eigenvalue.norm() / mode.derivative.re.abs()
+    mode.round_off() * mode.eigenvalue.norm() / mode.derivative.re.abs() // d mu = d Re(lambda) / |Re lambda'|.
 }
 
 /// An unstable interval, and the modes where it begins and ends between the points of a sweep.
@@ -111,7 +111,7 @@ impl SparseSweep<'_> {
     /// nothing where it cannot be followed so far.
     fn led_back(&self, last: &ModeAt) -> Result<Option<Instability<ModeAt>>, LinalgError> {
         let (mut solver, mut states) = (self, vec![last.clone()]);
-        let steps = STEPS_BACK.div_ceil(self.points.len());
+        let steps = STEPS_BACK.div_ceil(self.points.len()); // At least as many in all.
         let points = self.points.iter().rev().map(|point| point.friction_coefficient);
         for place in points.filter(|mu| (self.lowest..last.mu).contains(mu)) {
             let start = states[0].mu;
@@ -167,7 +167,7 @@ impl SparseSweep<'_> {
             if !(step.abs() <= BESIDE) {
                 return None;
             }
-            is_there = step.abs() <= SETTLED.max(doubt(&at));
+            is_there = step.abs() <= SETTLED.max(doubt(&at)); // The mode at the next place is the last.
             mu -= step;
             guess = at.mode;
             guess.eigenvalue -= guess.derivative * step;

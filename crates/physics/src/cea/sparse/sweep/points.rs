@@ -22,7 +22,7 @@ fn magnitude([stiff, damped, inert]: [f64; 3], lambda: c64) -> f64 {
 /// See [`crate::cea::ComplexMode::uncertainty`]: of a mode with a right vector of unit length.
 pub(super) fn uncertainty(norms: [f64; 3], mode: &ReducedMode) -> f64 {
     let lambda = mode.eigenvalue;
-    f64::EPSILON * magnitude(norms, lambda) * length(&mode.left) / lambda.norm()
+    f64::EPSILON * magnitude(norms, lambda) * length(&mode.left) / lambda.norm() // Of |x| = 1 and w^T T' x = 1.
 }
 
 impl SparseSweep<'_> {
@@ -51,7 +51,7 @@ impl SparseSweep<'_> {
         let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
         let stage = if leaves_out { "-left-out" } else { "" };
         let (steps, held) = (self.builder.steps, self.builder.count);
-        let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
+        let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}"); // The number of steps tells the state of the basis.
         let modes = match self.watch.recalled::<Vec<_>>(&name) {
             Some(kept) => kept.into_iter().map(ReducedMode::recalled).collect(),
             None => {
@@ -73,7 +73,7 @@ impl SparseSweep<'_> {
                 (frequencies.take_while(|own| *own < TAU * hz).count(), TAU * hz)
             }
         };
-        let checked = self.builder.count.max(wanted).min(modes.len());
+        let checked = self.builder.count.max(wanted).min(modes.len()); // Those held beyond the wanted ones, too.
         let checks = self.check(mu, &modes[..checked]);
         Ok(SolvedPoint {
             friction_coefficient: mu,
@@ -113,8 +113,8 @@ impl SparseSweep<'_> {
                 let lambda = mode.eigenvalue;
                 let [residual, momentum, shape] =
                     [&residuals, &momenta, &x].map(|mapped| entry.vector(mapped));
-                let force = matrices.residual_factor(lambda) * residual.norm();
-                let inertia = self.linearization.inertia(lambda) * momentum.norm();
+                let force = matrices.residual_factor(lambda) * residual.norm(); // |T(lambda) x|.
+                let inertia = self.linearization.inertia(lambda) * momentum.norm(); // (|lambda|^2 + c^2) |M x|.
                 let scale = magnitude(norms, lambda);
                 checks.push(ModeCheck {
                     residual: force / (scale * shape.norm()),
@@ -134,7 +134,7 @@ impl SparseSweep<'_> {
     fn contact_share(&self, x: PackedVector<'_>, momentum: PackedVector<'_>) -> f64 {
         let mass = &self.tangent.mass;
         let (pattern, values) = (mass.pattern(), &mass.coefficients()[0]);
-        let along = |i: usize, p: c64| x.at(i).re * p.re + x.at(i).im * p.im;
+        let along = |i: usize, p: c64| x.at(i).re * p.re + x.at(i).im * p.im; // Re(conj x p).
         let (mut edge, mut friction) = (0.0, 0.0);
         let contact = &self.tangent.contact;
         let touched = [&contact.tangential, &contact.normal, &contact.opposite];
@@ -145,7 +145,7 @@ impl SparseSweep<'_> {
             friction += along(i, momentum.at(i) - own);
         }
         let whole: f64 = (0..pattern.dimension()).map(|i| along(i, momentum.at(i))).sum();
-        edge / (whole - friction)
+        edge / (whole - friction) // Over x^H M(0) x.
     }
 
     /// Right vectors and, if asked for, left ones of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; coarse left ones are
@@ -188,7 +188,7 @@ impl SparseSweep<'_> {
             if with_lefts {
                 *left = self.tangent.left_displacement(left, mu);
             }
-            left.iter_mut().for_each(|v| *v *= scale);
+            left.iter_mut().for_each(|v| *v *= scale); // w^T (2 lambda M + C) x stays 1.
         }
         all
     }

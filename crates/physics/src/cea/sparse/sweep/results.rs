@@ -45,7 +45,7 @@ impl SparseSweep<'_> {
             let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_EIGENVALUE * b;
             let mut others = known.iter().map(|other| other.iter().zip(&onset(own)).all(is_near));
             let goes_on = own.is_located() && own.restabilized.is_none();
-            let is_alone = own.critical_friction * (1.0 + SAME_EIGENVALUE) < highest;
+            let is_alone = own.critical_friction * (1.0 + SAME_EIGENVALUE) < highest; // Where the range ends nothing goes on.
             is_told(own) || goes_on && is_alone && !others.any(|is_same| is_same)
         });
         let vectors = |own: &FoundInterval| {
@@ -110,7 +110,7 @@ impl SparseSweep<'_> {
                     change > SETTLED.max(doubt(state))
                 });
                 let known = open.len();
-                open.extend(moving.filter(|_| !self.builder.is_whole).map(|(_, own)| own.clone()));
+                open.extend(moving.filter(|_| !self.builder.is_whole).map(|(_, own)| own.clone())); // Nothing is beyond all motions.
                 if open.len() > known {
                     moved.push(i);
                 }
@@ -154,7 +154,7 @@ impl SparseSweep<'_> {
         let mut vectors = vectors.into_iter();
         let modes = point.modes.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
             let branch = branches.iter().find(|b| b.modes[k] == Some(i));
-            let nameless = usize::from(i < point.wanted);
+            let nameless = usize::from(i < point.wanted); // 1 of a listed mode, 0 of one above.
             let label = branch.map_or_else(
                 || BranchLabel {
                     harmonic: self.edge.harmonic(&check.edge, check.peak),
@@ -175,7 +175,7 @@ impl SparseSweep<'_> {
             let left = left.filter(|_| with_lefts);
             ComplexMode {
                 eigenvalue: match is_round_off {
-                    true => c64::new(0.0, mode.eigenvalue.im),
+                    true => c64::new(0.0, mode.eigenvalue.im), // Neutral.
                     false => mode.eigenvalue,
                 },
                 harmonic: label.harmonic,
@@ -193,7 +193,7 @@ impl SparseSweep<'_> {
             }
         });
         let mut modes: Vec<ComplexMode> = modes.collect();
-        let mut above = modes.split_off(point.wanted);
+        let mut above = modes.split_off(point.wanted); // Those beyond the list.
         above.retain(|mode| mode.residual <= RESIDUAL_BOUND);
         FrictionPoint { friction_coefficient: mu, modes, above }
     }
