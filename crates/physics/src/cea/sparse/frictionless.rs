@@ -333,8 +333,7 @@ impl<'a> Inertia<'a> {
         Lowest { vectors, kappas, rigid, unheld, rounding }
     }
 
-    /// Motions below an angular frequency, at least as many as there are: where `K - omega^2 M` is singular to working precision those
-    /// below one a little higher.
+    /// Motions below an angular frequency, at least as many as there are: below a higher one where `K - omega^2 M` has no factors.
     fn bound_below(&self, tangent: &SlidingTangent, omega: f64) -> Result<usize, LinalgError> {
         let above = |share: f64| omega.hypot((share * self.least_shift()).sqrt());
         let count = |share: f64| self.count_below(above(share));

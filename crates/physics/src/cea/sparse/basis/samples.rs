@@ -234,7 +234,8 @@ impl BasisBuilder<'_> {
                     true => factors.solve_transpose_in_place(x.as_mut()),
                     false => factors.solve_in_place(x.as_mut()),
                 }
-                parts_of(&x)
+                let part = |x: c64, j: usize| if j.is_multiple_of(2) { x.re } else { x.im };
+                Mat::from_fn(unknowns, 2 * own.len(), |i, j| part(x[(i, j / 2)], j))
             };
             sides.iter().fold(none(), |all, own| join_columns(all.as_ref(), of_side(*own).as_ref()))
         });
@@ -293,10 +294,4 @@ impl BasisBuilder<'_> {
             _ => Ok(false),
         }
     }
-}
-
-/// Real and imaginary parts of complex columns in neighbouring ones.
-fn parts_of(x: &Mat<c64>) -> Mat<f64> {
-    let part = |j: usize, own: c64| if j.is_multiple_of(2) { own.re } else { own.im };
-    Mat::from_fn(x.nrows(), 2 * x.ncols(), |i, j| part(j, x[(i, j / 2)]))
 }
