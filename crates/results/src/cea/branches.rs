@@ -60,13 +60,15 @@ pub(crate) fn arrow(direction: i8) -> &'static str {
 }
 
 /// Harmonic, branch and direction: what identifies a mode over friction.
-pub(super) type Branch = (usize, usize, i8);
+pub type Branch = (usize, usize, i8);
 
-pub(super) fn branch_of_mode(mode: &ComplexMode) -> Branch {
+/// The branch of a mode.
+pub fn branch_of_mode(mode: &ComplexMode) -> Branch {
     (mode.harmonic, mode.branch, mode.direction)
 }
 
-pub(super) fn branch_of(interval: &UnstableInterval) -> Branch {
+/// The branch that an interval is of.
+pub fn branch_of(interval: &UnstableInterval) -> Branch {
     (interval.harmonic, interval.branch, interval.direction)
 }
 
