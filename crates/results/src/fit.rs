@@ -4,10 +4,7 @@ use crate::Finding;
 use crate::cea::mode_name;
 use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::drawing::Declaration;
-use crate::keys::keys;
-use frictionsim_chart::{Axis, Figure, INK, MUTED, Marker, Panel, Points, Rule, SERIES, Stroke};
-use frictionsim_output::{Column, Document, Section, Table, columns, parted, rounded};
-use std::collections::BTreeMap;
+use crate::prelude::*;
 use std::fmt::Write as _;
 
 columns! {

@@ -18,6 +18,7 @@ pub mod matrices;
 pub mod mesh;
 mod npz;
 mod parameter;
+mod prelude;
 pub mod reference;
 mod report;
 mod response;

@@ -8,11 +8,10 @@ use super::framed::write_json;
 use super::keys::keys;
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
+use crate::prelude::*;
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::transient::ContactPowers;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 use std::fmt;
 use std::path::Path;
 

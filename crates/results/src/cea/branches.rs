@@ -1,11 +1,9 @@
 //! The modes of a sweep and its unstable intervals by branch, and how tables name a mode.
 
 use super::{CeaReport, direction_name};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{distinct, sorted};
-use frictionsim_output::{Column, fixed, parted};
-use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
-use std::collections::BTreeMap;
+use frictionsim_physics::cea::{FrictionPoint, FrictionSweep, UnstableInterval};
 
 keys! {
     /// A mode of one friction value, as its table numbers it.

@@ -2,12 +2,9 @@
 
 use crate::cea::BRANCH;
 use crate::folder::{FolderError, OutputFolder};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{Head, write_summary, write_table};
-use frictionsim_output::{Table, columns};
 use frictionsim_physics::cea::QuadraticMode;
-use serde_json::Value;
-use std::f64::consts::TAU;
 
 /// The modes of a superelement that stands free.
 #[derive(Clone, Debug, PartialEq)]

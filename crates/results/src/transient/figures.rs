@@ -8,9 +8,7 @@ use crate::charts::{
 };
 use crate::declared;
 use crate::drawing::Declaration;
-use frictionsim_chart::{Axis, Figure, Line, Panel, SERIES, extremes};
-use frictionsim_physics::contact::ContactStatus;
-use frictionsim_physics::mesh::SolidFace;
+use crate::prelude::*;
 use frictionsim_physics::transient::{EndState, Snapshot};
 
 /// Whole-field pictures of one kind, at most.
