@@ -1,16 +1,11 @@
 //! Quantities compared between the levels of a convergence study.
 
 use crate::StudyError;
-use frictionsim_case::Case;
-use frictionsim_physics::cea::{ComplexMode, FrictionSweep, UnstableInterval};
-use frictionsim_physics::cycle::Family;
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::{Mesh, coincident_nodes};
+use crate::prelude::*;
+use frictionsim_physics::mesh::coincident_nodes;
 use frictionsim_results::cea::{Branch, branch_of, branch_of_mode, mode_name};
 use frictionsim_results::convergence::Quantity;
 use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 /// A part of an eigenvalue, Hz.
 type PartOf = fn(&ComplexMode) -> f64;
