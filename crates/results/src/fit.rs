@@ -1,10 +1,9 @@
 //! Results of a fit to measured modes: tables, figure, page.
 
-use crate::Finding;
 use crate::cea::mode_name;
 use crate::charts::palette::{STABLE, UNSTABLE};
-use crate::drawing::Declaration;
 use crate::prelude::*;
+use crate::{Declaration, Finding};
 use std::fmt::Write as _;
 
 columns! {

@@ -1,9 +1,10 @@
 //! Results of `improve`: where a modification silences unstable modes, what it is predicted to do, and what it does.
 
 use crate::charts::{Disc, SolidView};
-use crate::drawing::Declaration;
 use crate::prelude::*;
-use crate::{EncodedMesh, Extent, Field, FolderError, OutputFolder, declared, sorted, write_vtu};
+use crate::{
+    Declaration, EncodedMesh, Extent, Field, FolderError, OutputFolder, declared, sorted, write_vtu,
+};
 use std::f64::consts::PI;
 use std::sync::Arc;
 

@@ -1,8 +1,7 @@
 //! Results of `mac`: modal assurance of measured shapes.
 
-use super::drawing::Declaration;
-use crate::Finding;
 use crate::prelude::*;
+use crate::{Declaration, Finding};
 use frictionsim_chart::Heat;
 
 keys! {

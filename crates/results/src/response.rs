@@ -1,9 +1,8 @@
 //! Table, figure and report of a computed frequency response.
 
-use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
 use crate::prelude::*;
-use crate::{sorted, write_table};
+use crate::{FolderError, OutputFolder, sorted, write_table};
 use frictionsim_signal::reader::{self, NamedResponse};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
 use std::io;

@@ -6,9 +6,8 @@ use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::{BaseField, CeaReport, direction_name, feed, prestress};
 use crate::charts::palette::{STABLE, UNSTABLE};
-use crate::drawing::Declaration;
 use crate::prelude::*;
-use crate::{declared, distinct};
+use crate::{Declaration, declared, distinct};
 use frictionsim_chart::signed;
 
 /// Branches whose shape is followed over friction, at most.

@@ -2,10 +2,10 @@
 
 use super::shape::{ModeShape, size};
 use super::{BaseField, CeaReport, feed};
-use crate::folder::{FolderError, OutputFolder};
 use crate::prelude::*;
 use crate::{
-    EncodedMesh, Field, PvdEntry, write_pvd, write_universal_mesh, write_universal_mode, write_vtu,
+    EncodedMesh, Field, FolderError, OutputFolder, PvdEntry, write_pvd, write_universal_mesh,
+    write_universal_mode, write_vtu,
 };
 use std::io;
 

@@ -1,9 +1,8 @@
 //! The curves of several reports over each other.
 
 use super::ComparedRun;
-use crate::drawing::Declaration;
 use crate::prelude::*;
-use crate::{declared, distinct};
+use crate::{Declaration, declared, distinct};
 use frictionsim_chart::{PanelData, Series, SeriesKind};
 
 /// Most curves of one panel that are told apart.

@@ -2,10 +2,9 @@
 
 mod estimate;
 
-use crate::drawing::Declaration;
 use crate::prelude::*;
 use crate::summary::present;
-use crate::{Finding, distinct};
+use crate::{Declaration, Finding, distinct};
 pub use estimate::{Verdict, estimate};
 
 /// What is refined.

@@ -8,9 +8,8 @@ use crate::charts::{
     ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
     shear_stress_figure, status_curves, status_map, velocity_figure,
 };
-use crate::drawing::Declaration;
 use crate::prelude::*;
-use crate::{ShownBody, declared};
+use crate::{Declaration, ShownBody, declared};
 use frictionsim_chart::{MotionKind, MotionState};
 use frictionsim_physics::fem::MaterialField;
 

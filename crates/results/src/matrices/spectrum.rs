@@ -1,9 +1,8 @@
 //! The eigenvalues of a superelement: table, summary, print.
 
 use crate::cea::BRANCH;
-use crate::folder::{FolderError, OutputFolder};
 use crate::prelude::*;
-use crate::{Head, write_summary, write_table};
+use crate::{FolderError, Head, OutputFolder, write_summary, write_table};
 use frictionsim_physics::cea::QuadraticMode;
 
 /// The modes of a superelement that stands free.

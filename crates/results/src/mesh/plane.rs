@@ -1,8 +1,8 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
 use super::{Measured, MeshSize, REGION_COLOURS, condition_name, write_nodes};
-use crate::folder::{FolderError, OutputFolder};
 use crate::prelude::*;
+use crate::{FolderError, OutputFolder};
 use frictionsim_chart::{Field as Window, TextStyle};
 use frictionsim_physics::mesh::{
     AnnulusMesh, Boundary, BoundaryCondition, MeshQuality, SolidContact,

@@ -9,10 +9,9 @@ use crate::cea::{CriticalFriction, arrow};
 use crate::charts::ModeLine;
 use crate::charts::palette::{OPEN, SLIP, STABLE, STICK};
 use crate::cycle::{FamilyRecord, draw_branches};
-use crate::drawing::Declaration;
 use crate::parameter::{parameter_axis, parameter_name};
 use crate::prelude::*;
-use crate::{declared, sorted};
+use crate::{Declaration, declared, sorted};
 use frictionsim_chart::{Fill, Scale};
 use serde_json::Map;
 

@@ -1,10 +1,10 @@
 //! The state of a transient on disk, to go on from.
 
-use crate::folder::{FolderError, OutputFolder};
 use crate::framed::{self, Defect};
 use crate::prelude::*;
 use crate::record::{Record, decoded};
 use crate::reopening::read_existing;
+use crate::{FolderError, OutputFolder};
 use frictionsim_physics::transient::{Recorder, TransientState};
 use std::path::Path;
 

@@ -2,11 +2,10 @@
 
 use super::{RecordedRun, TransientSummary, summary};
 use crate::charts::palette::status_of_code;
-use crate::folder::{FolderError, OutputFolder};
 use crate::npz::NpzArchive;
 use crate::prelude::*;
 use crate::record::write_record;
-use crate::{Field, PvdEntry, write_pvd, write_summary, write_vtu};
+use crate::{Field, FolderError, OutputFolder, PvdEntry, write_pvd, write_summary, write_vtu};
 use frictionsim_output::csv::{self, format_number};
 use frictionsim_output::write_rows;
 use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};

@@ -3,9 +3,8 @@
 mod figures;
 
 use crate::cea::arrow;
-use crate::drawing::Declaration;
 use crate::prelude::*;
-use crate::{Finding, sorted};
+use crate::{Declaration, Finding, sorted};
 use figures::{indices, robust, uncertainty};
 use frictionsim_signal::Estimate;
 
