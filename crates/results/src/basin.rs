@@ -1,15 +1,11 @@
 //! Results of a search for the boundary between two basins.
 
-use crate::Finding;
-use crate::drawing::Declaration;
-use crate::keys::keys;
 use crate::parameter::parameter_axis;
+use crate::prelude::*;
 use crate::summary::Bounds;
 use crate::sweep::{FRICTION, PointRecord, SPEED, by_other_keys, swept_text};
-use frictionsim_chart::{
-    Axis, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Scale, Stroke, literal, look,
-};
-use frictionsim_output::{Document, Section, Table, columns, significant};
+use crate::{Declaration, Finding};
+use frictionsim_chart::Scale;
 use frictionsim_physics::cycle::{BasinBoundary, BasinRun};
 
 keys! {

@@ -1,7 +1,6 @@
 //! What forces, torques, powers and energies are of.
 
-use frictionsim_output::Described;
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// What forces, torques, powers and energies are of, `extent` in JSON.
 ///

@@ -1,13 +1,9 @@
 //! Results of a fit to measured modes: tables, figure, page.
 
-use crate::Finding;
 use crate::cea::mode_name;
 use crate::charts::palette::{STABLE, UNSTABLE};
-use crate::drawing::Declaration;
-use crate::keys::keys;
-use frictionsim_chart::{Axis, Figure, INK, MUTED, Marker, Panel, Points, Rule, SERIES, Stroke};
-use frictionsim_output::{Column, Document, Section, Table, columns, parted, rounded};
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use crate::{Declaration, Finding};
 use std::fmt::Write as _;
 
 columns! {

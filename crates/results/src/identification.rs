@@ -1,20 +1,15 @@
 //! Tables, figure and page of an identified damping.
 
 use crate::charts::palette::UNSTABLE;
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{FolderError, OutputFolder};
-use frictionsim_chart::{
-    Axis, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, SERIES, Stroke, extremes,
-    significant,
-};
-use frictionsim_output::{Document, Section, Table, columns, rounded, write_rows};
-use frictionsim_physics::linalg::c64;
+use frictionsim_chart::{Fill, significant};
+use frictionsim_output::write_rows;
 use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
     Estimate, FittedMode, FrequencyResponse, HalfPowerBand, Identification, ModalFit, RayleighFit,
     ResonanceNote, ResponseQuantity,
 };
-use std::f64::consts::TAU;
 
 /// Name of the `[damping]` section in its folder.
 pub const DAMPING_BLOCK: &str = "damping.toml";

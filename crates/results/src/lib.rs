@@ -18,6 +18,7 @@ pub mod matrices;
 pub mod mesh;
 mod npz;
 mod parameter;
+mod prelude;
 pub mod reference;
 mod report;
 mod response;
@@ -35,7 +36,7 @@ use distinct::{distinct, grouped};
 use store::{folder, framed, manifest, record, reopening};
 
 pub use distinct::{number_ranges, sorted};
-pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, declared};
+pub use drawing::{DOTS_PER_INCH, Declaration, DrawingError, DrawingOptions, Format, declared};
 pub use extent::Extent;
 pub use report::{Finding, Page, write_page, write_table, write_tables};
 pub use response::{ResponseSummary, response_figure, write_response};

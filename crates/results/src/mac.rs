@@ -1,11 +1,8 @@
 //! Results of `mac`: modal assurance of measured shapes.
 
-use super::drawing::Declaration;
-use crate::Finding;
-use crate::keys::keys;
-use frictionsim_chart::{Axis, ColourMap, Figure, Heat, INK, Marker, Panel, Points, Side};
-use frictionsim_output::{Document, Section, Table, columns};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use crate::{Declaration, Finding};
+use frictionsim_chart::Heat;
 
 keys! {
     /// `summary.json` of `mac`.

@@ -1,7 +1,7 @@
 //! Names of case keys on the axes of figures.
 
-use frictionsim_chart::{Axis, literal, prefixed};
-use frictionsim_output::rounded;
+use crate::prelude::*;
+use frictionsim_chart::prefixed;
 
 /// The mark-up that names a case key in legends and labels: its quantity with the symbol, or the key itself.
 pub fn parameter_name(key: &str) -> String {

@@ -18,10 +18,9 @@ use super::summary::STATUS as FRACTIONS;
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
-use frictionsim_output::{
-    Column, Described, Entry, describe_field, entries, keys_of, parted, unit_of,
-};
-use serde_json::{Value, json};
+use crate::prelude::*;
+use frictionsim_output::{Entry, describe_field, entries, keys_of, unit_of};
+use serde_json::json;
 use std::fmt::Write as _;
 
 /// What one file of a command holds.

@@ -7,9 +7,8 @@ use super::drawing::{Declaration, File, REPORT, files_of};
 use super::manifest::Manifest;
 use super::record::{Record, read_record, write_record};
 use super::{DrawingError, DrawingOptions, FolderError, OutputFolder};
-use frictionsim_chart::{ChartError, Figure};
-use frictionsim_output::{Document, Table};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
+use frictionsim_chart::ChartError;
 
 /// A page as data, `figures.bin`: what was drawn, to be drawn again at any size.
 #[derive(Serialize, Deserialize)]

@@ -1,12 +1,8 @@
 //! Table, figure and report of a computed frequency response.
 
-use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
-use crate::keys::keys;
-use crate::{sorted, write_table};
-use frictionsim_chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
-use frictionsim_output::{Document, Section, Table};
-use frictionsim_physics::linalg::c64;
+use crate::prelude::*;
+use crate::{FolderError, OutputFolder, sorted, write_table};
 use frictionsim_signal::reader::{self, NamedResponse};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
 use std::io;

@@ -1,10 +1,10 @@
 //! A body as results show it.
 
 use super::{EncodedMesh, Field};
+use crate::prelude::*;
 use frictionsim_physics::fem::{
     MaterialField, NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
 };
-use frictionsim_physics::mesh::{Mesh, SolidFace, SolidSector};
 use std::borrow::Cow;
 use std::io;
 

@@ -4,11 +4,9 @@ mod summary;
 
 use crate::cea::{BRANCH, DIRECTION};
 use crate::charts::{ModeLine, run_axis, signal_panel, spectrogram_panels, spectrum_panel};
+use crate::prelude::*;
 use crate::{FolderError, OutputFolder};
-use frictionsim_chart::{Figure, literal};
-use frictionsim_output::{
-    Document, Section, Table, columns, fixed, significant, unit_of, write_rows,
-};
+use frictionsim_output::{unit_of, write_rows};
 use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
 use frictionsim_signal::{AmplitudeSpectrum, SpectrogramOptions, spectrogram};

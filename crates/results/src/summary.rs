@@ -3,16 +3,15 @@
 //! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an
 //! `Option` and null in JSON: JSON has neither NaN nor infinity.
 
-use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
 use super::keys::keys;
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
+use crate::prelude::*;
+use crate::{FolderError, OutputFolder};
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::transient::ContactPowers;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 use std::fmt;
 use std::path::Path;
 

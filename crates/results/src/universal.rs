@@ -1,7 +1,6 @@
 //! Meshes and modes as universal files.
 
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::Mesh;
+use crate::prelude::*;
 use frictionsim_signal::reader::{ModeData, write_mesh, write_mode};
 use std::io::{self, Write};
 

@@ -1,12 +1,10 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed, and collections of them
 //! by time.
 
+use crate::prelude::*;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use frictionsim_output::rounded;
-use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::fem::{NodalStress, SolidStress};
-use frictionsim_physics::mesh::Mesh;
 use nalgebra::Vector3;
 use std::io::{self, Write};
 use std::slice;

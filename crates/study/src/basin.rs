@@ -4,10 +4,9 @@
 use super::StudyError;
 use super::cycle::{Steady, disc_model, longest_step, operating_point};
 use super::transient::SteppedMesh;
-use frictionsim_case::{Case, refusal};
+use crate::prelude::*;
 use frictionsim_physics::cycle::periodic::{GrowingMode, ModeContest, PeriodMap};
 use frictionsim_physics::cycle::{BasinBoundary, BasinRequest};
-use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::transient::OperatorChoice;
 use frictionsim_results::Manifest;
 use frictionsim_results::basin::BasinSummary;

@@ -1,9 +1,7 @@
 //! Why a study has no result.
 
 use super::fit::FitError;
-use frictionsim_case::CaseErrors;
-use frictionsim_physics::cea::CeaError;
-use frictionsim_physics::cycle::CycleError;
+use crate::prelude::*;
 use frictionsim_physics::fem::operator::SimdError;
 use frictionsim_physics::frf::FrfError;
 use frictionsim_physics::mesh::MeshError;

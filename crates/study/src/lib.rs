@@ -21,6 +21,7 @@ pub mod mac;
 pub mod matrices;
 mod plan;
 mod preflight;
+mod prelude;
 pub mod response;
 mod sobol;
 mod summary;

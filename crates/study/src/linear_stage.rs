@@ -3,12 +3,10 @@
 use super::eigenvalues::asked_modes;
 use super::tangent::{MODES_IN_TIME, options_in_time};
 use super::{StudyError, modes_at_own_friction};
-use frictionsim_case::Case;
-use frictionsim_physics::cea::{CeaError, ComplexMode};
+use crate::prelude::*;
 use frictionsim_physics::prestress::DampingModel;
 use frictionsim_results::charts::ModeLine;
 use frictionsim_results::transient::LinearStage;
-use std::collections::BTreeMap;
 
 /// Nodes of an imported mesh beyond which its modes would take longer than a figure is worth.
 const MOST_NODES: usize = 30_000;

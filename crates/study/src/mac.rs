@@ -3,10 +3,7 @@
 use super::StudyError;
 use super::eigenvalues::{SlidingModel, solve};
 use super::fit::least_cost;
-use frictionsim_case::{Case, Cea, refusal};
-use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::Mesh;
+use crate::prelude::*;
 use frictionsim_results::mac::{MacMode, MacPair, MacShape, MacSummary};
 use frictionsim_signal::reader::MeasuredShape;
 use nalgebra::Vector3;

@@ -2,17 +2,14 @@
 
 use super::eigenvalues::{BasePoint, Solver, WholeMesh};
 use super::{StudyError, tangent_options};
-use frictionsim_case::{Case, CeaMethod};
+use crate::prelude::*;
 use frictionsim_physics::contact::Row;
 use frictionsim_physics::linalg::{MarketMatrix, MatrixPolynomial};
-use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::order::range;
-use frictionsim_physics::prestress::SlidingTangent;
 use frictionsim_results::matrices::{
     ExportedContactPoint, ExportedMatrix, ExportedSystem, ExportedUnknown, FrictionPower,
     MatrixRole,
 };
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Mass, damping, stiffness and contact rows of a case's body around steady sliding, by power of the distance from the
 /// case's own friction coefficient, or from another one in its place: of a body of revolution those of its whole mesh.

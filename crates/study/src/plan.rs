@@ -1,6 +1,7 @@
 //! The points of a sweep, each a case of its own, and the shards they are dealt out to.
 
-use frictionsim_case::{Analysis, Case, CaseErrors, Sweep};
+use crate::prelude::*;
+use frictionsim_case::{Analysis, Sweep};
 use serde_json::{Map, Value};
 use std::str::FromStr;
 

@@ -4,9 +4,8 @@ use super::eigenvalues::Solver;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{StudyError, SweepPlan, eigenvalues, improve};
-use frictionsim_case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location};
-use frictionsim_physics::fem::operator::SimdLevel;
-use frictionsim_physics::mesh::SolidSector;
+use crate::prelude::*;
+use frictionsim_case::{Cost, Diagnostic, Location};
 
 /// Nodes up to which matrices are set up to find out.
 const MOST_NODES: u128 = 200_000;

@@ -13,17 +13,16 @@
 
 use super::eigenvalues::{WholeMesh, sector_tangent};
 use super::{StudyError, tangent_options};
-use frictionsim_case::{AssemblyBody, BodyKind, Case, CaseErrors, Frf, FrfMethod, refusal};
+use crate::prelude::*;
+use frictionsim_case::{Frf, FrfMethod};
 use frictionsim_physics::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, Terminal, cyclic_response,
     direct_response, reduced_response,
 };
-use frictionsim_physics::linalg::{GaussianNoise, c64};
-use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SolidSector, Strip};
+use frictionsim_physics::linalg::GaussianNoise;
+use frictionsim_physics::mesh::{BoundaryCondition, Strip};
 use frictionsim_physics::prestress::BaseChoice;
 use frictionsim_results::ResponseSummary;
-use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
 /// silent.

@@ -1,12 +1,11 @@
 //! The eigenvalues of a superelement that stands free.
 
 use super::StudyError;
+use crate::prelude::*;
 use frictionsim_case::{FreeSystem, ModeLimit};
 use frictionsim_physics::cea::quadratic_modes;
-use frictionsim_physics::linalg::{MarketMatrix, Mat};
+use frictionsim_physics::linalg::MarketMatrix;
 use frictionsim_results::matrices::{FreeSpectrum, FreeSpectrumSummary};
-use frictionsim_results::sorted;
-use std::f64::consts::TAU;
 
 /// The oscillating modes that a case asks for, out of all eigenvalues of its matrices.
 ///

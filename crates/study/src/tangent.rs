@@ -1,8 +1,7 @@
 //! How a case takes the tangent of its steady sliding.
 
-use frictionsim_case::Case;
-use frictionsim_physics::fem::MassKind;
-use frictionsim_physics::prestress::{DampingModel, TangentOptions};
+use crate::prelude::*;
+use frictionsim_physics::prestress::DampingModel;
 
 /// How a case takes the tangent of steady sliding: geometric stiffness as its `[cea]` or its body says, damping of body
 /// or of body and contact, contact stiffness and dashpots.

@@ -1,11 +1,9 @@
 //! The steady sliding state that the eigenvalues belong to.
 
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{BodyStress, Extent, Field, ShownBody, sorted};
-use frictionsim_output::{Table, columns, significant};
-use frictionsim_physics::contact::ContactStatus;
-use frictionsim_physics::mesh::{Counterface, Mesh};
-use std::f64::consts::{PI, TAU};
+use frictionsim_physics::mesh::Counterface;
+use std::f64::consts::PI;
 
 keys! {
     /// The steady sliding state at one friction coefficient in a few numbers.

@@ -1,11 +1,9 @@
 //! The modes of a sweep and its unstable intervals by branch, and how tables name a mode.
 
 use super::{CeaReport, direction_name};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{distinct, sorted};
-use frictionsim_output::{Column, fixed, parted};
-use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
-use std::collections::BTreeMap;
+use frictionsim_physics::cea::{FrictionPoint, FrictionSweep, UnstableInterval};
 
 keys! {
     /// A mode of one friction value, as its table numbers it.
@@ -60,13 +58,15 @@ pub(crate) fn arrow(direction: i8) -> &'static str {
 }
 
 /// Harmonic, branch and direction: what identifies a mode over friction.
-pub(super) type Branch = (usize, usize, i8);
+pub type Branch = (usize, usize, i8);
 
-pub(super) fn branch_of_mode(mode: &ComplexMode) -> Branch {
+/// The branch of a mode.
+pub fn branch_of_mode(mode: &ComplexMode) -> Branch {
     (mode.harmonic, mode.branch, mode.direction)
 }
 
-pub(super) fn branch_of(interval: &UnstableInterval) -> Branch {
+/// The branch that an interval is of.
+pub fn branch_of(interval: &UnstableInterval) -> Branch {
     (interval.harmonic, interval.branch, interval.direction)
 }
 

@@ -4,12 +4,9 @@ use super::base::{ContactPlace, means_around, or_zero};
 use super::branches::{ModeName, NUMBERS};
 use super::{BaseField, CeaReport};
 use crate::charts::SolidView;
-use crate::folder::{FolderError, OutputFolder};
-use crate::{EncodedMesh, Field, sorted, write_vtu};
-use frictionsim_chart::{Axis, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
-use frictionsim_output::{Table, columns, fixed};
-use frictionsim_physics::mesh::{Counterface, Mesh, SolidFace};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use crate::{EncodedMesh, Field, FolderError, OutputFolder, sorted, write_vtu};
+use frictionsim_physics::mesh::Counterface;
 
 /// Modes that the figure shows, the fastest first: of plane bodies as lines, of solid ones as pictures.
 const LINES: usize = 6;

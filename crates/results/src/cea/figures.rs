@@ -6,13 +6,9 @@ use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::{BaseField, CeaReport, direction_name, feed, prestress};
 use crate::charts::palette::{STABLE, UNSTABLE};
-use crate::drawing::Declaration;
-use crate::{declared, distinct};
-use frictionsim_chart::{
-    Axis, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, Stroke, signed,
-};
-use frictionsim_physics::cea::ComplexMode;
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use crate::{Declaration, declared, distinct};
+use frictionsim_chart::signed;
 
 /// Branches whose shape is followed over friction, at most.
 const FOLLOWED_BRANCHES: usize = 4;

@@ -2,13 +2,11 @@
 
 use super::shape::{ModeShape, size};
 use super::{BaseField, CeaReport, feed};
-use crate::folder::{FolderError, OutputFolder};
+use crate::prelude::*;
 use crate::{
-    EncodedMesh, Field, PvdEntry, write_pvd, write_universal_mesh, write_universal_mode, write_vtu,
+    EncodedMesh, Field, FolderError, OutputFolder, PvdEntry, write_pvd, write_universal_mesh,
+    write_universal_mode, write_vtu,
 };
-use frictionsim_output::rounded;
-use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::linalg::c64;
 use std::io;
 
 /// Writes `prestress.vtu` (of a body that no mesh file gives in three dimensions also with friction coefficient and

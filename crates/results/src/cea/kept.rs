@@ -1,11 +1,10 @@
 //! Steps of an eigenvalue sweep that an interrupted run leaves in its folder, for the run that goes on.
 
+use crate::prelude::*;
 use crate::store::framed;
 use crate::{FolderError, OutputFolder};
 use frictionsim_bounds::{RESULT, read_file};
 use frictionsim_physics::cea::{SweepProgress, SweepWatch};
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};

@@ -3,14 +3,9 @@
 use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::{CeaReport, direction_name};
 use crate::charts::palette::{STABLE, UNSTABLE};
-use frictionsim_chart::{
-    Axis, Bars, Figure, INK, Label, Line, MUTED, Mark, Marker, Panel, Points, Rule, Steps, Stroke,
-    TextStyle, extremes, look, signed, significant,
-};
-use frictionsim_physics::cea::ComplexMode;
+use crate::prelude::*;
+use frictionsim_chart::{Bars, Mark, Steps, TextStyle, signed, significant};
 use frictionsim_physics::fem::RayleighDamping;
-use std::collections::BTreeSet;
-use std::f64::consts::TAU;
 
 /// Damping that regions of a body have, with the mark-up that names it.
 pub type NamedDamping = (String, RayleighDamping);

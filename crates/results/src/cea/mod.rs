@@ -17,7 +17,7 @@ mod tables;
 pub use base::{BaseField, BaseState, ContactPlace, ContactState};
 pub(super) use base::{NODES, PLANE, POINTS, RINGS, STATUS, TRACTIONS};
 pub(super) use branches::{BRANCH, DIRECTION, HARMONIC, NAMES, NUMBERS, SHORT_NAMES, arrow};
-pub use branches::{ModeName, mode_name};
+pub use branches::{Branch, ModeName, branch_of, branch_of_mode, mode_name};
 pub(super) use feed::FEED;
 pub use feed::ModeFeed;
 pub use figures::figures;
@@ -36,7 +36,6 @@ pub(super) use tables::{AXIAL, MODES, PLACES};
 pub use tables::{View, document, page};
 
 use crate::ShownBody;
-use branches::{Branch, branch_of_mode};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep};
 
 /// What a solver gives back.

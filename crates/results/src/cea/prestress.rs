@@ -5,12 +5,10 @@ use super::base::{BaseField, ContactState, closed_share};
 use super::shape::{Picture, size};
 use crate::BodyStress;
 use crate::charts::{Disc, contact_surfaces};
-use frictionsim_chart::{Axis, ColourMap, Figure, Line, Marker, Panel, SERIES, Side};
+use crate::prelude::*;
 use frictionsim_physics::fem::NodalStress;
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::{Counterface, Mesh, SolidFace, SolidSector};
+use frictionsim_physics::mesh::Counterface;
 use nalgebra::Vector3;
-use std::f64::consts::TAU;
 
 /// Half the length of the arrow of the sliding over the size of its surface.
 const ARROW: f64 = 0.15;

@@ -2,12 +2,9 @@
 
 use super::branches::{Branch, ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, ModeFeed};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{distinct, grouped, sorted};
-use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
-use frictionsim_output::{Cell, Described, Table, columns, fixed};
-use serde::Serialize;
-use std::collections::BTreeMap;
+use frictionsim_output::Cell;
 
 /// What a contribution comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]

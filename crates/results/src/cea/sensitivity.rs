@@ -1,11 +1,8 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use super::branches::travels;
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::sorted;
-use frictionsim_output::{Format, Table, columns, fixed};
-use frictionsim_physics::linalg::c64;
-use std::f64::consts::TAU;
 
 /// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
 #[derive(Clone, Debug, PartialEq)]

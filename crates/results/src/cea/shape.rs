@@ -3,13 +3,9 @@
 use super::{CeaReport, arrow};
 use crate::charts::palette::UNSTABLE;
 use crate::charts::{Disc, MovingBody, SolidView};
-use frictionsim_chart::{
-    Axis, ColourMap, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke,
-    plain, signed,
-};
-use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::{Mesh, SheetNode, SolidSector};
+use crate::prelude::*;
+use frictionsim_chart::{Field, MotionKind, MotionState, signed};
+use frictionsim_physics::mesh::SheetNode;
 use std::sync::Arc;
 
 /// One mode to draw.

@@ -2,12 +2,9 @@
 
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::summary::present;
-use frictionsim_output::{Column, parted};
-use frictionsim_physics::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
-use serde::Deserialize;
-use std::f64::consts::TAU;
+use frictionsim_physics::cea::{FrictionPoint, ModeCount, UnstableInterval};
 
 keys! {
     /// `summary.json` of `frictionsim cea`.

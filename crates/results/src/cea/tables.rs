@@ -6,9 +6,8 @@ use super::{
     BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution, direction_name,
     feed,
 };
-use frictionsim_output::{Document, Format, Section, Table, columns, fixed};
-use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim_physics::cea::FrictionPoint;
 
 /// Longest table of the modes at one friction value on the terminal.
 const MOST_MODES: usize = 40;

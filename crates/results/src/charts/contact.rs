@@ -6,13 +6,9 @@ use super::palette::{
 };
 use super::solid::speeds_of_bodies;
 use crate::ShownBody;
-use frictionsim_chart::{
-    Axis, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
-};
-use frictionsim_physics::contact::ContactStatus;
+use crate::prelude::*;
+use frictionsim_chart::{Heat, Palette};
 use frictionsim_physics::fem::{MaterialField, nodal_stress};
-use frictionsim_physics::mesh::{SolidFace, SolidSector};
-use std::f64::consts::TAU;
 
 /// Columns of a status map: three for each point of a wide panel.
 const FINEST: usize = 900;

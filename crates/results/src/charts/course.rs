@@ -1,10 +1,8 @@
 //! The course of a signal: samples, spectrograms, spectrum.
 
 use super::palette::{UNSTABLE, centred};
-use frictionsim_chart::{
-    Axis, ColourMap, GRID, Heat, Label, Line, MUTED, Panel, Rule, SERIES, Shapes, Side, Stroke,
-    extremes,
-};
+use crate::prelude::*;
+use frictionsim_chart::{GRID, Heat, Shapes};
 use frictionsim_signal::{AmplitudeSpectrum, Spectrogram, top_of};
 
 /// A mode of the eigenvalue analysis, drawn as a line over what a signal contains.

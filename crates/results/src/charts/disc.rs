@@ -1,8 +1,7 @@
 //! Fields over a body as layers.
 
-use frictionsim_chart::{self, Axis, ColourMap, Field, Panel};
-use frictionsim_physics::mesh::Mesh;
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use frictionsim_chart::{self, Field};
 use std::sync::Arc;
 
 /// A body as figures show it.

@@ -1,9 +1,9 @@
 //! Bodies that move, for pages that animate them.
 
 use super::solid::SolidView;
-use frictionsim_chart::{Motion, MotionKind, plain};
-use frictionsim_physics::mesh::{BoundaryFace, Mesh};
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use frictionsim_chart::MotionKind;
+use frictionsim_physics::mesh::BoundaryFace;
 
 /// Most displacements of nodes that one page carries.
 const MOST_DISPLACEMENTS: usize = 100_000;

@@ -1,11 +1,9 @@
 //! Solid bodies of a mesh file as pictures: their outer surface from one point of view.
 
-use frictionsim_chart::{
-    Axis, ColourMap, Figure, Line, Panel, Side, Surface, SurfaceMesh, extremes, literal,
-};
-use frictionsim_physics::mesh::{BoundaryFace, Mesh};
+use crate::prelude::*;
+use frictionsim_chart::{Surface, SurfaceMesh};
+use frictionsim_physics::mesh::BoundaryFace;
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Cosine of the angle between two faces below which their common edge is drawn.

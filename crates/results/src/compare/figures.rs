@@ -1,12 +1,9 @@
 //! The curves of several reports over each other.
 
 use super::ComparedRun;
-use crate::drawing::Declaration;
-use crate::{declared, distinct};
-use frictionsim_chart::{
-    Axis, Figure, INK, Line, Marker, Panel, PanelData, Points, Series, SeriesKind, Stroke, literal,
-    look, plain,
-};
+use crate::prelude::*;
+use crate::{Declaration, declared, distinct};
+use frictionsim_chart::{PanelData, Series, SeriesKind};
 
 /// Most curves of one panel that are told apart.
 const MOST_CURVES: usize = 24;

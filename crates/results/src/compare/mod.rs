@@ -5,10 +5,9 @@ mod figures;
 pub use figures::overlaid;
 
 use super::sweep::{cell, join};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{Manifest, Page, distinct, sorted};
-use frictionsim_output::{Cell, Document, Format, Section, Table, columns, unit_of};
-use serde_json::Value;
+use frictionsim_output::{Cell, unit_of};
 
 /// A finished run.
 pub struct ComparedRun {

@@ -2,14 +2,10 @@
 
 mod estimate;
 
-use crate::drawing::Declaration;
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::summary::present;
-use crate::{Finding, distinct};
+use crate::{Declaration, Finding, distinct};
 pub use estimate::{Verdict, estimate};
-use frictionsim_chart::{Axis, Figure, Line, MUTED, Panel, Points, Rule, Stroke, look};
-use frictionsim_output::{Described, Document, Format, Section, Table, columns};
-use serde::Serialize;
 
 /// What is refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]

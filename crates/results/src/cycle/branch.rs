@@ -2,12 +2,9 @@
 
 use super::record::CycleMotion;
 use crate::Extent;
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::summary::MeanPowers;
-use frictionsim_chart::extremes;
-use frictionsim_output::{Described, columns};
 use frictionsim_physics::cycle::{BranchEnd, Family, Parameter, Verdict};
-use serde::{Deserialize, Serialize};
 
 /// A cycle of a branch.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,10 +7,8 @@ use crate::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
 };
 use crate::parameter::parameter_axis;
-use frictionsim_chart::{
-    Axis, Figure, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
-};
-use frictionsim_output::significant;
+use crate::prelude::*;
+use frictionsim_chart::Scale;
 use frictionsim_physics::cycle::TwoWaveMotion;
 
 /// Names and colours of the powers in the order of a branch's shares.

@@ -3,10 +3,11 @@
 use super::found::encode_contact;
 use super::summary::CycleSummary;
 use super::two_waves::TwoWaveSummary;
-use crate::folder::{FolderError, OutputFolder};
-use crate::{EncodedMesh, Field, PvdEntry, ShownBody, write_pvd, write_table, write_vtu};
-use frictionsim_physics::contact::ContactInterface;
-use frictionsim_physics::cycle::PhasePoint;
+use crate::prelude::*;
+use crate::{
+    EncodedMesh, Field, FolderError, OutputFolder, PvdEntry, ShownBody, write_pvd, write_table,
+    write_vtu,
+};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use std::cell::OnceCell;
 use std::io;

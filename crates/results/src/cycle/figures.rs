@@ -8,16 +8,10 @@ use crate::charts::{
     ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
     shear_stress_figure, status_curves, status_map, velocity_figure,
 };
-use crate::drawing::Declaration;
-use crate::{ShownBody, declared};
-use frictionsim_chart::{
-    Axis, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel, Rule, SERIES,
-    Stroke, plain,
-};
-use frictionsim_physics::contact::ContactStatus;
-use frictionsim_physics::cycle::PhasePoint;
+use crate::prelude::*;
+use crate::{Declaration, ShownBody, declared};
+use frictionsim_chart::{MotionKind, MotionState};
 use frictionsim_physics::fem::MaterialField;
-use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;

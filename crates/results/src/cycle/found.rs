@@ -10,15 +10,13 @@ use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
 use crate::ShownBody;
 use crate::npz::NpzArchive;
-use frictionsim_chart::extremes;
-use frictionsim_physics::contact::ContactInterface;
+use crate::prelude::*;
 use frictionsim_physics::cycle::periodic::{
     MotionFrame, PeriodicBranch, PeriodicMotion, REMAINDER, Sound,
 };
 use frictionsim_physics::cycle::{
-    Confirmation, CycleBranch, FloquetMultipliers, LimitCycle, PhasePoint, StabilityChange,
+    Confirmation, CycleBranch, FloquetMultipliers, LimitCycle, StabilityChange,
 };
-use std::f64::consts::TAU;
 use std::io;
 
 /// A limit cycle and what is known of it.

@@ -2,13 +2,10 @@
 //! or a mode of any other body, and its motion.
 
 use super::verdicts::Perturbation;
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::summary::{MeanPowers, StatusFractions, present};
-use frictionsim_output::Described;
 use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
-use frictionsim_physics::cycle::{Family, Onset, PhasePoint};
-use serde::Serialize;
-use std::f64::consts::TAU;
+use frictionsim_physics::cycle::{Family, Onset};
 use std::fmt;
 
 /// What leads to a cycle.

@@ -5,12 +5,9 @@ use super::record::{CycleMotion, CycleName, Exponent, ModeSummary, OnsetSummary,
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::Extent;
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::summary::CriticalValue;
-use frictionsim_output::Described;
-use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::periodic::PeriodicMotion;
-use serde::Serialize;
 
 keys! {
     /// `summary.json` of `frictionsim cycle`.

@@ -7,10 +7,8 @@ use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
 use super::verdicts::EXPONENTS;
 use crate::ShownBody;
+use crate::prelude::*;
 use crate::summary::{MeanPowers, STATUS};
-use frictionsim_output::{Document, Section, Table, columns, fixed, parted};
-use frictionsim_physics::contact::ContactInterface;
-use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;
 
 columns! {

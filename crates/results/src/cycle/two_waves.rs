@@ -1,11 +1,8 @@
 //! Motions of two frequencies: words, table, summary, curves.
 
-use crate::keys::keys;
-use frictionsim_chart::{INK, Line, Stroke};
-use frictionsim_output::{Table, columns, significant};
+use crate::prelude::*;
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{BranchEnd, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch};
-use std::f64::consts::TAU;
 
 keys! {
     /// What two waves that may live together come to: a motion of two frequencies, or nothing.

@@ -1,10 +1,8 @@
 //! What a transient and small perturbations say of a limit cycle.
 
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::summary::{StatusFractions, present};
-use frictionsim_output::Described;
 use frictionsim_physics::cycle::{Confirmation, FloquetMultiplier, FloquetMultipliers, Verdict};
-use serde::Serialize;
 
 /// What is known of the stability of a cycle, where it was asked for, or why there is nothing.
 pub type Finding = Option<Result<FloquetMultipliers, String>>;

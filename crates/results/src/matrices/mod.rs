@@ -9,9 +9,9 @@ use super::framed::write_json;
 use super::keys::keys;
 use super::npz::NpzArchive;
 use super::{Head, object};
-use frictionsim_output::{Described, Entry, columns, significant, write_rows};
+use crate::prelude::*;
+use frictionsim_output::{Entry, write_rows};
 use frictionsim_physics::linalg::MarketMatrix;
-use serde::Serialize;
 use std::fmt::Write as _;
 use std::io;
 

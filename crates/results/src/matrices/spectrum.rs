@@ -1,13 +1,9 @@
 //! The eigenvalues of a superelement: table, summary, print.
 
 use crate::cea::BRANCH;
-use crate::folder::{FolderError, OutputFolder};
-use crate::{Head, write_summary, write_table};
-use frictionsim_output::{Table, columns};
+use crate::prelude::*;
+use crate::{FolderError, Head, OutputFolder, write_summary, write_table};
 use frictionsim_physics::cea::QuadraticMode;
-use serde::Serialize;
-use serde_json::Value;
-use std::f64::consts::TAU;
 
 /// The modes of a superelement that stands free.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,23 +16,17 @@ pub struct FreeSpectrum {
     pub summary: FreeSpectrumSummary,
 }
 
-/// `summary.json` of `frictionsim cea` of a superelement.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FreeSpectrumSummary {
-    /// Name of the superelement.
-    pub superelement: String,
-    /// Number of unknowns.
-    pub dofs: usize,
-    /// `dense`.
-    pub method: String,
-    /// Number of modes listed.
-    pub modes: usize,
-    /// Number of them that grow.
-    pub unstable: usize,
-    /// Number of real eigenvalues, which are not listed.
-    pub overdamped: usize,
-    /// Largest residual of a mode listed.
-    pub max_residual: f64,
+keys! {
+    /// `summary.json` of `frictionsim cea` of a superelement.
+    FreeSpectrumSummary {
+        superelement: String = "name of the superelement";
+        dofs: usize = "number of unknowns";
+        method: String = "`dense`";
+        modes: usize = "number of modes listed";
+        unstable: usize = "number of them that grow";
+        overdamped: usize = "number of real eigenvalues, which are not listed";
+        max_residual: f64 = "largest residual of a mode listed";
+    }
 }
 
 /// Place of a mode by frequency, from 0, and the mode.

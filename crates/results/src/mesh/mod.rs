@@ -9,13 +9,9 @@ pub use solid::figure as solid_figure;
 pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
 
 use super::folder::{FolderError, OutputFolder};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{EncodedMesh, Field, write_vtu};
-use frictionsim_chart::literal;
-use frictionsim_output::{Described, Document, Format, Section, fixed, significant};
-use frictionsim_physics::mesh::{BoundaryCondition, Mesh, MeshQuality};
-use serde::Serialize;
-use std::collections::BTreeMap;
+use frictionsim_physics::mesh::{BoundaryCondition, MeshQuality};
 
 /// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]

@@ -1,16 +1,11 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
 use super::{Measured, MeshSize, REGION_COLOURS, condition_name, write_nodes};
-use crate::folder::{FolderError, OutputFolder};
-use crate::keys::keys;
-use frictionsim_chart::{
-    Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES, TextStyle,
-    literal,
-};
-use frictionsim_output::{Format, Section, Table};
+use crate::prelude::*;
+use crate::{FolderError, OutputFolder};
+use frictionsim_chart::{Field as Window, TextStyle};
 use frictionsim_physics::mesh::{
-    AnnulusMesh, Boundary, BoundaryCondition, Mesh, MeshQuality, SolidContact, SolidFace,
-    SolidSector,
+    AnnulusMesh, Boundary, BoundaryCondition, MeshQuality, SolidContact,
 };
 
 keys! {

@@ -2,11 +2,9 @@
 
 use super::{Measured, MeshSize, REGION_COLOURS, role_of};
 use crate::charts::{MovingBody, SolidView};
-use crate::keys::keys;
-use frictionsim_chart::{Figure, Motion, MotionState, Panel, SERIES, Surface, literal};
-use frictionsim_output::{Section, Table};
-use frictionsim_physics::mesh::{BoundaryFace, Mesh, MeshQuality};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
+use frictionsim_chart::{MotionState, Surface};
+use frictionsim_physics::mesh::{BoundaryFace, MeshQuality};
 
 keys! {
     /// Size and quality of the mesh of solid bodies.

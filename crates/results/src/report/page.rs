@@ -1,8 +1,8 @@
 //! The report as an HTML document.
 
 use super::{Page, script};
-use frictionsim_chart::{Figure, ID_PREFIX, escape};
-use frictionsim_output::{Section, Table};
+use crate::prelude::*;
+use frictionsim_chart::{ID_PREFIX, escape};
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("style.css");

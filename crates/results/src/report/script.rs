@@ -1,14 +1,15 @@
 //! Data of the report's scripts: the figures as JSON, and their numbers packed, one list of arrays, each kept once,
 //! behind each other in one compressed block.
 
+use crate::prelude::*;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use frictionsim_chart::{
-    Figure, Mark, Motion, MotionKind, PanelData, Ruler, Scale, Series, SeriesKind, Steps,
-    common_length, keep_extremes, levels, plain, steps,
+    Mark, MotionKind, PanelData, Ruler, Scale, Series, SeriesKind, Steps, common_length,
+    keep_extremes, levels, steps,
 };
-use serde_json::{Value, json};
+use serde_json::json;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::io::Write as _;

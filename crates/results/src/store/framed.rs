@@ -2,8 +2,7 @@
 //! last key that holds the checksum of all others. They appear under their name when they are whole.
 
 use super::error::FolderError;
-use serde::Serialize;
-use serde_json::Value;
+use crate::prelude::*;
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;

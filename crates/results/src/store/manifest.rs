@@ -1,7 +1,6 @@
 //! Manifest of a result: program, case and inputs.
 
-use crate::keys::keys;
-use serde::Deserialize;
+use crate::prelude::*;
 
 keys! {
     /// Everything needed to make a result again; part of every summary and of the output folder.

@@ -3,10 +3,8 @@
 use super::error::FolderError;
 use super::framed::{Defect, read_sealed};
 use super::manifest::Manifest;
+use crate::prelude::*;
 use frictionsim_bounds::{RESULT, first_of, read_file, read_text};
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::ErrorKind::{NotADirectory, NotFound};
 use std::path::{Path, PathBuf};

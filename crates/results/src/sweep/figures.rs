@@ -9,15 +9,11 @@ use crate::cea::{CriticalFriction, arrow};
 use crate::charts::ModeLine;
 use crate::charts::palette::{OPEN, SLIP, STABLE, STICK};
 use crate::cycle::{FamilyRecord, draw_branches};
-use crate::drawing::Declaration;
 use crate::parameter::{parameter_axis, parameter_name};
-use crate::{declared, sorted};
-use frictionsim_chart::{
-    Axis, Figure, Fill, INK, Label, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
-    look, plain,
-};
-use serde_json::{Map, Value};
-use std::collections::BTreeSet;
+use crate::prelude::*;
+use crate::{Declaration, declared, sorted};
+use frictionsim_chart::{Fill, Scale};
+use serde_json::Map;
 
 /// Most curves of one figure.
 const MOST_SERIES: usize = 12;

@@ -5,9 +5,8 @@ use super::report::{Condition, conditions, unstable};
 use super::table::{printed, swept_text};
 use crate::distinct;
 use crate::parameter::{in_unit, parameter_name, shared_unit};
-use frictionsim_chart::{Axis, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal};
-use frictionsim_output::fixed;
-use serde_json::Value;
+use crate::prelude::*;
+use frictionsim_chart::Shapes;
 
 /// Most panels of the figure.
 const PANELS: usize = 12;

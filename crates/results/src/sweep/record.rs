@@ -1,7 +1,7 @@
 //! Record of one point of a sweep.
 
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use crate::prelude::*;
+use serde_json::Map;
 
 /// A finished point: what was swept to which values, and what came out of it.
 ///

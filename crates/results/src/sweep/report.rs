@@ -4,12 +4,10 @@
 use super::record::{PointRecord, listed};
 use super::table::{cell, heads, of_points, swept_text};
 use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::{grouped, number_ranges};
-use frictionsim_chart::extremes;
-use frictionsim_output::{Cell, Document, Format, Section, Table, columns, fixed, significant};
-use serde_json::{Map, Value};
-use std::collections::BTreeSet;
+use frictionsim_output::Cell;
+use serde_json::Map;
 
 /// What the first summary of a point says that has it; nothing of a point that failed.
 fn first(point: &PointRecord, path: &str) -> Cell {

@@ -1,11 +1,11 @@
 //! The state of a transient on disk, to go on from.
 
-use crate::folder::{FolderError, OutputFolder};
 use crate::framed::{self, Defect};
+use crate::prelude::*;
 use crate::record::{Record, decoded};
 use crate::reopening::read_existing;
+use crate::{FolderError, OutputFolder};
 use frictionsim_physics::transient::{Recorder, TransientState};
-use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Name of the checkpoint in its folder.

@@ -7,10 +7,8 @@ use crate::charts::palette::{
     STICK_POWER,
 };
 use crate::charts::run_axis;
-use frictionsim_chart::{
-    Axis, Figure, Fill, INK, Label, Line, MUTED, Panel, Rule, SERIES, Stroke, TextStyle, extremes,
-    prefixed, significant,
-};
+use crate::prelude::*;
+use frictionsim_chart::{Fill, TextStyle, prefixed, significant};
 use frictionsim_physics::transient::SampleRow;
 
 /// Time over which powers are averaged for the strong lines, s.

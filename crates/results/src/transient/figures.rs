@@ -6,11 +6,8 @@ use crate::charts::{
     ContactInstant, ContactVelocity, contact_figure, shear_stress_figure, status_curves,
     velocity_figure,
 };
-use crate::declared;
-use crate::drawing::Declaration;
-use frictionsim_chart::{Axis, Figure, Line, Panel, SERIES, extremes};
-use frictionsim_physics::contact::ContactStatus;
-use frictionsim_physics::mesh::SolidFace;
+use crate::prelude::*;
+use crate::{Declaration, declared};
 use frictionsim_physics::transient::{EndState, Snapshot};
 
 /// Whole-field pictures of one kind, at most.

@@ -2,14 +2,13 @@
 
 use super::{RecordedRun, TransientSummary, summary};
 use crate::charts::palette::status_of_code;
-use crate::folder::{FolderError, OutputFolder};
 use crate::npz::NpzArchive;
+use crate::prelude::*;
 use crate::record::write_record;
-use crate::{Field, PvdEntry, write_pvd, write_summary, write_vtu};
+use crate::{Field, FolderError, OutputFolder, PvdEntry, write_pvd, write_summary, write_vtu};
 use frictionsim_output::csv::{self, format_number};
-use frictionsim_output::{columns, parted, write_rows};
+use frictionsim_output::write_rows;
 use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};
-use serde_json::Value;
 use std::io::{self, Write};
 
 /// Writes all files of the transient and gives the summary, as it is and as an object.

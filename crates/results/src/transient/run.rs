@@ -2,9 +2,8 @@
 
 use super::SolvedTransient;
 use crate::charts::{ModeLine, Stage};
+use crate::prelude::*;
 use crate::{Extent, Head, ShownBody};
-use frictionsim_chart::extremes;
-use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::MaterialField;
 use frictionsim_physics::mesh::Counterface;
 use frictionsim_physics::transient::{EndState, SampleRow, TransientSettings};

@@ -5,12 +5,9 @@ use crate::charts::{
     ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
     with_stages,
 };
-use frictionsim_chart::{
-    Axis, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke, extremes, look, prefixed,
-    significant,
-};
+use crate::prelude::*;
+use frictionsim_chart::{prefixed, significant};
 use frictionsim_signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
-use std::collections::BTreeMap;
 
 /// Decades of amplitudes below the largest that show growth.
 const GROWTH_DECADES: f64 = 7.0;

@@ -2,14 +2,11 @@
 
 use super::RecordedRun;
 use crate::Extent;
-use crate::keys::keys;
+use crate::prelude::*;
 use crate::summary::{MeanPowers, StatusFractions, present};
-use frictionsim_output::Described;
 use frictionsim_physics::transient::{
     Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis,
 };
-use serde::Serialize;
-use std::collections::BTreeMap;
 
 keys! {
     /// `summary.json` of `frictionsim transient`.

@@ -2,7 +2,7 @@
 
 use super::RecordedRun;
 use super::summary::{GrowthSummary, TransientSummary};
-use frictionsim_output::{Document, Format, Section, Table, columns, fixed};
+use crate::prelude::*;
 use frictionsim_physics::transient::{EndState, ProbeMotion};
 
 /// Periods of the main vibration between two contact frames beyond which they do not show it.

@@ -2,10 +2,9 @@
 
 use super::{DesignCurve, Index, RobustSummary, UncertaintySummary};
 use crate::parameter::{parameter_axis, parameter_name};
+use crate::prelude::*;
 use crate::sorted;
-use frictionsim_chart::{
-    Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Rule, SERIES, Stroke, look,
-};
+use frictionsim_chart::{Bars, Fill};
 
 /// Distribution of critical friction, probability of squeal over friction, indices.
 pub fn uncertainty(summary: &UncertaintySummary) -> Figure {

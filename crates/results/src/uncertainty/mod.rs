@@ -3,14 +3,10 @@
 mod figures;
 
 use crate::cea::arrow;
-use crate::drawing::Declaration;
-use crate::keys::keys;
-use crate::{Finding, sorted};
+use crate::prelude::*;
+use crate::{Declaration, Finding, sorted};
 use figures::{indices, robust, uncertainty};
-use frictionsim_output::{Document, Format, Section, Table, columns};
 use frictionsim_signal::Estimate;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 keys! {
     /// A branch that turns unstable in a sample.

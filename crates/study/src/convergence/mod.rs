@@ -18,9 +18,8 @@ mod quantities;
 
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues, summarize, summary};
-use frictionsim_case::{Analysis, Case, CaseErrors, StabilityChoice, TimeStep, refusal};
-use frictionsim_physics::cea::FrictionSweep;
-use frictionsim_physics::fem::operator::SimdLevel;
+use crate::prelude::*;
+use frictionsim_case::{Analysis, StabilityChoice, TimeStep};
 use frictionsim_results::Manifest;
 use frictionsim_results::convergence::{Quantity, Refinement, Series};
 use serde_json::Value;

@@ -1,32 +1,17 @@
 //! Quantities compared between the levels of a convergence study.
 
 use crate::StudyError;
-use frictionsim_case::Case;
-use frictionsim_physics::cea::{ComplexMode, FrictionSweep, UnstableInterval};
-use frictionsim_physics::cycle::Family;
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::{Mesh, coincident_nodes};
-use frictionsim_results::cea::mode_name;
+use crate::prelude::*;
+use frictionsim_physics::mesh::coincident_nodes;
+use frictionsim_results::cea::{Branch, branch_of, branch_of_mode, mode_name};
 use frictionsim_results::convergence::Quantity;
 use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
-
-/// Harmonic, branch and direction: what a mode is known by on every mesh.
-type ModeKey = (usize, usize, i8);
 
 /// A part of an eigenvalue, Hz.
 type PartOf = fn(&ComplexMode) -> f64;
 
-fn key_of(mode: &ComplexMode) -> ModeKey {
-    (mode.harmonic, mode.branch, mode.direction)
-}
-
-fn interval_key(interval: &UnstableInterval) -> ModeKey {
-    (interval.harmonic, interval.branch, interval.direction)
-}
-
-fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> String {
+/// The name of a mode, which its branch is known by on every mesh.
+fn name_of((harmonic, branch, direction): Branch, has_harmonics: bool) -> String {
     mode_name(has_harmonics.then_some(harmonic), branch, direction)
 }
 
@@ -42,13 +27,14 @@ pub fn of_sweeps(
         name_by_rank(levels, &mut sweeps, friction)?;
     }
     let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| sweep.modes_at(friction)).collect();
-    let everywhere = everywhere(&modes, key_of);
+    let everywhere = everywhere(&modes, branch_of_mode);
     let mut quantities = Vec::new();
     let parts: [(&str, PartOf); 2] =
         [("frequency", ComplexMode::frequency_hz), ("real part", ComplexMode::real_hz)];
     for (part, value) in parts {
         for levels in &everywhere {
-            let name = format!("{part}, {}", name_of(key_of(levels[0]), case.body.has_sectors()));
+            let name =
+                format!("{part}, {}", name_of(branch_of_mode(levels[0]), case.body.has_sectors()));
             let values = levels.iter().map(|mode| value(mode)).collect();
             quantities.push(Quantity {
                 is_minor: !levels.last().is_some_and(|finest| finest.is_unstable()),
@@ -146,7 +132,7 @@ fn likeness(x: &[c64], y: &[c64], common: &[[usize; 2]]) -> f64 {
 }
 
 /// What each entry of the finest level is on all levels, by key; of several of one key the first.
-fn everywhere<'a, T>(levels: &[&'a [T]], key: impl Fn(&T) -> ModeKey) -> Vec<Vec<&'a T>> {
+fn everywhere<'a, T>(levels: &[&'a [T]], key: impl Fn(&T) -> Branch) -> Vec<Vec<&'a T>> {
     let finest = levels.last().copied().unwrap_or_default();
     let same = |own: &T| {
         let found = levels.iter().map(|level| level.iter().find(|other| key(other) == key(own)));
@@ -159,12 +145,12 @@ fn everywhere<'a, T>(levels: &[&'a [T]], key: impl Fn(&T) -> ModeKey) -> Vec<Vec
 fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Quantity> {
     let levels: Vec<&[UnstableInterval]> =
         sweeps.iter().map(|sweep| &sweep.intervals[..]).collect();
-    let mut found = everywhere(&levels, interval_key);
+    let mut found = everywhere(&levels, branch_of);
     found.retain(|levels| levels.iter().all(|own| own.is_located()));
-    let mut seen: BTreeSet<ModeKey> = BTreeSet::new();
-    found.retain(|levels| seen.insert(interval_key(levels[0])));
+    let mut seen: BTreeSet<Branch> = BTreeSet::new();
+    found.retain(|levels| seen.insert(branch_of(levels[0])));
     let quantity = |levels: &Vec<&UnstableInterval>| {
-        let name = name_of(interval_key(levels[0]), has_harmonics);
+        let name = name_of(branch_of(levels[0]), has_harmonics);
         let values = levels.iter().map(|own| own.critical_friction);
         Quantity::new(format!("critical friction, {name}"), "", sizes, values.collect())
     };

@@ -4,13 +4,12 @@
 use super::operating_point;
 use crate::StudyError;
 use crate::eigenvalues::asked_modes;
-use frictionsim_case::{Case, CaseErrors, Cycle, OnsetChoice, refusal};
+use crate::prelude::*;
+use frictionsim_case::{Cycle, OnsetChoice};
 use frictionsim_physics::cycle::{
-    CycleError, CycleSolver, DiscModel, Family, LARGEST_FRICTION, MODES, Onset, Parameter,
+    CycleSolver, DiscModel, LARGEST_FRICTION, MODES, Onset, Parameter,
 };
 use frictionsim_physics::linalg::Bracket;
-use frictionsim_results::sorted;
-use std::collections::BTreeSet;
 
 /// The solver of a family, or why it has none.
 pub type Sought = Result<CycleSolver, (Family, CycleError)>;

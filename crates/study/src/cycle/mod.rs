@@ -10,18 +10,17 @@ pub use periodic::PeriodicStudy;
 pub(crate) use periodic::{Steady, longest_step};
 
 use crate::eigenvalues::asked_modes;
+use crate::prelude::*;
 use crate::{StudyError, extent_of};
 use families::{Sought, continuation, critical_value, next_onset, solvers};
-use frictionsim_case::{Case, Cycle, StabilityChoice};
+use frictionsim_case::{Cycle, StabilityChoice};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
-    CycleError, CycleSolver, Family, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint,
-    Parameter, StabilityChange, SteppedCycle, Verdict, differing,
+    CycleSolver, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint, Parameter,
+    StabilityChange, SteppedCycle, Verdict, differing,
 };
 use frictionsim_physics::fem::lumped_masses;
-use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::AnnulusMesh;
-use frictionsim_results::ShownBody;
 use frictionsim_results::cycle::{
     Absence, CycleResult, CycleSummary, FoundWave, OnsetSummary, Origin, SoughtCycle,
     TwoWaveSummary, WaveOfCycle, known,

@@ -6,17 +6,17 @@ mod steady;
 use super::super::transient::SteppedMesh;
 use super::families::{candidates, continuation, critical};
 use super::operating_point;
+use crate::prelude::*;
 use crate::{StudyError, extent_of};
-use frictionsim_case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
-use frictionsim_physics::cea::{ComplexMode, PartWatch, SweepWatch};
+use frictionsim_case::{Cycle, OnsetChoice, StabilityChoice, TimeStep};
+use frictionsim_physics::cea::{PartWatch, SweepWatch};
 use frictionsim_physics::cycle::periodic::{
     BranchRequest, Found, MotionRequest, PeriodMap, PeriodicBranch, PeriodicMotion, Point,
     REMAINDER, Sound, find_from,
 };
-use frictionsim_physics::cycle::{Confirmation, CycleError, FloquetMultipliers, Parameter};
-use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
+use frictionsim_physics::cycle::{Confirmation, FloquetMultipliers, Parameter};
+use frictionsim_physics::fem::operator::StiffnessOperator;
 use frictionsim_physics::transient::{OperatorChoice, TransientError, TransientModel};
-use frictionsim_results::ShownBody;
 use frictionsim_results::cycle::{
     CycleSummary, FoundCycle, ModeOfCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
 };

@@ -1,13 +1,12 @@
 //! Steady sliding of a body, and the contact in it place by place.
 
 use super::StudyError;
-use frictionsim_case::Case;
+use crate::prelude::*;
 use frictionsim_physics::contact::{ContactInterface, ContactSurface, Point, SteadyFriction};
-use frictionsim_physics::mesh::{ContactRing, Mesh, SolidSector, SolidSpecification};
+use frictionsim_physics::mesh::{ContactRing, SolidSpecification};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::{PressedState, SlidingSurfaces, SolidSliding};
 use frictionsim_results::cea::{ContactPlace, ContactState};
-use std::sync::Arc;
 
 /// Name of the only contact of a body that slides on a rigid counterface.
 pub(super) const CONTACT: &str = "contact";

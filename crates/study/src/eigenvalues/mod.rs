@@ -37,15 +37,15 @@ pub(crate) use whole::BasePoint;
 pub use whole::WholeMesh;
 
 use super::StudyError;
-use frictionsim_case::{Case, Cea, Diagnostic, ModeLimit};
+use crate::prelude::*;
+use frictionsim_case::{Diagnostic, ModeLimit};
+use frictionsim_physics::cea::SweepWatch;
 use frictionsim_physics::cea::sparse::FrictionlessModes;
-use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
 use frictionsim_physics::linalg::banded::BandedFactor;
 use frictionsim_physics::linalg::{LuAnalysis, SparseLu};
 use frictionsim_results::cea::CeaReport;
 pub use frictionsim_results::cea::Solution;
 use solve::at_key;
-use std::f64::consts::TAU;
 
 /// Hears of every friction value that is solved, and may keep what took long to find.
 pub type Progress<'a> = dyn SweepWatch + 'a;

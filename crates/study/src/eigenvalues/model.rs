@@ -2,12 +2,11 @@
 
 use super::whole::WholeMesh;
 use super::{Progress, Solution, StudyError};
+use crate::prelude::*;
 use crate::tangent_options;
-use frictionsim_case::{BodyKind, Case, CaseErrors, Cea, CeaMethod, refusal};
-use frictionsim_physics::cea::cyclic::{self, WaveSweep};
-use frictionsim_physics::cea::{CeaError, ModeLimit, SweepRequest, Unwatched};
-use frictionsim_physics::mesh::{SolidSector, Strip};
-use frictionsim_physics::prestress::{SectorTangent, TangentOptions};
+use frictionsim_physics::cea::{ModeLimit, cyclic};
+use frictionsim_physics::mesh::Strip;
+use frictionsim_physics::prestress::SectorTangent;
 
 /// The eigenvalue solver that a body gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

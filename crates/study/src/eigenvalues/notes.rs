@@ -2,12 +2,11 @@
 
 use super::SlidingModel;
 use super::contact::{SteadyState, mean_friction};
-use frictionsim_case::{BodyKind, Case, Cea};
+use crate::prelude::*;
+use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
-use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeCount, UnstableInterval};
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_results::number_ranges;
-use std::f64::consts::TAU;
 
 /// What the counts of modes say.
 pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {

@@ -4,13 +4,11 @@ pub(super) mod rates;
 
 use self::rates::{Linearized, Rates, rates_of, step_of};
 use super::StudyError;
-use frictionsim_case::{Case, Cea};
-use frictionsim_physics::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
+use crate::prelude::*;
+use frictionsim_physics::cea::ModeBranch;
+use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
-use frictionsim_physics::cea::{ComplexMode, FrictionSweep, ModeBranch, UnstableInterval};
-use frictionsim_physics::linalg::c64;
 use frictionsim_results::cea::{OnsetRates, SensitivityReport, SensitivityRow};
-use std::f64::consts::TAU;
 
 /// A mode, or the onset of one: what is differentiated.
 #[derive(Clone, Copy)]

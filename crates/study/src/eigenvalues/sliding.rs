@@ -4,15 +4,13 @@ use super::StudyError;
 use super::contact::{SolidState, SteadyState, solved_solid};
 use super::model::Model;
 use crate::extent_of;
-use frictionsim_case::{AssemblyBody, BodyKind, Case, Cea, refusal};
+use crate::prelude::*;
 use frictionsim_chart::literal;
 use frictionsim_physics::contact::{ContactInterface, ContactSurface};
-use frictionsim_physics::mesh::{AnnulusMesh, Mesh, Strip};
+use frictionsim_physics::mesh::{AnnulusMesh, Strip};
 use frictionsim_physics::order::range;
-use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SlidingSurfaces, TangentOptions};
-use frictionsim_results::ShownBody;
+use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SlidingSurfaces};
 use frictionsim_results::cea::{BaseField, BaseState, ContactState, NamedDamping};
-use std::sync::Arc;
 
 /// Share of the modulus below which a contact pressure is round-off.
 const NO_PRESSURE: f64 = 1e-13;

@@ -9,9 +9,7 @@ use super::notes::{
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
 use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
-use frictionsim_case::{Case, Cea, CeaMethod, refusal};
-use frictionsim_physics::cea::cyclic::WaveSweep;
-use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
+use crate::prelude::*;
 use frictionsim_physics::prestress::PrestressError;
 use frictionsim_results::cea::SensitivityReport;
 use std::borrow::Cow;

@@ -2,15 +2,9 @@
 
 use super::StudyError;
 use super::model::{Model, Solver, sector_tangent};
+use crate::prelude::*;
 use crate::tangent_options;
-use frictionsim_case::{Case, Cea, CeaMethod};
-use frictionsim_physics::cea::cyclic::{self, WaveSweep};
-use frictionsim_physics::cea::{
-    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval, Unwatched,
-};
-use frictionsim_physics::fem::MassKind;
-use frictionsim_physics::prestress::TangentOptions;
-use std::collections::BTreeSet;
+use frictionsim_physics::cea::{ModeLimit, cyclic};
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
 pub(crate) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {

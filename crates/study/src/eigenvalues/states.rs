@@ -4,9 +4,9 @@ mod joining;
 
 use super::whole::{WholeMesh, notes};
 use super::{Progress, Solution};
-use frictionsim_case::Case;
+use crate::prelude::*;
+use frictionsim_physics::cea::PartWatch;
 use frictionsim_physics::cea::sparse::{self, CyclicTangent};
-use frictionsim_physics::cea::{CeaError, FrictionSweep, PartWatch, SweepRequest};
 use frictionsim_physics::prestress::{PressedRange, PressedState};
 use joining::{Part, Undecided, joined, jumps, label, undecided};
 

@@ -1,16 +1,13 @@
 //! A body that is solved on its whole mesh, and its base states.
 
 use super::contact::places;
-use frictionsim_case::{AssemblyBody, Case, Cea, CeaMethod};
-use frictionsim_physics::cea::CeaError;
+use crate::prelude::*;
 use frictionsim_physics::contact::{ContactStiffness, ContactSurface, Point, Turning};
-use frictionsim_physics::mesh::{CyclicSymmetry, Mesh};
+use frictionsim_physics::mesh::CyclicSymmetry;
 use frictionsim_physics::prestress::{
-    Assembly, BaseChoice, Joined, PressedRange, PressedState, SlidingSurfaces, SlidingTangent,
-    TangentOptions,
+    BaseChoice, Joined, PressedRange, PressedState, SlidingSurfaces,
 };
 use frictionsim_results::cea::ContactPlace;
-use std::sync::Arc;
 
 /// A whole mesh and its base states.
 pub struct WholeMesh {

@@ -4,11 +4,11 @@ use super::free_part::{STEP, free_part, rates};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode, fit};
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
 use crate::mac::MeasuredShapes;
+use crate::prelude::*;
 use crate::{StudyError, eigenvalues};
-use frictionsim_case::{Case, Cea, Fit};
-use frictionsim_physics::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
-use frictionsim_physics::cea::{ComplexMode, ModeBranch};
-use frictionsim_physics::linalg::c64;
+use frictionsim_case::Fit;
+use frictionsim_physics::cea::ModeBranch;
+use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};
 use frictionsim_results::fit::{FitSummary, LineSummary, ModeSummary};
 
 /// Modes are computed up to this much above the highest line.

@@ -5,11 +5,10 @@ use super::levenberg_marquardt::{KINDS, Squares, Trial};
 use super::matching::{Weights, differences};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode};
 use crate::ScrambledSobol;
+use crate::prelude::*;
 use frictionsim_case::{FitParameter, find_key};
 use frictionsim_results::fit::{FitSummary, FittedParameter, LineSummary, SearchSummary};
 use frictionsim_signal::student_95;
-use nalgebra::DMatrix;
-use std::collections::BTreeMap;
 
 /// Starting points from which the search goes on.
 const DESCENTS: usize = 4;

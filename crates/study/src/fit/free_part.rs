@@ -1,9 +1,8 @@
 //! Derivatives of the free modes of undamped parts.
 
-use frictionsim_case::{AssemblyBody, Case, VariedKey};
-use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::fem::{MassKind, Triplets, assemble_mass, assemble_stiffness};
-use frictionsim_physics::linalg::c64;
+use crate::prelude::*;
+use frictionsim_case::VariedKey;
+use frictionsim_physics::fem::{assemble_mass, assemble_stiffness};
 
 /// Step of a parameter for the differences of the matrices, relative to its value, or of a Poisson's ratio of 0.
 pub(super) const STEP: f64 = 1e-4;

@@ -2,9 +2,8 @@
 
 use super::matching::{Weights, assign, differences};
 use super::{FitProblem, ModelMode};
-use frictionsim_physics::linalg::c64;
-use nalgebra::{DMatrix, DVector};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use nalgebra::DVector;
 
 /// Iterations at most.
 const ITERATIONS: usize = 40;

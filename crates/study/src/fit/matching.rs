@@ -4,8 +4,7 @@
 use super::{FitError, MeasuredMode, ModelMode};
 use crate::StudyError;
 use crate::mac::{MeasuredShapes, refuse_revolution};
-use frictionsim_case::Case;
-use frictionsim_physics::cea::ComplexMode;
+use crate::prelude::*;
 use frictionsim_signal::reader::MeasuredShape;
 
 /// Share of a line's own frequency that it costs to be matched by nothing, or by a stable mode where the line was

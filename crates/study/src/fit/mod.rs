@@ -24,12 +24,9 @@ pub use estimate::fit;
 pub use frictionsim_signal::reader::MeasuredMode;
 pub(crate) use matching::least_cost;
 
+use crate::prelude::*;
 use frictionsim_case::Fit;
-use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::linalg::c64;
 use frictionsim_results::fit::ModeSummary;
-use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
 /// A mode of the model at some values of the parameters.
 #[derive(Clone, Debug, PartialEq)]

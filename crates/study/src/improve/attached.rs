@@ -17,11 +17,10 @@
 //! 3 (two-sided rational interpolation).
 
 use super::base::{Base, PairedMode, REACH};
+use crate::prelude::*;
 use frictionsim_physics::linalg::dense::{dot, transpose_product};
 use frictionsim_physics::linalg::dense_eigen::real_eigenvalues;
-use frictionsim_physics::linalg::{ComplexSparseLu, LinalgError, Mat, c64};
-use frictionsim_results::sorted;
-use nalgebra::DMatrix;
+use frictionsim_physics::linalg::{ComplexSparseLu, LinalgError};
 
 /// Modes taken into the space, the nearest to the targets.
 const MOST_MODES: usize = 16;

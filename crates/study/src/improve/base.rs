@@ -1,18 +1,12 @@
 //! What there is to improve: the unstable modes of a case with their left and right vectors.
 
 use crate::eigenvalues::WholeMesh;
+use crate::prelude::*;
 use crate::{StudyError, tangent_options};
-use frictionsim_case::{Case, CaseErrors, Cea, refusal};
+use frictionsim_physics::cea::ModeLimit;
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
-use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, Unwatched};
-use frictionsim_physics::fem::{MassKind, Triplets, element_supports};
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::Mesh;
-use frictionsim_physics::prestress::{SlidingTangent, TangentOptions};
+use frictionsim_physics::fem::element_supports;
 use frictionsim_results::improve::{State, TargetMode};
-use std::collections::BTreeMap;
-use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Steps of friction from 0 to that of the case, over which branches are followed.
 const STEPS: usize = 4;

@@ -3,9 +3,9 @@
 use super::base::{Base, lowest_onset, spectrum_of};
 use super::trial::{Search, Target, Trial};
 use crate::eigenvalues::WholeMesh;
-use frictionsim_case::{Case, ModificationKind};
+use crate::prelude::*;
+use frictionsim_case::ModificationKind;
 use frictionsim_output::rounded;
-use frictionsim_physics::prestress::SlidingTangent;
 use frictionsim_results::improve::State;
 use nalgebra::{Matrix3, Vector3};
 

@@ -10,11 +10,11 @@
 //! Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986).
 
 use super::base::{Base, PairedMode};
+use crate::prelude::*;
 use frictionsim_physics::fem::element::{ElementGeometry, nodal_values};
 use frictionsim_physics::fem::element_matrices;
-use frictionsim_physics::linalg::c64;
 use frictionsim_physics::prestress::DampingModel;
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::Matrix3;
 
 /// `w_a x_b` at a node over the global axes.
 pub(super) type Product = [[c64; 3]; 3];

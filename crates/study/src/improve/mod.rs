@@ -21,21 +21,16 @@ mod trial;
 
 use super::mac::whole_mesh_note;
 use super::{StudyError, extent_of};
+use crate::prelude::*;
 pub(super) use base::refuse_bodies;
 use base::{Base, target_modes};
 use confirm::{keys_of, run_again, verdict};
 use fields::{Derivatives, element_terms, matrices};
-use frictionsim_case::{Case, ModificationKind};
+use frictionsim_case::ModificationKind;
 use frictionsim_output::rounded;
-use frictionsim_physics::cea::CeaError;
 use frictionsim_physics::fem::lumped_masses;
 use frictionsim_results::improve::{Candidate, ImproveSummary, Improvement, Sizes, State};
-use frictionsim_results::sorted;
 use modal::{Change, ModalModel};
-use nalgebra::DMatrix;
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::TAU;
-use std::sync::Arc;
 use trial::{Places, Search, Target, Trial, added_mass, target_fields};
 
 /// Removals that are looked at closely, for each one that is listed.

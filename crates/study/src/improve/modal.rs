@@ -18,13 +18,12 @@
 use super::attached::{Attached, NearModes, unit_loads};
 use super::base::{Base, PairedMode};
 use crate::eigenvalues::is_like;
+use crate::prelude::*;
 use frictionsim_physics::cea::sparse::FullProblem;
 use frictionsim_physics::linalg::dense::transpose_product;
 use frictionsim_physics::linalg::dense_eigen::complex_eigenvalues;
-use frictionsim_physics::linalg::{ComplexDenseLu, ComplexSparseLu, LinalgError, Mat, c64};
-use frictionsim_physics::prestress::SlidingTangent;
+use frictionsim_physics::linalg::{ComplexDenseLu, ComplexSparseLu, LinalgError};
 use frictionsim_results::improve::State;
-use nalgebra::DMatrix;
 
 /// Where the compliance of the other modes is taken, in units of the lowest and the highest frequency of the targets.
 const BESIDE: [f64; 2] = [0.97, 1.03];

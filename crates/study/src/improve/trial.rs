@@ -4,14 +4,12 @@
 
 use super::base::{Base, target_modes};
 use super::fields::Derivatives;
-use frictionsim_case::{CaseErrors, ModificationKind, refusal};
+use crate::prelude::*;
+use frictionsim_case::ModificationKind;
 use frictionsim_physics::fem::element::ElementGeometry;
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::{Counterface, Mesh};
+use frictionsim_physics::mesh::Counterface;
 use frictionsim_results::improve::{Sizes, TargetFields, TargetMode};
-use frictionsim_results::sorted;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
-use std::collections::BTreeSet;
 
 /// Nodes and patches that may be modified.
 pub(super) struct Places {

@@ -22,12 +22,11 @@ mod notes;
 mod stepped;
 
 use crate::cycle::limit_cycle;
+use crate::prelude::*;
 use crate::{StudyError, extent_of};
-use frictionsim_case::{Case, Transient};
-use frictionsim_physics::cycle::Family;
-use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
+use frictionsim_case::Transient;
+use frictionsim_physics::fem::operator::StiffnessOperator;
 use frictionsim_physics::linalg::interruption;
-use frictionsim_physics::prestress::Assembly;
 use frictionsim_physics::transient::{
     Breakdown, CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan,
     TransientAnalysis, TransientError, TransientModel, TransientSettings,

@@ -2,14 +2,10 @@
 
 use crate::StudyError;
 use crate::cycle::operating_point;
-use frictionsim_case::{AssemblyBody, BodyKind, Case};
+use crate::prelude::*;
 use frictionsim_physics::cycle::OperatingPoint;
-use frictionsim_physics::fem::MassKind;
-use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SolidSector};
-use frictionsim_physics::prestress::Assembly;
+use frictionsim_physics::mesh::AnnulusMesh;
 use frictionsim_physics::transient::{SteppedBody, TransientModel};
-use frictionsim_results::ShownBody;
-use std::sync::Arc;
 
 /// The mesh of a case and what belongs to it: a transient and the limit cycles that it may end on step the same body.
 #[derive(Debug)]

@@ -5,12 +5,11 @@ mod robust;
 mod summary;
 
 use crate::eigenvalues::{OnsetSearch, Solver};
+use crate::prelude::*;
 use crate::{ScrambledSobol, StudyError, eigenvalues, one_line};
-use frictionsim_case::{Case, Uncertainty};
-use frictionsim_physics::cea::UnstableInterval;
+use frictionsim_case::Uncertainty;
 use frictionsim_results::uncertainty::{Onset, Sample};
 pub use robust::{Design, curves};
-use std::collections::BTreeSet;
 pub use summary::{indices, indices_with_intervals, summarize, wilson};
 
 /// Samples of one block, the first of which proves which harmonics hold modes.

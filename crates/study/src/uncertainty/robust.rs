@@ -2,7 +2,7 @@
 
 use super::{Sampler, wilson};
 use crate::StudyError;
-use frictionsim_case::{Case, CaseErrors};
+use crate::prelude::*;
 use frictionsim_results::uncertainty::{DesignCurve, Onset, RobustSummary};
 use std::str::FromStr;
 

@@ -1,12 +1,12 @@
 //! From samples to a probability of squeal.
 
 use super::largest_friction;
-use frictionsim_case::{Case, Uncertainty};
+use crate::prelude::*;
+use frictionsim_case::Uncertainty;
 use frictionsim_results::uncertainty::{
     CriticalFriction, FamilySummary, Index, Onset, Sample, UncertaintySummary,
 };
 use frictionsim_signal::{Estimate, student_95};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Parts of the sequence whose scatter tells how sure a mean is.
 const PARTS: usize = 16;

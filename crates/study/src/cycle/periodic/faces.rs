@@ -1,11 +1,9 @@
 //! The flat faces by which a body radiates sound.
 
+use crate::prelude::*;
 use crate::transient::SteppedMesh;
-use frictionsim_case::Case;
 use frictionsim_physics::cycle::periodic::FlatFace;
-use frictionsim_physics::mesh::{Mesh, SolidFace, SolidSector};
-use std::collections::BTreeSet;
-use std::f64::consts::TAU;
+use frictionsim_physics::mesh::SolidFace;
 
 /// Difference of the areas of two surfaces that cover each other wholly.
 const SAME: f64 = 0.01;

@@ -3,13 +3,12 @@
 use super::super::operating_point;
 use crate::StudyError;
 use crate::eigenvalues::{Model, Solver, asked_modes};
+use crate::prelude::*;
 use crate::tangent::{MODES_IN_TIME, options_in_time};
 use crate::transient::SteppedMesh;
-use frictionsim_case::Case;
-use frictionsim_physics::cea::{ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
+use frictionsim_physics::cea::sparse;
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::cycle::periodic::GrowingMode;
-use frictionsim_results::sorted;
 
 /// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.
 const LARGEST_FRICTION: f64 = 2.0;

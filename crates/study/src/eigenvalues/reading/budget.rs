@@ -2,8 +2,7 @@
 
 use super::parts::Parts;
 use super::shapes::Shapes;
-use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::linalg::{Mat, c64};
+use crate::prelude::*;
 use frictionsim_physics::prestress::{Kind, Part, PartForms};
 use frictionsim_results::cea::{Contribution, ModeName, Source};
 

@@ -14,10 +14,8 @@ use super::budget::Sums;
 use super::parts::Parts;
 use super::shapes::Shapes;
 use crate::eigenvalues::whole::BasePoint;
-use frictionsim_physics::cea::FrictionPoint;
+use crate::prelude::*;
 use frictionsim_physics::contact::{PressedState, linearized, turned};
-use frictionsim_physics::fem::Triplets;
-use frictionsim_physics::linalg::c64;
 use frictionsim_results::cea::ModeFeed;
 
 /// Stiffness, dashpots and structural damping of one point over all dofs at a friction coefficient.

@@ -12,12 +12,9 @@
 //! of it.
 
 use super::parts::Parts;
-use frictionsim_case::Case;
-use frictionsim_physics::cea::{ComplexMode, FrictionSweep};
-use frictionsim_physics::fem::{DiscretizationError, MassKind};
-use frictionsim_physics::linalg::c64;
+use crate::prelude::*;
+use frictionsim_physics::fem::DiscretizationError;
 use frictionsim_physics::prestress::PartLaw;
-use std::f64::consts::TAU;
 
 /// Damping factor from which on a frequency says little of a mode.
 const MOST_DAMPED: f64 = 0.2;

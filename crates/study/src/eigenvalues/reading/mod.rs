@@ -23,8 +23,7 @@ mod waves;
 
 use super::model::Model;
 use super::sliding::SlidingModel;
-use frictionsim_case::Case;
-use frictionsim_physics::cea::{FrictionPoint, FrictionSweep};
+use crate::prelude::*;
 use frictionsim_physics::parallel;
 use frictionsim_physics::prestress::WaveTangent;
 use frictionsim_results::cea::Reading;

@@ -3,13 +3,10 @@
 use super::shapes::Shapes;
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::whole::WholeMesh;
-use frictionsim_case::Case;
-use frictionsim_physics::fem::Triplets;
-use frictionsim_physics::linalg::{Mat, MatrixPolynomial};
-use frictionsim_physics::mesh::Mesh;
+use crate::prelude::*;
+use frictionsim_physics::linalg::MatrixPolynomial;
 use frictionsim_physics::prestress::{Kind, Part, Term, Terms};
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 /// A matrix with what it stands for.
 pub(super) type PartTerm = Term<MatrixPolynomial>;

@@ -1,10 +1,8 @@
 //! Mode shapes of one friction value side by side, and quadratic forms of them.
 
-use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
-use frictionsim_physics::linalg::{Mat, c64};
+use crate::prelude::*;
 use frictionsim_physics::prestress::Kind;
 use frictionsim_results::cea::{Coupling, ModeName};
-use frictionsim_results::sorted;
 
 /// Share below which a mode of the lowest friction value is left out of the couplings.
 const LEAST_SHARE: f64 = 0.01;

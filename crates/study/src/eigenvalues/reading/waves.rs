@@ -5,12 +5,10 @@ use super::harmonic::Harmonic;
 use super::shapes::{couplings, name_of};
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
-use frictionsim_case::Case;
-use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
-use frictionsim_physics::linalg::c64;
+use crate::prelude::*;
+use frictionsim_physics::cea::ModeWave;
 use frictionsim_physics::prestress::WaveTangent;
 use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Reading, Source};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// A body taken apart, and its harmonics as far as they were needed.
 struct Apart<'a> {

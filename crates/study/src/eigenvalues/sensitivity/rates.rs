@@ -3,14 +3,10 @@
 use super::{Pairs, Place};
 use crate::eigenvalues::model::sector_tangent;
 use crate::eigenvalues::whole::WholeMesh;
+use crate::prelude::*;
 use crate::tangent_options;
-use frictionsim_case::{Case, Cea};
-use frictionsim_physics::cea::CeaError;
 use frictionsim_physics::cea::cyclic::{Beside, WavePair, wave_responses};
 use frictionsim_physics::cea::sparse::ModePair;
-use frictionsim_physics::linalg::c64;
-use frictionsim_physics::prestress::SlidingTangent;
-use std::f64::consts::TAU;
 
 /// Step of a parameter for the differences of the matrices, relative to its value: entries are linear in most
 /// parameters, and smooth in the others to `STEP^2`; their round-off, divided by it, stays small beside a mode's own

@@ -1,9 +1,7 @@
 //! One sweep from those of its base states.
 
-use frictionsim_physics::cea::{
-    ComplexMode, FrictionPoint, FrictionSweep, ModeCount, UnstableInterval,
-};
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use frictionsim_physics::cea::ModeCount;
 use std::ops::Range;
 
 /// The sweep of one base state, its points by rising friction.
