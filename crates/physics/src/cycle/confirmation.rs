@@ -199,7 +199,7 @@ impl Confirmation {
     }
 }
 
-/// A state with a random velocity of a hundredth of its amplitude; a first period damps what the body damps fast.
+/// A state with a random velocity of a hundredth of its amplitude.
 fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
     let vibration = map.image(state).vibration;
     let mut noise = GaussianNoise::new(2);

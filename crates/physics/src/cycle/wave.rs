@@ -213,7 +213,7 @@ impl HarmonicResponse {
     fn new(wave: &Wave<'_>, k: usize, state: &WaveState, parameter: Parameter) -> Self {
         let still = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
         let rate = wave.rate(k, state.frequencies());
-        let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order)); // d(i k w) / dw_1 and d / dw_2.
+        let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order)); // d(i s) / dw_1 and d(i s) / dw_2.
         let damping = &state.point.damping;
         let mut by_damping = still;
         match parameter {
@@ -289,7 +289,7 @@ impl Linearization {
         let by = scalars()
             .map(|which| [gap_of(&|k| moved[k][which][0]), values(&|k| slip_change(k, which))]);
         let mut by: Vec<[Vec<f64>; 2]> = by.collect();
-        // The first harmonic of the slip along each phase, which the choice of its origin fixes.
+        // The first harmonic of the tangential displacement along each phase, which the choice of its origin fixes.
         let first = phases.iter().enumerate().map(|(number, phase)| {
             let k = wave.first(number);
             let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);

@@ -167,7 +167,7 @@ impl HarmonicProblem {
         Some(own_frequency_step(step, self.own_slope(at, theta, vectors)? / slope))
     }
 
-    /// `y^H (dK / d theta) x` of stiffness that follows its eigenvalue; `None` without tables.
+    /// `y^H (dK / d omega) x` of stiffness that follows its frequency; `None` without tables.
     pub fn own_slope(&self, at: &Matrices, theta: c64, [x, y]: [&[c64]; 2]) -> Option<c64> {
         let tabled = at.now.matrices.own_rates(theta);
         let own = tabled.map(|(rate, values)| dot(y, &at.now.combine([(rate, values)], x, false)));

@@ -35,7 +35,7 @@ pub struct WavePair {
     left: Vec<c64>,
     /// `y^H (2 lambda M + C) x`.
     slope: c64,
-    /// `y^H (dK / d lambda) x` of stiffness that depends on frequency, over that.
+    /// `y^H (dK / d omega) x` of stiffness that depends on frequency, over that.
     own_slope: Option<c64>,
 }
 

@@ -111,7 +111,7 @@ impl<'a> StructureMatrices<'a> {
         }
     }
 
-    /// What turns `|M x|` into the size of the inertia force in the units of a residual: `|kappa|` or `|lambda|^2`.
+    /// What turns `|M x|` into the size of the inertia force in the units of a residual: `|kappa + c^2|` or `|lambda - c|^2`.
     pub fn inertia_factor(&self, entry: &PackedEntry) -> f64 {
         let value = entry.inverse_value.inv().norm(); // 1 / s = kappa + c^2, or nu.
         match self.linearization {

@@ -143,7 +143,7 @@ pub struct BranchRequest<'a, 'b> {
 }
 
 impl BranchRequest<'_, '_> {
-    /// The branch through a motion at `own`, both ways from it, by pseudo-arclength in the plane of parameter and amplitude.
+    /// The branch through a motion at `start`, both ways from it, by pseudo-arclength in the plane of parameter and amplitude.
     ///
     /// The way goes on through folds, which are found to a millionth of the range; it ends where the range does, where the
     /// cycle shrinks into steady sliding, and where it cannot be followed.

@@ -134,7 +134,7 @@ impl Follower<'_, '_, '_> {
 }
 
 /// The amplitude at which three places, by rising amplitude, have their extreme parameter: the vertex of the parabola through
-/// them, every third time the middle of the longer side, since a branch may have a corner where nodes begin to stick.
+/// them, every third time a place well within the longer side, since a branch may have a corner where nodes begin to stick.
 fn extreme(places: &[Place], turn: usize) -> Option<f64> {
     let [a, b, c] = [places[0], places[1], places[2]];
     let [low, high] = [b[1] - a[1], c[1] - b[1]];
