@@ -68,7 +68,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/transient", 4_632),
     ("crates/results", 17_240),
     ("crates/signal", 5_995),
-    ("crates/study", 10_288),
+    ("crates/study", 10_286),
     ("src/app", 4_502),
     ("src/guide", 70),
     ("src/lib.rs", 100),

@@ -77,6 +77,11 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
     // The most unstable mode in words, if there is one.
     let feeds = answer.stdout.contains("feeds");
     assert_eq!(answer.rows("coupling.csv").is_empty(), !feeds, "{}", answer.stdout);
+    // Contacts of one friction need no word; of two, those that are varied are told.
+    let told = "friction coefficients are those of contacts.first; times as much have: contacts.second 0.5";
+    assert!(!answer.stdout.contains("times as much"));
+    let set = ["contacts.second.friction_coefficient=0.3", "cea.friction_coefficients=[0.6]"];
+    has(&cea(folder.path(), "case.toml", &set).stdout, &[told]);
 }
 
 /// Exact identities: without friction what one support or one contact loses is the whole growth rate where nothing else is

@@ -96,18 +96,17 @@ impl AssemblyParts {
     }
 }
 
-/// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies
-/// the friction coefficient of the first contact, and the others keep their ratio to it.
+/// Reads the sections of an assembly; its first contact and motion, by name, give the common contact of the case: a
+/// sweep varies the friction coefficient of the first contact, and the others keep their ratio to it.
 pub(super) fn sections(own: &Description<'_>) -> (AssemblyParts, Contact) {
     let (root, tables) = (own.root, &own.tables);
     let motions = root.each("motion", motion);
-    let ties = root.each("ties", |section| [section.text("surface"), section.text("counter")]);
-    let contacts = root.each("contacts", |section| contact(section, tables));
-    let named = |(name, mut contact): (String, NamedContact)| {
+    let ties = root.each("ties", |section| ["surface", "counter"].map(|key| section.text(key)));
+    let mut contacts = Vec::new();
+    for (name, mut contact) in root.each("contacts", |section| contact(section, tables)) {
         contact.surfaces.name = name;
-        contact
-    };
-    let mut contacts: Vec<NamedContact> = contacts.into_iter().map(named).collect();
+        contacts.push(contact);
+    }
     if root.has("contact") && !root.has("contacts") {
         let short = |section: &Section<'_>| short_form(section, own.is_pressed());
         contacts.push(root.section("contact", true).closed(short));
@@ -119,21 +118,19 @@ pub(super) fn sections(own: &Description<'_>) -> (AssemblyParts, Contact) {
          that is not have no common equilibrium"; "one state for all";
         "give every contact the same `state`");
     let rigid = first.and_then(|contact| contact.surfaces.counter.rigid());
-    let speed = rigid.map(|rigid| rigid.motion.speed());
+    let speed = rigid.map(|rigid| rigid.motion.speed()).filter(|speed| *speed != 0.0);
+    let turning = || motions.first().map_or(0.0, |motion| motion.1.rotation_speed);
     let common = Contact {
         sliding: SlidingContact {
             friction_coefficient: first.map_or(0.0, |contact| contact.friction_coefficient),
             decay: first.and_then(|contact| contact.surfaces.friction.decay),
             interference: rigid.map_or(0.0, |rigid| rigid.interference),
             // Where the counterface is at rest, the body slides under it.
-            rotation_speed: speed
-                .filter(|speed| *speed != 0.0)
-                .unwrap_or_else(|| motions.first().map_or(0.0, |motion| motion.1.rotation_speed)),
+            rotation_speed: speed.unwrap_or_else(turning),
         },
         stiffness: first.map(|contact| contact.surfaces.stiffness).unwrap_or_default(),
     };
-    let parts = AssemblyParts { motions, contacts, ties, base };
-    (parts, common)
+    (AssemblyParts { motions, contacts, ties, base }, common)
 }
 
 pub(super) fn motion(section: &Section<'_>) -> Motion {
@@ -159,11 +156,11 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
     None
 }
 
-/// The solid bodies of a mesh file, and their materials.
+/// The solid bodies of a mesh file, and their materials; no error where a name is missing, which has been told.
 pub(super) fn assemble(
     file: &FileParts<'_>,
     parts: AssemblyParts,
-) -> Result<(Vec<RegionMaterial>, AssemblyBody), Diagnostic> {
+) -> Result<(Vec<RegionMaterial>, AssemblyBody), Option<Diagnostic>> {
     let own = file.own;
     let (read, _) = file.shaped("")?;
     let mesh = Mesh::from_solids(&read, own.scale, &own.conditions);
@@ -176,7 +173,9 @@ pub(super) fn assemble(
                 list.join(", "),
                 near_name(name, known)
             );
-            own.error(key, message, "names none of its parts")
+            let is_text = own.raw.find(key).is_some_and(|own| own.value.text().is_some());
+            let error = own.error(key, message, "names none of its parts");
+            (is_text || !name.is_empty()).then_some(error)
         })
     };
     let region = |name: &str, key: &str| find(&mesh.regions, "region (physical volume)", name, key);
@@ -239,7 +238,7 @@ fn friction_ratio(
         let key = format!("contacts.{}.friction_coefficient", quote(first));
         let why = format!(
             "{key} = 0 beside {friction_coefficient} of contacts.{}: friction is varied with that \
-             of the first contact, and the others keep their ratio to it",
+             of the first contact by name, and others keep their ratio",
             quote(name)
         );
         return Err((key, why));

@@ -139,8 +139,8 @@ impl FileParts<'_> {
     pub(super) fn materials_of(
         &self,
         regions: &[String],
-        find: impl Fn(&str) -> Result<usize, Diagnostic>,
-    ) -> Result<Vec<RegionMaterial>, Diagnostic> {
+        find: impl Fn(&str) -> Result<usize, Option<Diagnostic>>,
+    ) -> Result<Vec<RegionMaterial>, Option<Diagnostic>> {
         for (name, _) in &self.materials {
             find(name)?;
         }
@@ -156,7 +156,7 @@ impl FileParts<'_> {
                     quote(region))
             })
         };
-        regions.iter().map(material).collect()
+        Ok(regions.iter().map(material).collect::<Result<_, _>>()?)
     }
 }
 
@@ -231,7 +231,7 @@ pub(super) fn import(
     parts: &FileParts<'_>,
     place: BodySpecification,
     interference: f64,
-) -> Result<(Vec<RegionMaterial>, ImportedBody), Diagnostic> {
+) -> Result<(Vec<RegionMaterial>, ImportedBody), Option<Diagnostic>> {
     let own = parts.own;
     let (read, way) = parts.shaped(&place.contact)?;
     let specification = BodySpecification {
@@ -253,7 +253,7 @@ pub(super) fn import(
                 first_of(regions, MOST_NAMES),
                 near_name(name, &mesh.regions)
             );
-            own.error(&format!("materials.{name}"), message, "no such surface")
+            Some(own.error(&format!("materials.{name}"), message, "no such surface"))
         })
     };
     let materials = parts.materials_of(&mesh.regions, find)?;

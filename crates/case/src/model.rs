@@ -80,7 +80,7 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
             Joints::Solids(joints) => assembly::assemble(&parts, joints)
                 .map(|(materials, own)| Body { materials, kind: BodyKind::Assembly(own) }),
         };
-        made.map_err(|error| root.findings.push(error)).ok()
+        made.map_err(|error| error.map(|error| root.findings.push(error))).ok()
     });
     own.mesh.close();
     (body, contact, bytes)

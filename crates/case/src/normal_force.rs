@@ -78,8 +78,9 @@ fn solve(case: &mut Case, wanted: &[Wanted]) -> Result<(), CaseErrors> {
     for ((own, left), pushed) in wanted.iter().zip(&left).zip(&places) {
         if !(left.abs() <= MET) {
             return Err(refusal!(case, &own.key,
-                "{} = {}: no interference presses with this force", own.key, own.force; "not reached";
-                "a surface that overlaps the counterface in the mesh presses already, one that nothing holds moves"));
+                "{} = {}: no interference presses with this force, {:.5e} is the nearest", own.key, own.force,
+                own.force * (1.0 + left); "not reached";
+                "a boundary pressure, or an overlap with the counterface, presses already; what nothing holds moves"));
         }
         let told = format!("{} = {}: the counterface is pushed in", own.key, own.force);
         // On soft springs a force is rounded.

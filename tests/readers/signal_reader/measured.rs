@@ -22,6 +22,31 @@ fn table(header: &str, row: impl Fn(f64, c64) -> String) -> String {
     format!("{header}\n{}\n", rows.collect::<Vec<String>>().join("\n"))
 }
 
+/// Exact: two responses whose parts stand in any order are those whose parts stand side by side.
+#[test]
+fn parts_of_several_responses_are_paired_by_their_names() {
+    let other = |h: c64| h * -2.0;
+    let beside = |f: f64, h: c64| format!("{f};{};{};{};{}", h.re, h.im, other(h).re, other(h).im);
+    let want = read(&table("f;P1 re;P1 im;P2 re;P2 im", beside), &[], &[]).responses;
+    let crossed = |f: f64, h: c64| format!("{f};{};{};{};{}", h.re, other(h).re, other(h).im, h.im);
+    let polar = |f: f64, h: c64| {
+        let [a, b] = [h, other(h)].map(|h| (h.norm(), h.arg().to_degrees() + 360.0));
+        format!("{f};{};{};{};{}", a.0, b.0, b.1, a.1)
+    };
+    for text in [
+        table("f;re P1;re P2;im P2;im P1", crossed),
+        table("f;mag P1;mag P2;phase_deg P2;phase_deg P1", polar),
+    ] {
+        let found = read(&text, &[], &[]).responses;
+        assert_eq!(found.len(), 2);
+        for (found, want) in found.iter().zip(&want) {
+            assert_eq!(found.name, want.name);
+            let pairs = found.response.values().iter().zip(want.response.values());
+            pairs.for_each(|(a, b)| assert!((a - b).norm() < 1e-9 * b.norm(), "{text}"));
+        }
+    }
+}
+
 #[test]
 fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
     let want = read(&table("f,re,im", |f, h| format!("{f},{},{}", h.re, h.im)), &[], &[]);

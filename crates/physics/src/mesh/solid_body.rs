@@ -2,7 +2,7 @@
 
 use super::body::known_instead;
 use super::coincidence::refuse_doubled_elements;
-use super::error::{BodyError, refuse_far};
+use super::error::{BodyError, BodyPart, refuse_far};
 use super::faces::{FaceKey, face_key};
 use super::plane_body::{file_elements, used_nodes};
 use super::{Boundary, BoundaryCondition, BoundaryFace, Mesh, NodalFrames};
@@ -49,15 +49,17 @@ impl Mesh {
         }
         mesh.add_node_sets(file, &index_of, &outer);
         for (name, condition) in conditions {
-            let place = mesh.boundaries.iter().position(|b| b.name == *name);
-            let place = place.ok_or_else(|| no_surface(&file.surfaces, name))?;
-            let boundary = &mut mesh.boundaries[place];
+            let part = BodyPart::Boundary(name.clone());
+            let refuse = |message| BodyError::Request { part, message };
+            let Some(boundary) = mesh.boundaries.iter_mut().find(|own| own.name == *name) else {
+                return Err(refuse(no_surface(&file.surfaces, name)));
+            };
             let needs_faces = !matches!(
                 condition,
                 BoundaryCondition::Clamped | BoundaryCondition::Fixed(_) | BoundaryCondition::Free
             );
             if needs_faces && !boundary.is_covered() {
-                return Err(BodyError::Body(format!(
+                return Err(refuse(format!(
                     "boundaries.{name} is a set of nodes that are not all nodes of some faces: it \
                      can be \"clamped\" or \"fixed\". Name a surface of faces for anything else"
                 )));
@@ -83,13 +85,11 @@ impl Mesh {
         outer: &BTreeMap<FaceKey, BoundaryFace>,
     ) {
         for (name, nodes) in &file.node_sets {
-            let nodes = nodes.iter().filter_map(|&node| index_of[node as usize]);
-            let nodes: BTreeSet<u32> = nodes.collect();
+            let nodes: BTreeSet<u32> = nodes.iter().filter_map(|&n| index_of[n as usize]).collect();
             if nodes.is_empty() || self.boundary(name).is_some() {
                 continue;
             }
-            let faces = outer.values();
-            let own = faces.filter(|face| face.nodes.iter().all(|node| nodes.contains(node)));
+            let own = outer.values().filter(|face| face.nodes.iter().all(|n| nodes.contains(n)));
             let surface = Boundary::of_faces(name, own.cloned().collect());
             self.boundaries.push(Boundary { nodes: nodes.into_iter().collect(), ..surface });
         }
@@ -184,13 +184,13 @@ pub(super) fn solid_elements(
     Ok(mesh)
 }
 
-fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> BodyError {
+fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> String {
     if surfaces.contains_key(name) {
-        return BodyError::Body(format!(
+        return format!(
             "physical surface \"{name}\" does not lie on the outside of the bodies: some of its faces are faces of two elements, \
              or of none"
-        ));
+        );
     }
     let instead = known_instead(surfaces.keys(), name, ["surface", "Surface"]);
-    BodyError::Body(format!("no physical surface is called \"{name}\"; {instead}"))
+    format!("no physical surface is called \"{name}\"; {instead}")
 }

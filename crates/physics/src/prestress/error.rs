@@ -67,8 +67,8 @@ pub enum PrestressError {
     AtRest,
     /// The stiffness matrix is not positive definite.
     #[error(
-        "the stiffness matrix is not positive definite: nothing holds the body, or part of it; check [boundaries], \
-         [material] and [mesh]"
+        "the stiffness matrix is not positive definite: nothing holds the body, or part of it, or a C3D20R alone deforms without energy. \
+         Check [boundaries], [material] and [mesh]"
     )]
     Singular,
 }

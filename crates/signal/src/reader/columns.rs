@@ -94,8 +94,8 @@ pub(super) fn layouts(
     let found: Vec<(usize, Layout)> = if !whole.is_empty() {
         whole.iter().map(|k| (*k, Layout::Whole(*k))).collect()
     } else if !real.is_empty() {
-        let pairs = real.iter().zip(&imaginary);
-        pairs.map(|(re, im)| (*re, Layout::Complex(*re, *im))).collect()
+        let pairs = real.iter().zip(paired(table, &real, imaginary));
+        pairs.map(|(re, im)| (*re, Layout::Complex(*re, im))).collect()
     } else {
         polar(table, &columns, notes)
     };
@@ -106,6 +106,16 @@ pub(super) fn layouts(
         );
     }
     Ok(one_estimator(named(table, found), notes))
+}
+
+/// The `others` in the order of the columns that they go with: by their names where each has one, else as they stand.
+fn paired(table: &Table, columns: &[usize], others: Vec<usize>) -> Vec<usize> {
+    let name = |k: usize| named(table, vec![(k, Layout::Whole(k))]).remove(0).0;
+    let partner = |&k: &usize| {
+        let mut same = others.iter().copied().filter(|&other| name(other) == name(k));
+        same.next().filter(|_| same.next().is_none())
+    };
+    columns.iter().map(partner).collect::<Option<_>>().unwrap_or(others)
 }
 
 /// Magnitudes with their phases: as many as magnitudes in degrees or radians, or none.
@@ -127,15 +137,15 @@ fn polar(
         let remedy = "if they are degrees, name the column `phase_deg`";
         notes.push(format!("phases within 6.3 without a unit are taken as radians; {remedy}"));
     }
-    let unit = |k: usize| if is_doubtful(&k) { 1.0 } else { std::f64::consts::PI / 180.0 };
-    let degrees = degrees.into_iter().map(|k| (k, unit(k)));
-    let radians = columns(Part::Radians).into_iter().map(|k| (k, 1.0));
-    let phases: Vec<(usize, f64)> = degrees.chain(radians).collect();
+    let radians = columns(Part::Radians);
+    let is_radians = |k: usize| radians.contains(&k) || is_doubtful(&k);
+    let factor = |k: usize| if is_radians(k) { 1.0 } else { std::f64::consts::PI / 180.0 };
+    let phases = paired(table, &magnitudes, [degrees, radians.clone()].concat());
     let numbered = magnitudes.iter().enumerate();
     numbered
         .map(|(i, &magnitude)| {
             let level_reference = is_level.then(|| level_reference(&table.names[magnitude]));
-            let phase = phases.get(i).copied();
+            let phase = phases.get(i).map(|&k| (k, factor(k)));
             (magnitude, Layout::Polar { magnitude, level_reference, phase })
         })
         .collect()
@@ -177,9 +187,7 @@ fn one_estimator(
     notes: &mut Vec<String>,
 ) -> Vec<(String, Layout)> {
     let has = |name: &str, word: &str| words(&name.to_lowercase()).contains(&word);
-    if found.iter().any(|(name, _)| has(name, "h1"))
-        && found.iter().any(|(name, _)| has(name, "h2"))
-    {
+    if ["h1", "h2"].iter().all(|word| found.iter().any(|(name, _)| has(name, word))) {
         found.retain(|(name, _)| !has(name, "h2"));
         notes.push("H1 and H2 are two estimates of one response: H1 is used".to_string());
     }
@@ -206,10 +214,7 @@ fn unnamed_layout(table: &Table) -> Result<Layout, ReadError> {
         {
             Ok(Layout::Complex(1, 2))
         }
-        1 => {
-            let remedy = "frequency and response must stand side by side";
-            Err(table.missing("response", remedy))
-        }
+        1 => Err(table.missing("response", "frequency and response must stand side by side")),
         count => {
             let problem = format!(
                 "{count} columns without names could mean several things; add a first line such \

@@ -83,19 +83,14 @@ fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, 
     doubt_unit(&frequencies, states_unit, &mut notes);
     let coherences: Vec<usize> =
         (0..table.names.len()).filter(|k| part(&table.names[*k]) == Part::Coherence).collect();
-    if !coherences.is_empty() {
-        notes.push(
-            "lines whose coherence is below the median count less in the fit, by (1 - c) / c"
-                .into(),
-        );
-    }
+    let said = "lines whose coherence is below the median count less in the fit, by (1 - c) / c";
+    notes.extend((!coherences.is_empty()).then(|| said.to_owned()));
     let mut responses = Vec::new();
     for (k, ((name, layout), values)) in layouts.into_iter().zip(values).enumerate() {
         let scale = scale(table, layout, &mut notes);
         let values = rows.iter().map(|row| values[row.1] * scale).collect();
-        let has_phase = layout.has_phase();
-        let response =
-            FrequencyResponse::measured(frequencies.clone(), values, quantity, has_phase);
+        let (all, phase) = (frequencies.clone(), layout.has_phase());
+        let response = FrequencyResponse::measured(all, values, quantity, phase);
         let mut response = response.map_err(|error| ReadError::signal(&table.source, &error))?;
         // One coherence for each response, or one for all.
         if let Some(column) = coherences.get(k).or(coherences.first()) {

@@ -3,6 +3,7 @@
 use super::SlidingModel;
 use super::contact::{SteadyState, mean_friction};
 use crate::prelude::*;
+use frictionsim_output::rounded;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::contact::ContactInterface;
@@ -11,10 +12,8 @@ use frictionsim_results::number_ranges;
 /// What the counts of modes say.
 pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {
     if cea.count_modes && is_by_harmonics {
-        return vec![
-            "cea.count_modes: harmonics are counted at quarters of the friction range, as said above"
-                .to_owned(),
-        ];
+        let said = "harmonics are counted at quarters of the friction range, as said above";
+        return vec![format!("cea.count_modes: {said}")];
     }
     sweep.counts.iter().map(count_note).collect()
 }
@@ -93,10 +92,8 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
     }
     let penalty = case.contact.stiffness.normal_stiffness.map_or_else(String::new, |stiffness| {
         let size = stiffness * case.body.contact_length() / case.material.young_modulus;
-        let length = match case.body.has_sectors() {
-            true => "geometry.inner_radius",
-            false => "the size of the contact",
-        };
+        let lengths = ["the size of the contact", "geometry.inner_radius"];
+        let length = lengths[usize::from(case.body.has_sectors())];
         format!(
             "contact.normal_stiffness times {length} is {size:.1e} times \
              material.young_modulus (from 1e6 on leave it out: rigid contact); "
@@ -120,22 +117,18 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
     let largest = modes().map(|mode| mode.damping_factor()).fold(0.0, f64::max);
     let size = modes().map(|mode| mode.eigenvalue.norm()).fold(0.0, f64::max);
     let at_limit = case.damping.rayleigh.damping_factor(size);
-    if largest.max(at_limit) <= 0.5 {
+    let factor = largest.max(at_limit);
+    if factor <= 0.5 {
         return None;
     }
-    let (factor, cause) = match case.body.kind {
-        BodyKind::Revolution(_) if at_limit <= 0.5 => (
-            largest,
-            "the dashpot of friction across the sliding, mu p / V, causes it, and grows as the sliding slows down",
-        ),
-        BodyKind::Assembly(_) if at_limit <= 0.5 => (
-            largest,
-            "damping of regions, losses, dashpots, or friction across a slow sliding (a dashpot of mu p / V) causes it",
-        ),
-        _ => (
-            largest.max(at_limit),
-            "damping.mass_coefficient and damping.stiffness_coefficient set it",
-        ),
+    let cause = match case.body.kind {
+        BodyKind::Revolution(_) if at_limit <= 0.5 => {
+            "the dashpot of friction across the sliding, mu p / V, causes it, and grows as the sliding slows down"
+        }
+        BodyKind::Assembly(_) if at_limit <= 0.5 => {
+            "damping of regions, losses, dashpots, or friction across a slow sliding (a dashpot of mu p / V) causes it"
+        }
+        _ => "damping.mass_coefficient and damping.stiffness_coefficient set it",
     };
     Some(format!(
         "a mode is damped by a factor of {factor:.2}: motions beyond critical damping (1) do not oscillate and are \
@@ -262,6 +255,18 @@ pub(super) fn overdamped_note(
         case.number("contact.rotation_speed_rpm")
             .unwrap_or(case.contact.sliding.rotation_speed * 60.0 / TAU),
     ))
+}
+
+/// Whose friction is varied where contacts have different ones.
+pub(super) fn ratio_note(case: &Case) -> Option<String> {
+    let [first, others @ ..] = &case.body.assembly()?.contacts[..] else { return None };
+    let others = others.iter().map(|own| (&own.name, rounded(own.friction.ratio, 6)));
+    let others =
+        others.filter(|own| own.1 != 1.0).map(|(name, by)| format!("contacts.{name} {by}"));
+    let others = others.collect::<Vec<_>>().join(", ");
+    let said =
+        format!("friction coefficients are those of contacts.{}; times as much have", first.name);
+    (!others.is_empty()).then(|| format!("{said}: {others}"))
 }
 
 /// What a friction law does at the speed of sliding.

@@ -4,7 +4,7 @@ use super::contact::open_note;
 use super::model::Model;
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
-    instead_note, overdamped_note, table_notes, uncertainty_note, weak_note,
+    instead_note, overdamped_note, ratio_note, table_notes, uncertainty_note, weak_note,
 };
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
@@ -58,6 +58,7 @@ pub fn solve(
     notes.extend(waves.and_then(|waves| overdamped_note(case, model, &waves.overdamped)));
     notes.extend(model.solid().and_then(open_note));
     notes.extend(table_notes(case));
+    notes.extend(ratio_note(case));
     notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));
     notes.extend(damping_note(case, &found.sweep));

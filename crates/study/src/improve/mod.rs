@@ -59,12 +59,13 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     // The best places of each kind, and what all modes make of them.
     let asked = &case.improve.modifications;
     let is_asked = |kind: &ModificationKind| asked.is_empty() || asked.contains(kind);
-    let kinds: Vec<ModificationKind> = ModificationKind::all().filter(is_asked).collect();
     let mut listed: Vec<(usize, Candidate)> = Vec::new();
-    for &kind in &kinds {
+    for kind in ModificationKind::all().filter(is_asked) {
         let predicted = predictions(&search, &modal, kind, &mut notes)?;
         if predicted.is_empty() {
-            notes.push(format!("{}: no place of this size helps", kind.word()));
+            let is_offset = kind == ModificationKind::Offset && !search.places.has_hole;
+            let why = ["no place of this size helps", "no hole has a rigid cylinder in it"];
+            notes.push(format!("{}: {}", kind.word(), why[usize::from(is_offset)]));
         }
         listed.extend(predicted.into_iter().enumerate());
     }
@@ -102,8 +103,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         candidates,
         notes,
     };
-    let fields = target_fields(&search);
-    Ok(Improvement { summary, mesh: Arc::clone(&base.mesh), fields })
+    Ok(Improvement { summary, mesh: Arc::clone(&base.mesh), fields: target_fields(&search) })
 }
 
 /// Sizes of the modifications that the case gives, or that follow, to four digits, from its bodies and the fastest of
@@ -165,16 +165,13 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
     match (&trial.target, trial.kind) {
         (Target::Node(node, direction), kind) => {
             let dofs: Vec<usize> = (0..d).map(|axis| d * node + axis).collect();
-            let law = confirm::law(*direction);
-            let own = base.mesh.in_frame(*node, &law);
+            let own = base.mesh.in_frame(*node, &confirm::law(*direction));
             let (_, amount) = search.attached(kind);
             let matrix = DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / base.case.depth());
             let none = || DMatrix::<f64>::zeros(d, d);
+            let alpha = base.options.damping.mass_coefficient;
             let matrices = match kind {
-                ModificationKind::Mass => {
-                    let damping = &matrix * base.options.damping.mass_coefficient;
-                    [matrix, damping, none()]
-                }
+                ModificationKind::Mass => [matrix.clone(), matrix * alpha, none()],
                 ModificationKind::Spring => [none(), none(), matrix],
                 _ => [none(), matrix, none()],
             };
@@ -186,14 +183,12 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
                 return Ok(modal.yielding(&dofs, matrices.each_ref()));
             }
             let is_shared = shared(search, elements, &dofs);
-            modal
-                .removed((&dofs, &is_shared), matrices.each_ref())
-                .ok_or_else(|| "nothing is left beside what is taken away".to_owned())
+            let removed = modal.removed((&dofs, &is_shared), matrices.each_ref());
+            removed.ok_or_else(|| "nothing is left beside what is taken away".to_owned())
         }
         (Target::Hole(_), _) => {
             let tangent = confirm::tangent_of(base, &keys_of(search, trial))?;
-            let change = modal.to(&tangent);
-            change.ok_or_else(|| "the unknowns change with it".to_owned())
+            modal.to(&tangent).ok_or_else(|| "the unknowns change with it".to_owned())
         }
     }
 }
@@ -226,11 +221,8 @@ fn shared(search: &Search<'_>, elements: &[u32], dofs: &[usize]) -> Vec<bool> {
             *inside.entry(node).or_default() += 1;
         }
     }
-    let is_shared = |dof: &usize| {
-        let node = dof / mesh.dimension;
-        inside.get(&(node as u32)) < Some(&search.places.uses[node])
-    };
-    dofs.iter().map(is_shared).collect()
+    let nodes = dofs.iter().map(|dof| dof / mesh.dimension);
+    nodes.map(|node| inside.get(&(node as u32)) < Some(&search.places.uses[node])).collect()
 }
 
 /// The dofs of a patch, rising, and its mass, damping and stiffness, or what damping it changes of them.
