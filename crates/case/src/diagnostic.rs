@@ -78,7 +78,7 @@ impl std::fmt::Display for Diagnostic {
 pub struct CaseErrors {
     /// The case file, then the overrides.
     pub sources: Vec<Source>,
-    /// The errors in the order found.
+    /// The errors, unknown keys first.
     pub diagnostics: Vec<Diagnostic>,
 }
 

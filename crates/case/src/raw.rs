@@ -159,10 +159,9 @@ impl RawCase {
 
     /// The tables that were read, each with the name under which it lies beside the results.
     pub fn kept_tables(&self) -> Vec<(String, &TableBytes)> {
-        let kept = self.table_files().into_iter().filter_map(|(name, file)| {
-            Some((name, self.tables.iter().find(|table| table.file == file)?))
-        });
-        kept.collect()
+        let of = |file: String| self.tables.iter().find(|table| table.file == file);
+        let kept = self.table_files().into_iter();
+        kept.filter_map(|(name, file)| Some((name, of(file)?))).collect()
     }
 
     /// This case without some of its keys.
@@ -191,8 +190,9 @@ impl RawCase {
         Some(format!("{key} is {} here, {}", value(&ours), value(&theirs)))
     }
 
-    /// Bundles diagnostics with the texts they point into.
-    pub fn errors(&self, diagnostics: Vec<Diagnostic>) -> CaseErrors {
+    /// Bundles diagnostics with the texts they point into, unknown keys first: others may be missing for a slip in one.
+    pub fn errors(&self, mut diagnostics: Vec<Diagnostic>) -> CaseErrors {
+        diagnostics.sort_by_key(|own| !own.message.starts_with("unknown key"));
         let mut sources = vec![Source { name: self.name.clone(), text: self.text.clone() }];
         sources.extend(self.overrides.iter().map(|text| overrides::source(text)));
         CaseErrors { sources, diagnostics }

@@ -245,8 +245,8 @@ impl<'a> Section<'a> {
         let entries = self.table.into_iter().flatten();
         let mut unknown = entries.filter(|(key, _)| !asked.contains(key.as_str()));
         let section = format!("not a key of [{}]", self.path);
-        let is_root = self.path.is_empty();
-        let place = if is_root { "the case has no such section or key" } else { &section };
+        let root = "the case has no such section or key";
+        let place = if self.path.is_empty() { root } else { &section };
         for (key, entry) in unknown.by_ref().take(MOST_UNKNOWN) {
             let help = match self.declarations {
                 Some(own) => suggestion::suggest_part(key, own),
