@@ -213,9 +213,9 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
     });
     let coarse = (range.left_out > COARSE).then(|| {
         format!(
-            "contact forces between the friction values are known to a share of {:.0e} of the \
-             largest only, as they grow steeply with friction. Eigenvalues may be wrong by about \
-             as much. Ask for values closer together, or for one alone",
+            "contact forces between the friction values are known to a share of {:.0e} of the largest only, as they \
+             grow steeply with friction. Eigenvalues may be wrong by about as much. Ask for values closer together or, \
+             near a value at which sliding jams, for lower ones",
             range.left_out
         )
     });
