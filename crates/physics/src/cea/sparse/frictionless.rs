@@ -80,7 +80,7 @@ impl FrictionlessModes {
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
         let (below, mut shift) = match limit {
             // The first guess serves modes far below the largest eigenvalue of the mesh.
-            ModeLimit::Lowest(count) => (count, SHIFT * NEAR * inertia.largest_ratio()),
+            ModeLimit::Lowest(count) => (count, SHIFT * NEAR * inertia.largest_ratio),
             ModeLimit::MaxFrequency(hz) => {
                 (inertia.bound_below(tangent, TAU * hz)?, SHIFT * (TAU * hz).powi(2))
             }
@@ -259,15 +259,18 @@ struct Inertia<'a> {
     stiffness: &'a MatrixPolynomial,
     mass: &'a MatrixPolynomial,
     analysis: LuAnalysis,
+    /// About the largest eigenvalue of the pencil: the largest ratio of the diagonals.
+    largest_ratio: f64,
 }
 
 impl<'a> Inertia<'a> {
     fn new(tangent: &'a SlidingTangent) -> Result<Self, LinalgError> {
-        Ok(Self {
-            stiffness: &tangent.stiffness,
-            mass: &tangent.mass,
-            analysis: LuAnalysis::new(tangent.stiffness.pattern())?,
-        })
+        let SlidingTangent { stiffness, mass, .. } = tangent;
+        let (pattern, k, m) = (stiffness.pattern(), stiffness.evaluate(0.0), mass.evaluate(0.0));
+        let diagonal = (0..pattern.dimension()).filter_map(|i| pattern.position(i, i));
+        let ratios = diagonal.map(|at| k[at] / m[at]).filter(|ratio| ratio.is_finite());
+        let (analysis, largest_ratio) = (LuAnalysis::new(pattern)?, ratios.fold(0.0, f64::max));
+        Ok(Self { stiffness, mass, analysis, largest_ratio })
     }
 
     /// The `count` lowest motions, by an iteration on `K + shift M`. A shift that does not make it positive definite, or that leaves a
@@ -278,7 +281,7 @@ impl<'a> Inertia<'a> {
             let factors = loop {
                 match self.factors_at(-*shift) {
                     Ok(factors) if factors.negative_count() == 0 => break factors,
-                    Err(error) if !(*shift < self.largest_ratio()) => return Err(error),
+                    Err(error) if !(*shift < self.largest_ratio) => return Err(error),
                     _ => *shift *= 10.0, // Farther below all eigenvalues.
                 }
             };
@@ -362,16 +365,7 @@ impl<'a> Inertia<'a> {
 
     /// Shift below which `K + shift M`, or `K - shift M` between slow motions, is singular to working precision.
     fn least_shift(&self) -> f64 {
-        ROUND_OFF * self.largest_ratio()
-    }
-
-    /// About the largest eigenvalue of the pencil: the largest ratio of the diagonals.
-    fn largest_ratio(&self) -> f64 {
-        let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
-        let pattern = self.stiffness.pattern();
-        let diagonal = (0..pattern.dimension()).filter_map(|i| pattern.position(i, i));
-        let ratios = diagonal.map(|at| stiffness[at] / mass[at]);
-        ratios.filter(|ratio| ratio.is_finite()).fold(0.0, f64::max)
+        ROUND_OFF * self.largest_ratio
     }
 
     /// Number of modes below an angular frequency, by Sylvester's law of inertia.

@@ -15,7 +15,7 @@ const CANCELLING: f64 = 1e3;
 pub struct StructureMatrices<'a> {
     pattern: &'a Arc<SparsityPattern>,
     /// Whether they are transposed, for left vectors.
-    is_transposed: bool,
+    pub is_transposed: bool,
     /// Nonzero values by rows; of the reduced problem `K` and `M` alone, others are empty.
     values: MotionMatrices<Vec<f64>>,
     linearization: Linearization,

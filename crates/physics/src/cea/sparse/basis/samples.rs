@@ -192,7 +192,8 @@ impl BasisBuilder<'_> {
             if !is_at_rest {
                 return builder.shifted_corrections(*mu, std::slice::from_ref(mode), &sides);
             }
-            let both = sides.map(|is_left| builder.residuals((*mu, is_left), &[mode])).concat();
+            let both = sides.map(|is_left| builder.residuals(&builder.side(*mu, is_left), &[mode]));
+            let both = both.concat();
             let mut parts = side_by_side(builder.tangent.stiffness.dimension(), &both);
             builder.factors.solve_in_place(parts.as_mut()); // t = (K(0) - sigma M(0))^-1 r.
             turn_to_real(&mut parts);
@@ -200,16 +201,20 @@ impl BasisBuilder<'_> {
         })
     }
 
-    /// `T(lambda) x` of the right vectors of modes at `mu`, or `T(lambda)^T w` of the left ones; of proportional damping but for a factor.
-    fn residuals(&self, (mu, is_left): (f64, bool), modes: &[&ReducedMode]) -> Vec<Vec<c64>> {
+    /// The problem at `mu` of right vectors, or of left ones.
+    fn side(&self, mu: f64, is_left: bool) -> StructureMatrices<'_> {
+        StructureMatrices::of_side(self.tangent, self.linearization, (mu, is_left))
+    }
+
+    /// `T(lambda) x` of the vectors of modes on one side; of proportional damping but for a factor.
+    fn residuals(&self, side: &StructureMatrices<'_>, modes: &[&ReducedMode]) -> Vec<Vec<c64>> {
         let own = |mode: &&ReducedMode| {
-            let vector = if is_left { &mode.left } else { &mode.right };
+            let vector = if side.is_transposed { &mode.left } else { &mode.right };
             (self.linearization.inverse_value(mode.eigenvalue), vector.clone())
         };
-        let matrices = StructureMatrices::of_side(self.tangent, self.linearization, (mu, is_left));
         let packed = PackedModes::of_vectors(self.model.dimension(), modes.iter().map(own));
         let x = self.model.expand(packed.coordinates.as_ref());
-        let (residuals, _) = matrices.residuals_and_momenta(&packed.entries, x.as_ref());
+        let (residuals, _) = side.residuals_and_momenta(&packed.entries, x.as_ref());
         packed.entries.iter().map(|entry| entry.joined(&residuals)).collect()
     }
 
@@ -218,6 +223,7 @@ impl BasisBuilder<'_> {
     fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode], sides: &[bool]) -> Mat<f64> {
         let problem = FullProblem::at(self.tangent, mu).sharing(self.factors.analysis());
         let unknowns = problem.dimension();
+        let sides: Vec<_> = sides.iter().map(|is_left| self.side(mu, *is_left)).collect();
         let mut open: Vec<&ReducedMode> = modes.iter().collect();
         crate::order::sort_by_number(&mut open, |own| own.eigenvalue.im);
 
@@ -227,17 +233,17 @@ impl BasisBuilder<'_> {
         let solved: Vec<Mat<f64>> = crate::parallel::map(open.chunks(share), |own| {
             let beside = own[own.len() / 2].eigenvalue * (1.0 + BESIDE);
             let Ok(factors) = problem.factors(beside) else { return none() };
-            let of_side = |is_left: bool| {
-                let residuals = self.residuals((mu, is_left), own);
+            let of_side = |side: &StructureMatrices<'_>| {
+                let residuals = self.residuals(side, own);
                 let mut x = Mat::from_fn(unknowns, own.len(), |i, j| residuals[j][i]);
-                match is_left {
+                match side.is_transposed {
                     true => factors.solve_transpose_in_place(x.as_mut()),
                     false => factors.solve_in_place(x.as_mut()),
                 }
                 let part = |x: c64, j: usize| if j.is_multiple_of(2) { x.re } else { x.im };
                 Mat::from_fn(unknowns, 2 * own.len(), |i, j| part(x[(i, j / 2)], j))
             };
-            sides.iter().fold(none(), |all, own| join_columns(all.as_ref(), of_side(*own).as_ref()))
+            sides.iter().fold(none(), |all, own| join_columns(all.as_ref(), of_side(own).as_ref()))
         });
         let mut columns =
             solved.iter().fold(none(), |all, own| join_columns(all.as_ref(), own.as_ref()));
