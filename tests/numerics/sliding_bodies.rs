@@ -244,6 +244,29 @@ fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
     }
 }
 
+/// At the largest friction two states of steady sliding hold. The one found does not depend on the friction coefficients asked for, as the
+/// matrices exported there show, and that there are two is said.
+#[test]
+fn of_several_states_of_sliding_the_same_is_found_and_others_are_told() {
+    let slider = Slider {
+        is_plane: false,
+        counts: [2, 2, 2],
+        size: [0.014229143957113685, 0.013740867508762853, 0.009921502988836296],
+        young_modulus: 5147071522.945631,
+        poisson_ratio: 0.3,
+        rayleigh: [0.0; 2],
+        support: [200256.5276582124, 5039.118173232824, 10.0],
+        contact_stiffness: Some(21990227106999.586),
+        loss_factor: 0.0,
+        friction: 0.26263457606535084,
+        speed: 1.0,
+        modes: 4,
+    };
+    check(&slider, false).unwrap();
+    let notes = solution(&part(&slider)).1.notes;
+    assert!(notes.iter().any(|note| note.contains("more than one state")), "{notes:?}");
+}
+
 /// Shear waves between the faces of a block without Poisson's ratio, which friction does not move, have equal eigenvalues. The dense
 /// decomposition must end where it meets them, and each is listed.
 #[test]

@@ -14,7 +14,14 @@ const SHORTEST_RANGE: f64 = 1e-3;
 /// Share of the largest force up to which a violated condition is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// States at every one of `friction_coefficients`: rising values, each starting from the set of the last.
+/// Halvings of the way from friction 0 on which a state is followed where the search from there finds none.
+const MOST_HALVINGS: usize = 3;
+
+/// Difference of contact forces, over the largest, from which on two states are not one whose points just touch.
+const APART: f64 = 1e-6;
+
+/// States at every one of `friction_coefficients`, each from the state at friction 0, of which there is one: it is the same whatever other
+/// values are asked for.
 pub(super) fn range(
     bodies: &mut impl PressedBodies,
     friction_coefficients: &[f64],
@@ -27,28 +34,70 @@ pub(super) fn range(
         ..PressedRange::default()
     };
     let mut sets: Vec<Vec<bool>> = Vec::new(); // The sets in turn, and where each gives way to the next.
-    let (mut before, mut start) = (0.0, vec![true; bodies.pressing().points.len()]);
+    let all = vec![true; bodies.pressing().points.len()];
+    let at_rest = pressed_points(bodies, 0.0, &all).unwrap_or_else(|_| all.clone());
+    let (mut before, mut last) = (0.0, at_rest.clone());
     for &i in &order {
         let friction = friction_coefficients[i];
         let known = bodies.pressing().known.and_then(|known| known.set_at(friction));
         let set = match known.map(<[bool]>::to_vec) {
             Some(set) => set,
-            None => pressed_points(bodies, friction, &start)?,
+            None => reached(bodies, [0.0, friction], &at_rest, MOST_HALVINGS)?,
         };
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
         }
         if sets.last() != Some(&set) {
             if !sets.is_empty() {
-                found.changes.push(end_between(bodies, &start, [before, friction])?);
+                found.changes.push(end_between(bodies, &last, [before, friction])?);
             }
             sets.push(set.clone());
         }
         found.state_of[i] = sets.len() - 1;
-        (before, start) = (friction, set);
+        (before, last) = (friction, set);
+    }
+    // At the largest friction coefficient other starts may lead elsewhere.
+    let earlier = sets.iter().rev().nth(1).unwrap_or(&at_rest);
+    for start in [&all, earlier] {
+        if bodies.pressing().known.is_none() && is_another(bodies, before, [start, &last])? {
+            found.several_at = Some(before);
+        }
     }
     follow(bodies, &sets, &mut found)?;
     Ok(found)
+}
+
+/// Whether a `start` leads to another state than that of the `known` set.
+fn is_another(
+    bodies: &mut impl PressedBodies,
+    friction: f64,
+    [start, known]: [&[bool]; 2],
+) -> Result<bool> {
+    let Some(other) = pressed_points(bodies, friction, start).ok().filter(|set| set != known) else {
+        return Ok(false);
+    };
+    let [own, other] = [bodies.state_of(friction, known)?, bodies.state_of(friction, &other)?];
+    let largest = own.normal_forces.iter().fold(0.0_f64, |m, force| m.max(force.abs()));
+    let mut pairs = own.normal_forces.iter().zip(&other.normal_forces);
+    Ok(pairs.any(|(a, b)| (a - b).abs() > APART * largest))
+}
+
+/// The pressed points at `friction` from those at `before`; where that finds none, by way of those halfway.
+fn reached(
+    bodies: &mut impl PressedBodies,
+    [before, friction]: [f64; 2],
+    start: &[bool],
+    halvings: usize,
+) -> Result<Vec<bool>> {
+    let found = pressed_points(bodies, friction, start);
+    if halvings == 0 || !matches!(found, Err(PrestressError::NoState { .. })) {
+        return found;
+    }
+    let middle = 0.5 * (before + friction);
+    match reached(bodies, [before, middle], start, halvings - 1) {
+        Ok(set) => reached(bodies, [middle, friction], &set, halvings - 1),
+        Err(_) => found,
+    }
 }
 
 /// The state of each set, followed from one change to the next; between the end of the set before and the beginning of its own,
