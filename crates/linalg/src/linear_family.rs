@@ -10,12 +10,13 @@ const FALLING: f64 = 0.9;
 /// Part of a residual, orthogonal to the directions but for round-off, from which on it is a direction.
 const BEYOND: f64 = 0.5;
 
-/// The systems `(A_0 + mu A_1) x = b` of operators near the identity, for one `mu` after the other: each residual is made orthogonal to
-/// the space of all residuals so far (full orthogonalization, Saad 1981). Where `A_0` is the identity this is one Krylov space of `A_1`
-/// for all `mu`, and a few more directions where it nearly is.
+/// The systems `(A_0 + mu A_1) x = b_0 + mu b_1` of operators near the identity, for one `mu` after the other: each residual is made
+/// orthogonal to the space of all residuals so far (full orthogonalization, Saad 1981). Where `A_0` is the identity and one of both sides
+/// is zero this is one Krylov space of `A_1` for all `mu`, and a few more directions where it nearly is.
 #[derive(Clone, Debug)]
 pub struct LinearFamily {
-    right_side: Vec<f64>,
+    right_sides: Vec<Vec<f64>>,
+    scale: f64,
     /// Orthonormal ones, what `A_0` and `A_1` make of each, and the products of both, `v_i . A_p v_j`.
     directions: Vec<Vec<f64>>,
     images: [Vec<Vec<f64>>; 2],
@@ -23,21 +24,21 @@ pub struct LinearFamily {
 }
 
 impl LinearFamily {
-    /// The systems with the right side `b`.
-    pub fn new(right_side: Vec<f64>) -> Self {
+    /// The systems with the right sides `b_0` and `b_1`; beside the `scale` residuals count.
+    pub fn new(right_sides: Vec<Vec<f64>>, scale: f64) -> Self {
         let [directions, fixed, moving] = Default::default();
         let projected = [Mat::new(), Mat::new()];
-        Self { right_side, directions, images: [fixed, moving], projected }
+        Self { right_sides, scale, directions, images: [fixed, moving], projected }
     }
 
-    /// Solves the system of one `mu` until the residual is below `tolerance` of `b` or `x`, or does not fall any more; returns `x` and the
+    /// Solves the system of one `mu` until the residual is below `tolerance` of the scale or `x`, or does not fall any more; returns `x` and the
     /// number of directions that `apply` mapped by `A_0` and `A_1`. A space without directions begins with `start`, if there is any: of one
     /// system alone that saves some, of a family it costs more.
     pub fn solve(
         &mut self,
         mu: f64,
         start: &[f64],
-        apply: impl Fn(&[f64]) -> [Vec<f64>; 2],
+        apply: impl Fn(&[f64]) -> Vec<Vec<f64>>,
         tolerance: f64,
     ) -> (Vec<f64>, usize) {
         let (mut taken, mut falling, mut best) = (0, 0, f64::INFINITY);
@@ -46,7 +47,7 @@ impl LinearFamily {
             let left = norm(&next);
             falling = if left < FALLING * best { 0 } else { falling + 1 };
             best = best.min(left);
-            let bound = tolerance * norm(&self.right_side).max(norm(&x));
+            let bound = tolerance * self.scale.max(norm(&x));
             if !(left > bound) || falling == PATIENCE {
                 return (x, taken);
             }
@@ -75,11 +76,13 @@ impl LinearFamily {
     /// What the space has of the solution, and the residual.
     fn projected_at(&self, mu: f64) -> (Vec<f64>, Vec<f64>) {
         let (count, [fixed, moving]) = (self.directions.len(), &self.projected);
+        let mut residual = self.right_sides[0].clone();
+        add(&mut residual, mu, &self.right_sides[1]); // b_0 + mu b_1.
         // V^T (A_0 + mu A_1) V s = V^T b, x = V s.
-        let mut shares = Mat::from_fn(count, 1, |i, _| dot(&self.directions[i], &self.right_side));
+        let mut shares = Mat::from_fn(count, 1, |i, _| dot(&self.directions[i], &residual));
         let forms = Mat::from_fn(count, count, |i, j| fixed[(i, j)] + mu * moving[(i, j)]);
         DenseLu::factorize(forms).solve_in_place(shares.as_mut());
-        let (mut x, mut residual) = (vec![0.0; self.right_side.len()], self.right_side.clone());
+        let mut x = vec![0.0; residual.len()];
         for (k, direction) in self.directions.iter().enumerate() {
             add(&mut x, shares[(k, 0)], direction);
             add(&mut residual, -shares[(k, 0)], &self.images[0][k]);
@@ -111,11 +114,12 @@ mod tests {
         let apply = |x: &[f64]| {
             calls.set(calls.get() + 1);
             let moved = times(1.0, x).iter().zip(x).map(|(own, x)| own - x).collect();
-            [x.to_vec(), moved]
+            vec![x.to_vec(), moved]
         };
         let right_side: Vec<f64> = (0..count).map(|i| (i as f64).cos()).collect();
         for start in [Vec::new(), vec![5.0; count]] {
-            let mut family = LinearFamily::new(right_side.clone());
+            let sides = vec![right_side.clone(), vec![0.0; count]];
+            let mut family = LinearFamily::new(sides, 8.0);
             let mut products = Vec::new();
             for mu in [1.0, 0.2, 0.6, 1.1] {
                 let (x, taken) = family.solve(mu, &start, apply, 1e-14);

@@ -17,9 +17,6 @@ const ROUND_OFF: f64 = 1e-12;
 /// Halvings of the way from friction 0 on which a state is followed where the search from there finds none.
 const MOST_HALVINGS: usize = 3;
 
-/// Difference of contact forces, over the largest, from which on two states are not one whose points just touch.
-const APART: f64 = 1e-6;
-
 /// States at every one of `friction_coefficients`, each from the state at friction 0, of which there is one: it is the same whatever other
 /// values are asked for.
 pub(super) fn range(
@@ -35,7 +32,7 @@ pub(super) fn range(
     };
     let mut sets: Vec<Vec<bool>> = Vec::new(); // The sets in turn, and where each gives way to the next.
     let all = vec![true; bodies.pressing().points.len()];
-    let at_rest = pressed_points(bodies, 0.0, &all).unwrap_or_else(|_| all.clone());
+    let at_rest = pressed_points(bodies, 0.0, &all).unwrap_or(all);
     let (mut before, mut last) = (0.0, at_rest.clone());
     for &i in &order {
         let friction = friction_coefficients[i];
@@ -56,30 +53,8 @@ pub(super) fn range(
         found.state_of[i] = sets.len() - 1;
         (before, last) = (friction, set);
     }
-    // At the largest friction coefficient other starts may lead elsewhere.
-    let earlier = sets.iter().rev().nth(1).unwrap_or(&at_rest);
-    for start in [&all, earlier] {
-        if bodies.pressing().known.is_none() && is_another(bodies, before, [start, &last])? {
-            found.several_at = Some(before);
-        }
-    }
     follow(bodies, &sets, &mut found)?;
     Ok(found)
-}
-
-/// Whether a `start` leads to another state than that of the `known` set.
-fn is_another(
-    bodies: &mut impl PressedBodies,
-    friction: f64,
-    [start, known]: [&[bool]; 2],
-) -> Result<bool> {
-    let Some(other) = pressed_points(bodies, friction, start).ok().filter(|set| set != known) else {
-        return Ok(false);
-    };
-    let [own, other] = [bodies.state_of(friction, known)?, bodies.state_of(friction, &other)?];
-    let largest = own.normal_forces.iter().fold(0.0_f64, |m, force| m.max(force.abs()));
-    let mut pairs = own.normal_forces.iter().zip(&other.normal_forces);
-    Ok(pairs.any(|(a, b)| (a - b).abs() > APART * largest))
 }
 
 /// The pressed points at `friction` from those at `before`; where that finds none, by way of those halfway.

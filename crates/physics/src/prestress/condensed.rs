@@ -7,9 +7,6 @@ use crate::contact::{Point, Row};
 use crate::fem::Triplets;
 use crate::linalg::{DenseLu, Mat, SparseLu};
 
-/// Contact points whose responses are computed together.
-const BLOCK: usize = 32;
-
 /// Points through which the polynomial of a state goes.
 const NODES: usize = 7;
 
@@ -63,29 +60,18 @@ impl<'a> CondensedContact<'a> {
         Ok(condensed)
     }
 
-    /// `A`, `B` and `c_0`, a block of unit forces at a time.
+    /// `A`, `B` and `c_0`.
     fn respond(&mut self) {
-        let JoinedPoints { normals, drags, unknowns, .. } = &self.points;
-        let count = normals.len();
-        for first in (0..count).step_by(BLOCK) {
-            let width = BLOCK.min(count - first);
-            let mut block = Mat::<f64>::zeros(unknowns.len(), width);
-            for j in 0..width {
-                // Column j: the force n_j.
-                for &(dof, along) in &normals[first + j] {
-                    block[(dof, j)] += along;
-                }
-            }
-            self.solver.solve_in_place(block.as_mut());
-            let response = |row: &Row, j: usize| -> f64 {
-                row.iter().map(|&(dof, a)| a * block[(dof, j)]).sum()
-            };
-            for j in 0..width {
-                for i in 0..count {
-                    self.normal_response[(i, first + j)] = response(&normals[i], j);
-                    // K* is symmetric: the response of n_j to t_i is that of t_i to n_j.
-                    self.drag_response[(first + j, i)] = response(&drags[i], j);
-                }
+        let JoinedPoints { normals, drags, touched, .. } = &self.points;
+        let columns = self.points.columns(&self.solver, normals); // K*^-1 n_j.
+        let place = |unknown: usize| touched.unknown_of[unknown].expect("rows touch it");
+        let response = |row: &Row, j: usize| -> f64 {
+            row.iter().map(|&(unknown, a)| a * columns[(place(unknown), j)]).sum()
+        };
+        for j in 0..normals.len() {
+            for i in 0..normals.len() {
+                self.normal_response[(i, j)] = response(&normals[i], j);
+                self.drag_response[(j, i)] = response(&drags[i], j); // K* is symmetric: n_j to t_i is t_i to n_j.
             }
         }
         self.unpressed = self.points.separations(&self.solver.solve(self.points.load())); // c_0 = n . K*^-1 f.

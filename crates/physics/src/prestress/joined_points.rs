@@ -7,6 +7,7 @@ use crate::contact::{Row, scaled};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::dense::{column, column_mut};
 use crate::linalg::{Mat, SparseLu};
+use std::collections::BTreeSet;
 
 /// Bodies and the rows of their contact points over the unknowns. Bodies may be held by contact alone: what is factorized has
 /// springs at the points,
@@ -22,7 +23,13 @@ pub(super) struct JoinedPoints<'a> {
     /// Rows `n` and `drag t`.
     pub normals: Vec<Row>,
     pub drags: Vec<Row>,
+    /// The unknowns that normals touch, and those that any of both does.
+    pub along_normals: DofMap,
+    pub touched: DofMap,
 }
+
+/// Columns that are solved for together.
+const BLOCK: usize = 32;
 
 impl<'a> JoinedPoints<'a> {
     pub fn new(pressing: &'a Pressing<'a>) -> Self {
@@ -32,9 +39,16 @@ impl<'a> JoinedPoints<'a> {
         let drags = points
             .iter()
             .map(|point| scaled(&elimination.over(&unknowns, &point.slip), point.friction.drag));
+        let (normals, drags): (Vec<Row>, Vec<Row>) = (normals.collect(), drags.collect());
+        let touched = |rows: &mut dyn Iterator<Item = &Row>| {
+            let own: BTreeSet<usize> = rows.flatten().map(|own| own.0).collect();
+            DofMap::of(unknowns.len(), own.into_iter().collect())
+        };
         Self {
-            normals: normals.collect(),
-            drags: drags.collect(),
+            along_normals: touched(&mut normals.iter()),
+            touched: touched(&mut normals.iter().chain(&drags)),
+            normals,
+            drags,
             stiffness: elimination.congruent(pressing.stiffness).into_owned(),
             pressing,
             unknowns,
@@ -61,8 +75,49 @@ impl<'a> JoinedPoints<'a> {
         self.unknowns.restrict(&elimination.transposed_forces(load)) // T^T f.
     }
 
-    /// `P^-1` times `load` and, a column each, forces along the normals and drags of the points.
-    pub fn respond(&self, solver: &SparseLu, load: &[f64], along: &[Vec<[f64; 2]>]) -> Mat<f64> {
+    /// `P^-1` times each of some `rows`, at the unknowns that contact touches.
+    pub fn columns(&self, solver: &SparseLu, rows: &[Row]) -> Mat<f64> {
+        let solved: Vec<Mat<f64>> = crate::parallel::map(rows.chunks(BLOCK), |rows| {
+            let mut block = Mat::zeros(self.unknowns.len(), rows.len());
+            for (j, row) in rows.iter().enumerate() {
+                row.iter().for_each(|&(unknown, along)| block[(unknown, j)] += along);
+            }
+            solver.solve_in_place(block.as_mut());
+            let at_contact = |i: usize, j: usize| block[(self.touched.dofs[i], j)];
+            Mat::from_fn(self.touched.len(), rows.len(), at_contact)
+        });
+        let column = |j: usize| solved[j / BLOCK].col(j % BLOCK);
+        Mat::from_fn(self.touched.len(), rows.len(), |i, j| column(j)[i])
+    }
+
+    /// What forces along the normals and drags of the points alone move along normals, for each of some forces: by the `columns` of `P^-1`
+    /// of these unknowns, where they are known.
+    pub fn moved_under(
+        &self,
+        (solver, columns): (&SparseLu, Option<&Mat<f64>>),
+        along: &[Vec<[f64; 2]>],
+    ) -> Vec<Vec<f64>> {
+        let mut block = self.forces(&vec![0.0; self.unknowns.len()], along);
+        let Some(columns) = columns else {
+            solver.solve_in_place(block.as_mut());
+            let moved = |j| self.along_normals.restrict(column(block.as_ref(), j));
+            return (0..along.len()).map(moved).collect();
+        };
+        let dofs = &self.touched.dofs;
+        let forces = Mat::from_fn(dofs.len(), along.len(), |i, j| block[(dofs[i], j)]);
+        let moved = columns.transpose() * forces; // P^-1 is symmetric.
+        (0..along.len()).map(|j| column(moved.as_ref(), j).to_vec()).collect()
+    }
+
+    /// `P^-1` times the load and forces along the normals and drags of the points.
+    pub fn respond(&self, solver: &SparseLu, along: Vec<[f64; 2]>) -> Vec<f64> {
+        let mut block = self.forces(&self.load(), &[along]);
+        solver.solve_in_place(block.as_mut());
+        column(block.as_ref(), 0).to_vec()
+    }
+
+    /// `load` and, a column each, forces along the normals and drags of the points.
+    fn forces(&self, load: &[f64], along: &[Vec<[f64; 2]>]) -> Mat<f64> {
         let mut block = Mat::zeros(load.len(), along.len());
         for (j, forces) in along.iter().enumerate() {
             let right_side = column_mut(&mut block, j);
@@ -73,8 +128,12 @@ impl<'a> JoinedPoints<'a> {
                 }
             }
         }
-        solver.solve_in_place(block.as_mut());
         block
+    }
+
+    /// `c_i` of what moves along normals.
+    pub fn separations_of(&self, moved: &[f64]) -> Vec<f64> {
+        self.separations(&self.along_normals.expand(moved))
     }
 
     /// `c_i` of a displacement.
@@ -95,8 +154,7 @@ impl<'a> JoinedPoints<'a> {
             // (N_i + r_i c_i) n_i + mu N_i drag_i t_i.
             [force + spring * state.separations[i], friction_coefficient * force]
         });
-        let found = self.respond(solver, &self.load(), &[along.collect()]);
-        let y = self.unknowns.expand(column(found.as_ref(), 0));
+        let y = self.unknowns.expand(&self.respond(solver, along.collect()));
         self.pressing.elimination.displacement(&y)
     }
 }

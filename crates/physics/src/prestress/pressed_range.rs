@@ -25,8 +25,6 @@ pub struct PressedRange {
     pub begins: Vec<f64>,
     /// Share of the largest contact force that the polynomials of the states leave out at most, estimated.
     pub left_out: f64,
-    /// The largest friction coefficient, where another state of steady sliding holds there, too.
-    pub several_at: Option<f64>,
 }
 
 impl PressedRange {

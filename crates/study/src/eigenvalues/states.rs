@@ -219,11 +219,5 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
             range.left_out
         )
     });
-    let several = range.several_at.map(|friction| {
-        format!(
-            "at friction {friction} more than one state of steady sliding holds, with other contact points pressed. \
-             The results are those of the one that is found from friction 0"
-        )
-    });
-    [opening, jump, unknown, coarse, several].into_iter().flatten().collect()
+    opening.into_iter().chain(jump).chain(unknown).chain(coarse).collect()
 }

@@ -102,7 +102,14 @@ impl SparseSweep<'_> {
                     }
                 }
             }
-            intervals.push(FoundInterval { is_led_back, ..self.report(branch, found) });
+            // Nor does it grow where it could by no more, at its rate, from an onset to the end.
+            let ModeAt { mu, mode } = &found.onset;
+            let width = found.restabilized.as_ref().map_or(f64::INFINITY, |end| end.mu - mu);
+            let is_rounding =
+                width * mode.derivative.re.abs() <= rounding(mode) * mode.eigenvalue.norm();
+            if !is_rounding {
+                intervals.push(FoundInterval { is_led_back, ..self.report(branch, found) });
+            }
         }
         Ok(intervals)
     }
