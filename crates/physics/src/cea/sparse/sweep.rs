@@ -172,11 +172,9 @@ impl<'a> SparseSweep<'a> {
         if self.builder.is_whole {
             return Ok(());
         }
-        // Over the range of one of several base states the modes at its middle are corrected to those at its ends.
-        if self.is_continued {
-            return self.builder.improve_at(self.grid[self.grid.len() / 2]).map(|_| ());
-        }
-        if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
+        let begins_at_rest =
+            self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..));
+        if begins_at_rest && !self.is_continued {
             self.builder.begin_at_rest()?;
         }
         let asked = &self.grid[self.first_asked()..];
