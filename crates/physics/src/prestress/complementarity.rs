@@ -97,13 +97,6 @@ fn follow(
     }
     for (k, set) in sets.iter().enumerate() {
         let [lower, upper] = found.span(k);
-        if let Some(known) = bodies.pressing().known
-            && let Some(state) = known.state_over(set, [lower, upper])
-        {
-            found.left_out = found.left_out.max(known.left_out);
-            found.states.push(state.clone());
-            continue;
-        }
         // The first set holds below what is asked, too: as far as its polynomial needs.
         let own_range = |bodies: &mut _, set: &[bool]| {
             let begin = match k.checked_sub(1) {

@@ -1,12 +1,11 @@
 //! The pressed equilibrium of a body whose sectors are alike, from one of them.
 
+use super::Result;
 use super::complementarity::range;
-use super::condensed::CondensedContact;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
-use super::{PrestressError, Result};
 use crate::contact::{Point, Row, summed};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
@@ -21,13 +20,11 @@ impl Pressing<'_> {
     /// same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
-    /// [`PrestressError::Asked`] for rigid contacts beside ones that stiffen; [`PrestressError::NoState`] at the first friction coefficient
-    /// without one;
-    /// [`PrestressError::GapEverywhere`]; [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
+    /// [`PrestressError::NoState`] at the first friction coefficient without one; [`PrestressError::GapEverywhere`]; [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn states(&self, mesh: &Mesh, friction_coefficients: &[f64]) -> Result<PressedRange> {
         let count = mesh.symmetry.as_ref().map_or(1, |symmetry| symmetry.count);
         let Some(first_of) = self.copies(count) else {
-            return self.states_of_all(friction_coefficients);
+            return range(&mut PenaltyContact::new(self)?, friction_coefficients);
         };
         // One sector, whose neighbours move as it does.
         let size = self.load.len() / count;
@@ -55,7 +52,7 @@ impl Pressing<'_> {
             laws: firsts.clone().map(|i| self.laws[i]).collect(),
             known: None,
         };
-        let mut range = own.states_of_all(friction_coefficients)?;
+        let mut range = range(&mut PenaltyContact::new(&own)?, friction_coefficients)?;
 
         // The state of the whole body.
         let firsts: Vec<usize> = firsts.collect();
@@ -65,19 +62,6 @@ impl Pressing<'_> {
         let states = range.states.iter_mut();
         states.for_each(|state| *state = state.repeated(count, &copy_of));
         Ok(range)
-    }
-
-    /// Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.
-    fn states_of_all(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
-        match PenaltyContact::new(self)? {
-            Some(mut bodies) => range(&mut bodies, friction_coefficients),
-            None if self.laws.iter().any(Option::is_some) => {
-                let problem = "contacts with a normal_law other than \"linear\" and rigid contacts in one case: give the rigid ones a \
-                               normal_stiffness";
-                Err(PrestressError::Asked(problem.to_owned()))
-            }
-            None => range(&mut CondensedContact::new(self)?, friction_coefficients),
-        }
     }
 
     /// For each point the first of its copies, of which each of the `count` sectors has one. `None` where a state that is the same

@@ -106,12 +106,12 @@ impl Pressing<'_> {
     ) -> Result<PressedState> {
         // Without friction, on which the normal forces do not depend.
         let all = vec![true; self.points.len()];
-        let (separations, springs) = match PenaltyContact::new(self)? {
-            Some(mut bodies) => {
-                let own = bodies.state_of(0.0, &all)?;
+        let (separations, springs) = match self.stiffnesses.contains(&None) {
+            true => (self.pushed.clone(), None),
+            false => {
+                let own = PenaltyContact::new(self)?.state_of(0.0, &all)?;
                 (own.separations, own.stiffnesses)
             }
-            None => (self.pushed.clone(), None),
         };
         let full = FullSliding::new(self.stiffness, self.elimination.clone(), self.points)?;
         let state = full.state(&self.load, &separations);

@@ -31,6 +31,11 @@ pub(super) struct JoinedPoints<'a> {
 /// Columns that are solved for together.
 const BLOCK: usize = 32;
 
+/// The rows of some unknowns.
+fn picked(block: &Mat<f64>, own: &DofMap) -> Mat<f64> {
+    Mat::from_fn(own.len(), block.ncols(), |i, j| block[(own.dofs[i], j)])
+}
+
 impl<'a> JoinedPoints<'a> {
     pub fn new(pressing: &'a Pressing<'a>) -> Self {
         let unknowns = pressing.elimination.unknowns();
@@ -69,6 +74,17 @@ impl<'a> JoinedPoints<'a> {
         factorized(&held, &self.unknowns)
     }
 
+    /// `n_i . K n_i` by the diagonal of `K`, N/m.
+    pub fn diagonal(&self) -> impl Iterator<Item = f64> {
+        let mut diagonal = vec![0.0; self.unknowns.len()];
+        for &(row, _, value) in self.stiffness.entries.iter().filter(|own| own.0 == own.1) {
+            self.unknowns.unknown_of[row].into_iter().for_each(|at| diagonal[at] += value);
+        }
+        let form =
+            move |row: &Row| row.iter().map(|&(at, along)| along * along * diagonal[at]).sum();
+        self.normals.iter().map(form)
+    }
+
     /// The load over the unknowns.
     pub fn load(&self) -> Vec<f64> {
         let Pressing { elimination, load, .. } = self.pressing;
@@ -83,11 +99,9 @@ impl<'a> JoinedPoints<'a> {
                 row.iter().for_each(|&(unknown, along)| block[(unknown, j)] += along);
             }
             solver.solve_in_place(block.as_mut());
-            let at_contact = |i: usize, j: usize| block[(self.touched.dofs[i], j)];
-            Mat::from_fn(self.touched.len(), rows.len(), at_contact)
+            picked(&block, &self.touched)
         });
-        let column = |j: usize| solved[j / BLOCK].col(j % BLOCK);
-        Mat::from_fn(self.touched.len(), rows.len(), |i, j| column(j)[i])
+        Mat::from_fn(self.touched.len(), rows.len(), |i, j| solved[j / BLOCK][(i, j % BLOCK)])
     }
 
     /// What forces along the normals and drags of the points alone move along normals, for each of some forces: by the `columns` of `P^-1`
@@ -97,43 +111,32 @@ impl<'a> JoinedPoints<'a> {
         (solver, columns): (&SparseLu, Option<&Mat<f64>>),
         along: &[Vec<[f64; 2]>],
     ) -> Vec<Vec<f64>> {
-        let mut block = self.forces(&vec![0.0; self.unknowns.len()], along);
-        let Some(columns) = columns else {
-            solver.solve_in_place(block.as_mut());
-            let moved = |j| self.along_normals.restrict(column(block.as_ref(), j));
-            return (0..along.len()).map(moved).collect();
+        let mut block = Mat::zeros(self.unknowns.len(), along.len());
+        (along.iter().enumerate()).for_each(|(j, own)| self.push(column_mut(&mut block, j), own));
+        let moved = match columns {
+            Some(columns) => columns.transpose() * picked(&block, &self.touched), // P^-1 is symmetric.
+            None => {
+                solver.solve_in_place(block.as_mut());
+                picked(&block, &self.along_normals)
+            }
         };
-        let dofs = &self.touched.dofs;
-        let forces = Mat::from_fn(dofs.len(), along.len(), |i, j| block[(dofs[i], j)]);
-        let moved = columns.transpose() * forces; // P^-1 is symmetric.
         (0..along.len()).map(|j| column(moved.as_ref(), j).to_vec()).collect()
     }
 
     /// `P^-1` times the load and forces along the normals and drags of the points.
-    pub fn respond(&self, solver: &SparseLu, along: Vec<[f64; 2]>) -> Vec<f64> {
-        let mut block = self.forces(&self.load(), &[along]);
-        solver.solve_in_place(block.as_mut());
-        column(block.as_ref(), 0).to_vec()
+    pub fn respond(&self, solver: &SparseLu, along: &[[f64; 2]]) -> Vec<f64> {
+        let mut load = self.load();
+        self.push(&mut load, along); // f + sum_i F_i n_i + G_i drag_i t_i.
+        solver.solve(load)
     }
 
-    /// `load` and, a column each, forces along the normals and drags of the points.
-    fn forces(&self, load: &[f64], along: &[Vec<[f64; 2]>]) -> Mat<f64> {
-        let mut block = Mat::zeros(load.len(), along.len());
-        for (j, forces) in along.iter().enumerate() {
-            let right_side = column_mut(&mut block, j);
-            right_side.copy_from_slice(load);
-            for (rows, forces) in self.normals.iter().zip(&self.drags).zip(forces) {
-                for (row, force) in [rows.0, rows.1].into_iter().zip(forces) {
-                    row.iter().for_each(|&(dof, a)| right_side[dof] += force * a); // f + sum_i F_i n_i + G_i drag_i t_i.
-                }
+    /// Adds forces along the normals and drags of the points.
+    fn push(&self, load: &mut [f64], along: &[[f64; 2]]) {
+        for (rows, forces) in self.normals.iter().zip(&self.drags).zip(along) {
+            for (row, force) in [rows.0, rows.1].into_iter().zip(forces) {
+                row.iter().for_each(|&(dof, a)| load[dof] += force * a);
             }
         }
-        block
-    }
-
-    /// `c_i` of what moves along normals.
-    pub fn separations_of(&self, moved: &[f64]) -> Vec<f64> {
-        self.separations(&self.along_normals.expand(moved))
     }
 
     /// `c_i` of a displacement.
@@ -154,7 +157,7 @@ impl<'a> JoinedPoints<'a> {
             // (N_i + r_i c_i) n_i + mu N_i drag_i t_i.
             [force + spring * state.separations[i], friction_coefficient * force]
         });
-        let y = self.unknowns.expand(&self.respond(solver, along.collect()));
+        let y = self.unknowns.expand(&self.respond(solver, &along.collect::<Vec<_>>()));
         self.pressing.elimination.displacement(&y)
     }
 }

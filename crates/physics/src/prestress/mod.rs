@@ -9,7 +9,6 @@
 
 mod assembly;
 mod complementarity;
-mod condensed;
 mod cyclic_pressing;
 mod elimination;
 mod error;

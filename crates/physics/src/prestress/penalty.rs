@@ -1,7 +1,9 @@
-//! Bodies on the springs of their contact points: sparse, for many thousands of points.
+//! Bodies on their contact points: sparse, for many thousands of points.
 
 use super::joined_points::JoinedPoints;
-use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, widened};
+use super::pressed_state::{
+    ContactState, LEAST_RANGE, PressedBodies, Pressing, SHORT_RANGE, widened,
+};
 use super::{PrestressError, Result};
 use crate::contact::Row;
 use crate::linalg::dense::{add, difference, norm};
@@ -10,15 +12,11 @@ use crate::linalg::{LinearFamily, Mat, SparseLu};
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
 const OPEN_SHARE: f64 = 1e-6;
 
-/// Products after which another matrix is factorized, and the share of points that differ from it.
-const MOST_PRODUCTS: usize = 30;
-const MOST_CHANGED: f64 = 0.1;
-
 /// Unknowns along normals up to which the columns of `P^-1` of all of them are held, once a share of as many was solved for one by one:
-/// together they cost that much. And products after which another matrix is factorized then.
+/// together they cost that much. Until then, and of more, products after which another matrix is factorized.
 const MOST_HELD: usize = 4000;
 const AT_ONCE: usize = 4;
-const MOST_HELD_PRODUCTS: usize = 150;
+const MOST_PRODUCTS: usize = 30;
 
 /// Tangents of contact that stiffens that are tried, and the change of a force, over the largest, at which they have settled.
 const MOST_TANGENTS: usize = 60;
@@ -31,6 +29,8 @@ const TOLERANCE: f64 = 1e-16;
 /// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
 /// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1.
 const NODES: [usize; 2] = [6, 8];
+/// The same from friction 0 on of rigid contact.
+const RIGID_NODES: usize = 7;
 
 /// Bodies whose contact points have springs `k_i`.
 ///
@@ -41,7 +41,7 @@ const NODES: [usize; 2] = [6, 8];
 /// ```
 ///
 /// With `P = K + sum r_i k_i n_i n_i^T`, symmetric and factorized once for a set of pressed points (`r_i` is one, and small at
-/// open points), what moves along normals alone is unknown, `d`, from where loads and pushes alone have it, `d_0`:
+/// open points), what moves along normals alone is unknown, `d`, from where it is without forces on, `d_0`:
 ///
 /// ```text
 /// d_0 = P^-1 (f + sum_i r_i k_i s_i p_i n_i),   y_0 = n . d_0 - s p,   c_i = s_i p_i + y_i,   y = y_0 + n . d
@@ -52,17 +52,26 @@ const NODES: [usize; 2] = [6, 8];
 /// a system near the identity, as friction and the points that changed since are small beside `P`. Friction is in the matrix alone:
 /// the systems of a set of pressed points share one space.
 ///
+/// Rigid contact, `c_i = p_i` where pressed, has `N_i = -k_i y_i` with any `k_i`; that about as stiff as the bodies leaves no digits lost.
+/// Then `y` itself is unknown:
+///
+/// ```text
+/// e y + n . P^-1 E y = n . d_0 - s p,   c_i = s_i p_i + e_i y_i,   e_i = 0 where rigid contact is pressed, else 1
+/// E y = sum_i ((s_i - e_i r_i) n_i + mu s_i drag_i t_i) k_i y_i
+/// ```
+///
 /// Contact that stiffens, `N_i = w_i p(p_i - c_i)`, is linear about the force found last, with the stiffness of its tangent
 /// there and the push with which that passes through it: Newton's iteration on the approach as a function of the force, which
 /// is concave, so that no step runs away.
 pub(super) struct PenaltyContact<'a> {
     points: JoinedPoints<'a>,
-    /// `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens.
+    /// Points without springs of their own, `e_i = 0` where they are pressed.
+    is_rigid: Vec<bool>,
+    /// `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens; about those of the bodies of rigid contact.
     springs: Vec<f64>,
     pushed: Vec<f64>,
-    /// `P`, the points pressed in it, and `r_i k_i` in it, N/m.
+    /// `P`, and `r_i k_i` in it, N/m.
     solver: SparseLu,
-    factorized: Vec<bool>,
     held: Vec<f64>,
     /// Columns of `P^-1` at the contact, once those solved for alone, `asked`, are many.
     columns: Option<Mat<f64>>,
@@ -74,7 +83,7 @@ pub(super) struct PenaltyContact<'a> {
     systems: Option<Systems>,
 }
 
-/// The systems of the springs as they are and of a set of pressed points: `d_0`, `y_0`, and those of what friction and `E` do beside.
+/// The systems of the springs as they are and of a set of pressed points, from `d_0` and `y_0` on.
 struct Systems {
     is_pressed: Vec<bool>,
     unmoved: Vec<f64>,
@@ -83,50 +92,44 @@ struct Systems {
 }
 
 impl<'a> PenaltyContact<'a> {
-    /// Bodies on springs at all their points; `None` where a point is rigid.
+    /// Bodies on springs at all their points.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn new(pressing: &'a Pressing<'a>) -> Result<Option<Self>> {
-        let springs: Option<Vec<f64>> = pressing.stiffnesses.iter().copied().collect();
-        let Some(springs) = springs else {
-            return Ok(None);
-        };
+    pub fn new(pressing: &'a Pressing<'a>) -> Result<Self> {
         let points = JoinedPoints::new(pressing);
-        Ok(Some(Self {
+        let own = pressing.stiffnesses.iter().zip(points.diagonal());
+        let springs: Vec<f64> = own.map(|(given, diagonal)| given.unwrap_or(diagonal)).collect();
+        let is_rigid = pressing.stiffnesses.iter().map(Option::is_none).collect();
+        Ok(Self {
             last: Vec::new(),
             pushed: pressing.pushed.clone(),
             held: springs.clone(),
             solver: points.factorize(&springs)?,
-            factorized: vec![true; springs.len()],
             points,
             springs,
             columns: None,
             asked: 0,
             is_slow: false,
             systems: None,
-        }))
+            is_rigid,
+        })
     }
 
-    /// Factorizes `P` of other pressed points where they differ too much from those in it, or the last solution took long.
+    /// Factorizes `P` of other pressed points where the last solution took long, or holds its columns.
     fn follow(&mut self, is_pressed: &[bool]) -> Result<()> {
-        let changed = is_pressed.iter().zip(&self.factorized).filter(|(a, b)| a != b).count();
-        let is_far = changed as f64 > MOST_CHANGED * is_pressed.len() as f64;
-        let is_far = is_far && self.columns.is_none();
         let shares = is_pressed.iter().zip(&self.springs);
         let held: Vec<f64> = shares
             .map(|(&is_pressed, spring)| if is_pressed { *spring } else { OPEN_SHARE * spring })
             .collect();
-        if is_far || self.is_slow && held != self.held {
-            self.solver = self.points.factorize(&held)?;
-            self.factorized = is_pressed.to_vec();
-            self.held = held;
-            (self.columns, self.systems) = (None, None);
-        }
         let own = &self.points.along_normals;
-        if self.columns.is_none() && self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD {
+        if self.columns.is_some() {
+        } else if self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD {
             let rows: Vec<Row> = own.dofs.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
             self.columns = Some(self.points.columns(&self.solver, &rows));
+        } else if self.is_slow && held != self.held {
+            self.solver = self.points.factorize(&held)?;
+            (self.held, self.systems) = (held, None);
         }
         Ok(())
     }
@@ -134,50 +137,60 @@ impl<'a> PenaltyContact<'a> {
     /// Separations and normal forces on the springs as they are, and what moves along normals.
     fn linear_state(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> [Vec<f64>; 3] {
         let known = self.systems.take().filter(|systems| systems.is_pressed == is_pressed);
-        let Self { points, springs, held, solver, columns, .. } = &*self;
+        let Self { points, springs, held, solver, columns, is_rigid, .. } = &*self;
+        let has_rigid = is_rigid.contains(&true);
         let pressed = |values: &[f64]| -> Vec<f64> {
             let both = values.iter().zip(is_pressed);
             both.map(|(value, is_pressed)| if *is_pressed { *value } else { 0.0 }).collect()
         };
         let (own, origin) = (pressed(springs), pressed(&self.pushed)); // s k and s p.
         let along = |own: &dyn Fn(usize) -> [f64; 2]| (0..springs.len()).map(own).collect();
-        // P^-1 times ((s - r) n + mu s drag t) k y, the part with mu by itself.
+        // P^-1 times ((s - e r) n + mu s drag t) k y, the part with mu by itself.
+        let yields = |i: usize| f64::from(u8::from(!(is_rigid[i] && is_pressed[i]))); // e_i.
         let apart = |y: &[f64]| {
-            let parts =
-                [along(&|i| [(own[i] - held[i]) * y[i], 0.0]), along(&|i| [0.0, own[i] * y[i]])];
+            let normal = |i: usize| (own[i] - yields(i) * held[i]) * y[i];
+            let parts = [along(&|i| [normal(i), 0.0]), along(&|i| [0.0, own[i] * y[i]])];
             points.moved_under((solver, columns.as_ref()), &parts)
         };
-        // What the loads and the pushes alone do: d_0 of f + sum_i r_i k_i s_i p_i n_i, y_0, and -P^-1 E y_0.
+        let separations_of =
+            |moved: &[f64]| points.separations(&points.along_normals.expand(moved));
+        // d_0 of f + sum_i r_i k_i s_i p_i n_i, of the state found last where contact stiffens, y_0, and what is left of the equations there.
         let mut systems = known.unwrap_or_else(|| {
-            let pushes = along(&|i| [held[i] * origin[i], 0.0]);
-            let unmoved = points.along_normals.restrict(&points.respond(solver, pushes));
-            let free = difference(&points.separations_of(&unmoved), &origin);
+            let pushes: Vec<[f64; 2]> = along(&|i| [held[i] * origin[i], 0.0]);
+            let loaded = points.along_normals.restrict(&points.respond(solver, &pushes));
+            if has_rigid {
+                let sides = [difference(&separations_of(&loaded), &origin), vec![0.0; own.len()]];
+                let (unmoved, free, scale) = (sides[1].clone(), sides[1].clone(), norm(&sides[0]));
+                let family = LinearFamily::new(sides.to_vec(), scale);
+                return Systems { is_pressed: is_pressed.to_vec(), unmoved, free, family };
+            }
+            let unmoved = if self.last.is_empty() { loaded.clone() } else { self.last.clone() };
+            let free = difference(&separations_of(&unmoved), &origin);
             let mut sides = apart(&free);
             sides.iter_mut().flatten().for_each(|value| *value = -*value);
+            add(&mut sides[0], 1.0, &difference(&loaded, &unmoved));
             let scale = norm(&free) * (unmoved.len() as f64 / free.len() as f64).sqrt();
             let family = LinearFamily::new(sides, scale);
             Systems { is_pressed: is_pressed.to_vec(), unmoved, free, family }
         });
 
-        // With what `P` has not: (1 + P^-1 E n) d = -P^-1 E y_0, y = y_0 + n . d.
-        let apply = |moved: &[f64]| {
-            let mut found = apart(&points.separations_of(moved));
-            add(&mut found[0], 1.0, moved);
+        // With what `P` has not: (1 + P^-1 E n) d is that, y = y_0 + n . d. With rigid points (e + n . P^-1 E) y.
+        let apply = |x: &[f64]| {
+            let mut found = if has_rigid { apart(x) } else { apart(&separations_of(x)) };
+            if has_rigid {
+                found.iter_mut().for_each(|own| *own = separations_of(own));
+            }
+            let kept = found[0].iter_mut().zip(x).enumerate();
+            kept.for_each(|(i, (own, x))| *own += if has_rigid { yields(i) * x } else { *x });
             found
         };
-        let start = match self.last.is_empty() {
-            true => Vec::new(),
-            false => difference(&self.last, &systems.unmoved),
-        };
-        let (mut moved, products) =
-            systems.family.solve(friction_coefficient, &start, apply, TOLERANCE);
-        let mut y = points.separations_of(&moved);
+        let (mut moved, products) = systems.family.solve(friction_coefficient, apply, TOLERANCE);
+        let mut y = if has_rigid { moved.clone() } else { separations_of(&moved) };
         add(&mut y, 1.0, &systems.free);
-        // N = s k (p - c) = - s k y, and c = s p + y; 0 - 0 has no sign.
+        // N = - s k y, and c = s p + e y; 0 - 0 has no sign.
         let forces = own.iter().zip(&y).map(|(spring, y)| 0.0 - spring * y).collect();
-        let separations = origin.iter().zip(&y).map(|(p, y)| p + y).collect();
-        let most = [MOST_PRODUCTS, MOST_HELD_PRODUCTS][usize::from(columns.is_some())];
-        (self.is_slow, self.asked) = (products > most, self.asked + 2 * products);
+        let separations = (0..y.len()).map(|i| origin[i] + yields(i) * y[i]).collect();
+        (self.is_slow, self.asked) = (products > MOST_PRODUCTS, self.asked + 2 * products);
         add(&mut moved, 1.0, &systems.unmoved);
         self.systems = Some(systems);
         [separations, forces, moved]
@@ -211,6 +224,9 @@ impl PressedBodies for PenaltyContact<'_> {
     }
 
     fn usual_points(&self, [lower, upper]: [f64; 2]) -> ([f64; 2], usize) {
+        if self.is_rigid.contains(&true) {
+            return ([0.0, upper.max(LEAST_RANGE)], RIGID_NODES);
+        }
         (widened([lower, upper]), NODES[usize::from(upper - lower > SHORT_RANGE)])
     }
 

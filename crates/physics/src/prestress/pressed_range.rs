@@ -70,18 +70,4 @@ impl PressedRange {
         let mut all = ends.chain(begins);
         all.find(|(at, own)| is_between(**at) && own.is_pressed == set).map(|own| *own.0)
     }
-
-    /// The state of a set whose polynomials hold over a range with all their digits.
-    pub(super) fn state_over(
-        &self,
-        set: &[bool],
-        [lower, upper]: [f64; 2],
-    ) -> Option<&PressedState> {
-        let holds = |(k, own): &(usize, &PressedState)| {
-            let [own_lower, own_upper] = self.span(*k);
-            own_lower <= lower && upper <= own_upper && own.is_pressed == set
-        };
-        let mut states = self.states.iter().enumerate().filter(|_| self.left_out <= RESOLVED);
-        states.find(holds).map(|(_, state)| state)
-    }
 }
