@@ -34,7 +34,7 @@ pub(super) const ENDINGS: &[(&str, &str)] = &[
     ("_percent", "%"),
     ("_bytes", "bytes"),
     ("_kg", "kg"),
-    ("_n_m", "N m"),
+    ("torque_n_m", "N m"), // `u_n_m` is a displacement along the normal.
     ("_mpa", "MPa"),
     ("_pa", "Pa"),
     ("_m2", "m2"),
@@ -120,6 +120,12 @@ fn trimmed(number: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_motion_along_the_normal_is_no_torque() {
+        let units = ["torque_n_m", "u_n_m", "amplitude_n_m"].map(|key| unit_of(key).1);
+        assert_eq!(units, ["N m", "m", "m"]);
+    }
 
     #[test]
     fn no_number_is_shown_as_nan_infinite_or_negative_zero() {

@@ -72,7 +72,7 @@ pub struct BasinBoundary {
 }
 
 impl BasinRequest {
-    /// Bisects the ratio of two seeds for the one at which the second of two rivals wins.
+    /// Bisects the ratio of two seeds for the one at which the second of two rivals wins. Steady sliding is the rival 0.
     ///
     /// # Errors
     /// Those of a run.
@@ -81,25 +81,29 @@ impl BasinRequest {
         [first, second]: [usize; 2],
         mut run: impl FnMut(f64) -> Result<BasinRun, E>,
     ) -> Result<BasinBoundary, E> {
-        let mut runs = Vec::new();
+        // The ends of the range first: one that wins at both has no rival, but for a cycle that large kicks miss as small ones do.
+        let [from, to] = self.seed_ratios;
+        let mut runs = vec![run(from)?, run(to)?];
+        for part in [0.5, 0.25, 0.75] {
+            if first == 0 && runs.iter().all(|run| run.winner == first) {
+                runs.push(run(from * (to / from).powf(part))?);
+            }
+        }
+        let end = *runs[1..].iter().find(|run| run.winner == second).unwrap_or(&runs[1]);
         let mut bounds = [None, None];
-        // The ends of the range first: one that wins at both has no rival.
-        let mut range = self.seed_ratios;
-        for ratio in range {
-            let run = run(ratio)?;
+        for run in [runs[0], end] {
             let bound = &mut bounds[usize::from(run.winner == second)];
             // The second one's bound is its smallest ratio, the first's its largest.
             if run.winner == first || bound.is_none() {
                 *bound = run.saturation_ratio;
             }
-            runs.push(run);
         }
-        let is_contested = runs[0].winner == first && runs[1].winner == second;
+        let mut range = [from, end.seed_ratio];
+        let is_contested = runs[0].winner == first && end.winner == second;
         while is_contested && range[1] / range[0] > self.tolerance {
-            let middle = (range[0] * range[1]).sqrt(); // Geometric mean: seeds differ by factors.
-            let run = run(middle)?;
+            let run = run((range[0] * range[1]).sqrt())?; // Geometric mean: seeds differ by factors.
             let side = usize::from(run.winner == second);
-            (range[side], bounds[side]) = (middle, run.saturation_ratio); // The winner's end of the range moves in.
+            (range[side], bounds[side]) = (run.seed_ratio, run.saturation_ratio); // The winner's end of the range moves in.
             runs.push(run);
         }
         Ok(BasinBoundary { low: bounds[0], high: bounds[1], runs })
@@ -141,11 +145,9 @@ impl DiscModel {
         request: &BasinRequest,
     ) -> Result<f64, CycleError> {
         let friction = point.contact.friction_coefficient;
-        let limit = crate::cea::ModeLimit::Lowest(super::MODES);
-        let onsets = self.onsets(friction, limit)?;
+        let onsets = self.onsets(friction, crate::cea::ModeLimit::Lowest(super::MODES))?;
         let own = onsets.iter().filter(|onset| request.harmonics.contains(&onset.harmonic));
-        let slowest = own.map(|onset| onset.frequency).reduce(f64::min);
-        let slowest = slowest.ok_or_else(|| {
+        let slowest = own.map(|onset| onset.frequency).reduce(f64::min).ok_or_else(|| {
             let [one, other] = request.harmonics;
             CycleError::NotFound(format!(
                 "steady sliding is stable against waves of {one} and {other} nodal diameters at \
@@ -171,7 +173,6 @@ impl Contest<'_> {
         let mut run = self.start(seed_ratio)?;
         let steps = (self.period / run.plan().time_step).round().max(1.0) as usize;
         let look_every = (steps / LOOKS).max(1);
-        let window = WINDOW * steps;
         let mut sums = [0.0; 2];
         let mut saturation_ratio = None;
         let (mut share, mut agreeing) = (seed_ratio, 0);
@@ -186,7 +187,7 @@ impl Contest<'_> {
                 let found = self.amplitudes(&run);
                 sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
             }
-            if step % window == 0 {
+            if step % (WINDOW * steps) == 0 {
                 let before = std::mem::replace(&mut share, sums[1] / sums[0]); // A_2 / A_1, both averaged over the window.
                 sums = [0.0; 2];
                 let is_end = saturation_ratio.is_some() && is_final(before, share);
@@ -214,9 +215,9 @@ impl Contest<'_> {
         let seeds = [scale, scale * seed_ratio];
         let duration = self.request.periods as f64 * self.period;
         let wave = |(harmonic, velocity)| StandingWave { harmonic, velocity, phase: 0.0 };
-        let waves = self.request.harmonics.into_iter().zip(seeds).map(wave);
+        let waves = self.request.harmonics.into_iter().zip(seeds).map(wave).collect();
         let settings = TransientSettings {
-            perturbation: Perturbation { waves: waves.collect(), ..Perturbation::default() },
+            perturbation: Perturbation { waves, ..Perturbation::default() },
             ..TransientSettings::sliding(duration, TimeStep::Seconds(self.step), self.step)
         };
         Ok(CentralDifference::start(self.model, self.operator, &settings)?)
@@ -232,12 +233,45 @@ impl Contest<'_> {
 /// Whether the amplitude ratio stays as it is from one window to the next, or leaves one wave less and less.
 pub(super) fn is_final(before: f64, share: f64) -> bool {
     let change = share / before - 1.0;
-    let is_lost = share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0;
-    is_lost || change.abs() < CONSTANT
+    share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0 || change.abs() < CONSTANT
 }
 
 /// Whether a node sticks or is open.
 fn is_saturated(run: &CentralDifference<'_>) -> bool {
-    let mut status = run.contact().status.iter();
-    status.any(|&status| status != ContactStatus::Slip)
+    run.contact().status.iter().any(|&status| status != ContactStatus::Slip)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cycle that large kicks miss as small ones do is found by kicks between, to the tolerance.
+    #[test]
+    fn a_kick_may_be_too_large_for_a_cycle() {
+        let request = BasinRequest {
+            harmonics: [1, 2],
+            modes: None,
+            seed_ratios: [0.02, 50.0],
+            tolerance: 1.1,
+            periods: 100,
+        };
+        for [from, to] in [[0.033, 2.0], [0.03, 0.3], [3.0, 20.0]] {
+            let run = |ratio: f64| {
+                let winner = if (from..to).contains(&ratio) { 6 } else { 0 };
+                let saturation_ratio = Some(ratio);
+                let is_settled = true;
+                let run = BasinRun {
+                    seed_ratio: ratio,
+                    saturation_ratio,
+                    winner,
+                    is_settled,
+                    duration_s: 1.0,
+                };
+                Ok::<_, CycleError>(run)
+            };
+            let found = request.boundary([0, 6], run).unwrap();
+            let [low, high] = [found.low, found.high].map(Option::unwrap);
+            assert!(low < from && from <= high && high / low < 1.1, "{from} {to}: {low} {high}");
+        }
+    }
 }
