@@ -2,8 +2,8 @@
 
 use super::Result;
 use super::complementarity::range;
+use super::contact_system::ContactSystem;
 use super::elimination::Elimination;
-use super::penalty::PenaltyContact;
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
 use crate::contact::{Point, Row, summed};
@@ -24,7 +24,7 @@ impl Pressing<'_> {
     pub fn states(&self, mesh: &Mesh, friction_coefficients: &[f64]) -> Result<PressedRange> {
         let count = mesh.symmetry.as_ref().map_or(1, |symmetry| symmetry.count);
         let Some(first_of) = self.copies(count) else {
-            return range(&mut PenaltyContact::new(self)?, friction_coefficients);
+            return range(&mut ContactSystem::new(self)?, friction_coefficients);
         };
         // One sector, whose neighbours move as it does.
         let size = self.load.len() / count;
@@ -52,7 +52,7 @@ impl Pressing<'_> {
             laws: firsts.clone().map(|i| self.laws[i]).collect(),
             known: None,
         };
-        let mut range = range(&mut PenaltyContact::new(&own)?, friction_coefficients)?;
+        let mut range = range(&mut ContactSystem::new(&own)?, friction_coefficients)?;
 
         // The state of the whole body.
         let firsts: Vec<usize> = firsts.collect();

@@ -1,7 +1,7 @@
 //! Steady sliding of a body whose contact is pressed all around: its normal forces do not depend on friction.
 
+use super::contact_system::ContactSystem;
 use super::elimination::{Elimination, factorized};
-use super::penalty::PenaltyContact;
 use super::pressed_state::{PressedBodies, Pressing};
 use super::{PrestressError, Result};
 use crate::contact::{ContactInterface, Point, PressedState};
@@ -109,7 +109,7 @@ impl Pressing<'_> {
         let (separations, springs) = match self.stiffnesses.contains(&None) {
             true => (self.pushed.clone(), None),
             false => {
-                let own = PenaltyContact::new(self)?.state_of(0.0, &all)?;
+                let own = ContactSystem::new(self)?.state_of(0.0, &all)?;
                 (own.separations, own.stiffnesses)
             }
         };

@@ -74,15 +74,16 @@ impl<'a> JoinedPoints<'a> {
         factorized(&held, &self.unknowns)
     }
 
-    /// `n_i . K n_i` by the diagonal of `K`, N/m.
-    pub fn diagonal(&self) -> impl Iterator<Item = f64> {
+    /// About `1 / n_i . K^-1 n_i`, by the diagonal of `K`, N/m: the softer of two sides counts.
+    pub fn own_stiffnesses(&self) -> impl Iterator<Item = f64> {
         let mut diagonal = vec![0.0; self.unknowns.len()];
         for &(row, _, value) in self.stiffness.entries.iter().filter(|own| own.0 == own.1) {
             self.unknowns.unknown_of[row].into_iter().for_each(|at| diagonal[at] += value);
         }
-        let form =
-            move |row: &Row| row.iter().map(|&(at, along)| along * along * diagonal[at]).sum();
-        self.normals.iter().map(form)
+        self.normals.iter().map(move |row| {
+            let compliance: f64 = row.iter().map(|&(at, along)| along * along / diagonal[at]).sum();
+            if compliance > 0.0 { compliance.recip() } else { 1.0 } // Any where all is held.
+        })
     }
 
     /// The load over the unknowns.

@@ -9,6 +9,7 @@
 
 mod assembly;
 mod complementarity;
+mod contact_system;
 mod cyclic_pressing;
 mod elimination;
 mod error;
@@ -19,7 +20,6 @@ mod joined_points;
 mod joint;
 mod motion_matrices;
 mod options;
-mod penalty;
 mod pressed_range;
 mod pressed_state;
 mod pressing;

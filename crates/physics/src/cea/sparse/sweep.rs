@@ -172,21 +172,16 @@ impl<'a> SparseSweep<'a> {
         if self.builder.is_whole {
             return Ok(());
         }
-        let begins_at_rest =
-            self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..));
-        if begins_at_rest && !self.is_continued {
+        let is_reduced = matches!(self.linearization, Linearization::Reduced(..));
+        if !self.is_continued && (self.lowest > 0.0 || is_reduced) {
             self.builder.begin_at_rest()?;
         }
         let asked = &self.grid[self.first_asked()..];
-        let (mut open, mut held) = (Vec::new(), Vec::new());
+        let mut open: Vec<f64> = Vec::new();
         for mu in [asked[asked.len() - 1], asked[0], asked[asked.len() / 2]] {
-            let is_held = self.builder.is_sampled(mu) || open.contains(&mu);
-            if is_held { &mut held } else { &mut open }.push(mu);
+            open.extend((!self.builder.is_sampled(mu) && !open.contains(&mu)).then_some(mu));
         }
         self.builder.sample(&open)?;
-        for mu in held {
-            self.builder.improve_at(mu)?;
-        }
         self.fill_gaps()
     }
 

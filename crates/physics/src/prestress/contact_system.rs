@@ -63,7 +63,7 @@ const RIGID_NODES: usize = 7;
 /// Contact that stiffens, `N_i = w_i p(p_i - c_i)`, is linear about the force found last, with the stiffness of its tangent
 /// there and the push with which that passes through it: Newton's iteration on the approach as a function of the force, which
 /// is concave, so that no step runs away.
-pub(super) struct PenaltyContact<'a> {
+pub(super) struct ContactSystem<'a> {
     points: JoinedPoints<'a>,
     /// Points without springs of their own, `e_i = 0` where they are pressed.
     is_rigid: Vec<bool>,
@@ -91,15 +91,58 @@ struct Systems {
     family: LinearFamily,
 }
 
-impl<'a> PenaltyContact<'a> {
+/// What the equations of a set of pressed points are made of.
+struct Equations<'a> {
+    points: &'a JoinedPoints<'a>,
+    /// `P`, and columns of its inverse.
+    inverse: (&'a SparseLu, Option<&'a Mat<f64>>),
+    /// `s k`, `(s - e r) k`, `s p` and `e`.
+    own: Vec<f64>,
+    normal: Vec<f64>,
+    origin: Vec<f64>,
+    yields: Vec<f64>,
+    has_rigid: bool,
+}
+
+impl Equations<'_> {
+    /// `P^-1 E y` along normals, the part with `mu` by itself.
+    fn moved(&self, y: &[f64]) -> Vec<Vec<f64>> {
+        let fixed = self.normal.iter().zip(y).map(|(k, y)| [k * y, 0.0]).collect();
+        let moving = self.own.iter().zip(y).map(|(k, y)| [0.0, k * y]).collect();
+        self.points.moved_under(self.inverse, &[fixed, moving])
+    }
+
+    fn separations(&self, moved: &[f64]) -> Vec<f64> {
+        self.points.separations(&self.points.along_normals.expand(moved))
+    }
+
+    /// `n . d`; what is unknown with rigid points is `y`.
+    fn lifted(&self, x: &[f64]) -> Vec<f64> {
+        if self.has_rigid { x.to_vec() } else { self.separations(x) }
+    }
+
+    /// What is unknown, `x`, in the equations: `d + P^-1 E (n . d)`, or `e y + n . P^-1 E y`.
+    fn apply(&self, x: &[f64]) -> Vec<Vec<f64>> {
+        let mut found = self.moved(&self.lifted(x));
+        if self.has_rigid {
+            found.iter_mut().for_each(|own| *own = self.separations(own));
+            found[0].iter_mut().zip(x).zip(&self.yields).for_each(|((own, x), e)| *own += e * x);
+        } else {
+            add(&mut found[0], 1.0, x);
+        }
+        found
+    }
+}
+
+impl<'a> ContactSystem<'a> {
     /// Bodies on springs at all their points.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn new(pressing: &'a Pressing<'a>) -> Result<Self> {
         let points = JoinedPoints::new(pressing);
-        let own = pressing.stiffnesses.iter().zip(points.diagonal());
-        let springs: Vec<f64> = own.map(|(given, diagonal)| given.unwrap_or(diagonal)).collect();
+        let own = pressing.stiffnesses.iter().zip(points.own_stiffnesses());
+        let springs: Vec<f64> = own.map(|(given, own)| given.unwrap_or(own)).collect();
         let is_rigid = pressing.stiffnesses.iter().map(Option::is_none).collect();
         Ok(Self {
             last: Vec::new(),
@@ -124,7 +167,9 @@ impl<'a> PenaltyContact<'a> {
             .collect();
         let own = &self.points.along_normals;
         if self.columns.is_some() {
-        } else if self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD {
+            return Ok(());
+        }
+        if self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD {
             let rows: Vec<Row> = own.dofs.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
             self.columns = Some(self.points.columns(&self.solver, &rows));
         } else if self.is_slow && held != self.held {
@@ -137,63 +182,64 @@ impl<'a> PenaltyContact<'a> {
     /// Separations and normal forces on the springs as they are, and what moves along normals.
     fn linear_state(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> [Vec<f64>; 3] {
         let known = self.systems.take().filter(|systems| systems.is_pressed == is_pressed);
-        let Self { points, springs, held, solver, columns, is_rigid, .. } = &*self;
-        let has_rigid = is_rigid.contains(&true);
-        let pressed = |values: &[f64]| -> Vec<f64> {
-            let both = values.iter().zip(is_pressed);
-            both.map(|(value, is_pressed)| if *is_pressed { *value } else { 0.0 }).collect()
-        };
-        let (own, origin) = (pressed(springs), pressed(&self.pushed)); // s k and s p.
-        let along = |own: &dyn Fn(usize) -> [f64; 2]| (0..springs.len()).map(own).collect();
-        // P^-1 times ((s - e r) n + mu s drag t) k y, the part with mu by itself.
-        let yields = |i: usize| f64::from(u8::from(!(is_rigid[i] && is_pressed[i]))); // e_i.
-        let apart = |y: &[f64]| {
-            let normal = |i: usize| (own[i] - yields(i) * held[i]) * y[i];
-            let parts = [along(&|i| [normal(i), 0.0]), along(&|i| [0.0, own[i] * y[i]])];
-            points.moved_under((solver, columns.as_ref()), &parts)
-        };
-        let separations_of =
-            |moved: &[f64]| points.separations(&points.along_normals.expand(moved));
-        // d_0 of f + sum_i r_i k_i s_i p_i n_i, of the state found last where contact stiffens, y_0, and what is left of the equations there.
-        let mut systems = known.unwrap_or_else(|| {
-            let pushes: Vec<[f64; 2]> = along(&|i| [held[i] * origin[i], 0.0]);
-            let loaded = points.along_normals.restrict(&points.respond(solver, &pushes));
-            if has_rigid {
-                let sides = [difference(&separations_of(&loaded), &origin), vec![0.0; own.len()]];
-                let (unmoved, free, scale) = (sides[1].clone(), sides[1].clone(), norm(&sides[0]));
-                let family = LinearFamily::new(sides.to_vec(), scale);
-                return Systems { is_pressed: is_pressed.to_vec(), unmoved, free, family };
-            }
-            let unmoved = if self.last.is_empty() { loaded.clone() } else { self.last.clone() };
-            let free = difference(&separations_of(&unmoved), &origin);
-            let mut sides = apart(&free);
-            sides.iter_mut().flatten().for_each(|value| *value = -*value);
-            add(&mut sides[0], 1.0, &difference(&loaded, &unmoved));
-            let scale = norm(&free) * (unmoved.len() as f64 / free.len() as f64).sqrt();
-            let family = LinearFamily::new(sides, scale);
-            Systems { is_pressed: is_pressed.to_vec(), unmoved, free, family }
-        });
-
-        // With what `P` has not: (1 + P^-1 E n) d is that, y = y_0 + n . d. With rigid points (e + n . P^-1 E) y.
-        let apply = |x: &[f64]| {
-            let mut found = if has_rigid { apart(x) } else { apart(&separations_of(x)) };
-            if has_rigid {
-                found.iter_mut().for_each(|own| *own = separations_of(own));
-            }
-            let kept = found[0].iter_mut().zip(x).enumerate();
-            kept.for_each(|(i, (own, x))| *own += if has_rigid { yields(i) * x } else { *x });
-            found
-        };
+        let equations = self.equations(is_pressed);
+        let Equations { own, origin, yields, .. } = &equations;
+        let mut systems = known.unwrap_or_else(|| self.begin(&equations, is_pressed));
+        let apply = |x: &[f64]| equations.apply(x);
         let (mut moved, products) = systems.family.solve(friction_coefficient, apply, TOLERANCE);
-        let mut y = if has_rigid { moved.clone() } else { separations_of(&moved) };
+        let mut y = equations.lifted(&moved);
         add(&mut y, 1.0, &systems.free);
         // N = - s k y, and c = s p + e y; 0 - 0 has no sign.
         let forces = own.iter().zip(&y).map(|(spring, y)| 0.0 - spring * y).collect();
-        let separations = (0..y.len()).map(|i| origin[i] + yields(i) * y[i]).collect();
+        let separations = (0..y.len()).map(|i| origin[i] + yields[i] * y[i]).collect();
         (self.is_slow, self.asked) = (products > MOST_PRODUCTS, self.asked + 2 * products);
         add(&mut moved, 1.0, &systems.unmoved);
         self.systems = Some(systems);
         [separations, forces, moved]
+    }
+
+    /// The equations of a set of pressed points.
+    fn equations(&self, is_pressed: &[bool]) -> Equations<'_> {
+        let pressed = |values: &[f64]| -> Vec<f64> {
+            let both = values.iter().zip(is_pressed);
+            both.map(|(value, is_pressed)| if *is_pressed { *value } else { 0.0 }).collect()
+        };
+        let own = pressed(&self.springs);
+        let stands =
+            self.is_rigid.iter().zip(is_pressed).map(|(rigid, pressed)| *rigid && *pressed);
+        let yields: Vec<f64> = stands.map(|stands| f64::from(u8::from(!stands))).collect();
+        Equations {
+            points: &self.points,
+            inverse: (&self.solver, self.columns.as_ref()),
+            normal: (0..own.len()).map(|i| own[i] - yields[i] * self.held[i]).collect(),
+            own,
+            origin: pressed(&self.pushed),
+            yields,
+            has_rigid: self.is_rigid.contains(&true),
+        }
+    }
+
+    /// The systems of a set of pressed points.
+    fn begin(&self, equations: &Equations<'_>, is_pressed: &[bool]) -> Systems {
+        let (points, origin, is_pressed) = (&self.points, &equations.origin, is_pressed.to_vec());
+        let pushes = self.held.iter().zip(origin).map(|(held, origin)| [held * origin, 0.0]);
+        let pushes: Vec<[f64; 2]> = pushes.collect();
+        let loaded = points.along_normals.restrict(&points.respond(&self.solver, &pushes)); // d_0.
+        if equations.has_rigid {
+            let (free, none) = (equations.separations(&loaded), vec![0.0; origin.len()]);
+            let left = difference(&free, origin);
+            let scale = norm(&left);
+            let family = LinearFamily::new(vec![left, none.clone()], scale);
+            return Systems { is_pressed, unmoved: none.clone(), free: none, family };
+        }
+        // From the state found last where contact stiffens: what is left of the equations there.
+        let unmoved = if self.last.is_empty() { loaded.clone() } else { self.last.clone() };
+        let free = difference(&equations.separations(&unmoved), origin); // y_0.
+        let mut sides = equations.moved(&free);
+        sides.iter_mut().flatten().for_each(|value| *value = -*value);
+        add(&mut sides[0], 1.0, &difference(&loaded, &unmoved));
+        let scale = norm(&free) * (unmoved.len() as f64 / free.len() as f64).sqrt();
+        Systems { is_pressed, unmoved, free, family: LinearFamily::new(sides, scale) }
     }
 
     /// Springs and pushes of the tangents at some forces; whether any contact stiffens.
@@ -214,7 +260,7 @@ impl<'a> PenaltyContact<'a> {
     }
 }
 
-impl PressedBodies for PenaltyContact<'_> {
+impl PressedBodies for ContactSystem<'_> {
     fn pressing(&self) -> &Pressing<'_> {
         self.points.pressing
     }
