@@ -58,8 +58,7 @@ fn a_sweep_has_the_values_asked_for_and_that_of_the_case() {
         let folder = folder();
         let answer = on_disc(&folder, "cea", &["--no-figures"]).set(&[asked]).out("o").done();
         let rows = answer.rows("eigenvalues.csv");
-        let found: BTreeSet<&String> =
-            rows.iter().map(|row| &row["friction_coefficient"]).collect();
+        let found: BTreeSet<_> = rows.iter().map(|row| &row["friction_coefficient"]).collect();
         assert_eq!(found.into_iter().collect::<Vec<_>>(), ["0.1", "0.2", "0.3"]);
     }
 }
@@ -293,7 +292,6 @@ fn completions_and_manual_name_every_subcommand_with_files_and_exit_status() {
 #[cfg(unix)]
 #[test]
 fn a_reader_that_leaves_early_is_no_failure() {
-    use std::process::Stdio;
     let mut program = Run::new(&["completions", "zsh"]).program();
     let mut child = program.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());

@@ -275,8 +275,7 @@ pub fn grows_from(model: TransientModel<'_>, mode: &ComplexMode) {
 
     // The factor of the shape at the end, by least squares.
     let end = run.state();
-    let moved: Vec<f64> =
-        end.displacement.iter().zip(&base).map(|(u, b)| (u - b) / scale).collect();
+    let moved: Vec<_> = end.displacement.iter().zip(&base).map(|(u, b)| (u - b) / scale).collect();
     let parts = DMatrix::from_fn(shape.len(), 2, |i, k| [shape[i].re, -shape[i].im][k]);
     let moved = DMatrix::from_vec(shape.len(), 1, moved);
     let factor = (parts.transpose() * &parts).lu().solve(&(parts.transpose() * &moved)).unwrap();

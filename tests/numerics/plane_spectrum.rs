@@ -1,6 +1,5 @@
 //! Eigenvalues on unstructured meshes against Table 1 and the exact continuum (independent checks).
 
-use crate::continuum::Contact;
 use crate::convergence::rates::DISC;
 use crate::prelude::*;
 

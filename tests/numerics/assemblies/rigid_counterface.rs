@@ -43,8 +43,7 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
             ..sliding(&mesh, stiffness)
         };
         let on_rigid = assembled(&mesh, on_rigid, &[]).unwrap();
-        let pressures =
-            [&held, &on_rigid].map(|assembly| assembly.state(0.4).unwrap().normal_forces(0.4));
+        let pressures = [&held, &on_rigid].map(|a| a.state(0.4).unwrap().normal_forces(0.4));
         if stiffness.is_none() {
             let largest = pressures[0].iter().copied().fold(0.0, f64::max);
             assert!(largest > 0.0);

@@ -2,7 +2,7 @@
 
 use super::rates::{DISC, refinements};
 use crate::cea_cyclic::dense::fold;
-use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped, smallest_first};
+use crate::continuum::{damped, smallest_first};
 use crate::prelude::*;
 
 /// Radial expansion of the cylinder, m.

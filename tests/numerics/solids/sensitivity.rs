@@ -1,7 +1,6 @@
 //! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
 
 use super::*;
-use crate::waves::{Differences, STEP, pairs, rates};
 
 /// Linear elements in the first tier; quadratic ones stay there under a ring in rigid contact and where a ring is pressed in part.
 fn kinds() -> &'static [ElementKind] {
