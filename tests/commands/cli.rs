@@ -87,11 +87,9 @@ fn a_file_that_is_not_there_is_answered_with_the_one_that_is_meant() {
     let shipped = run(&folder, &["frf", "cases/hammer-test.toml"]);
     shipped.refused(&["`frictionsim init --all` writes the shipped cases ; !did you mean"]);
     // The system's words alone told neither where it was looked for nor what to do.
-    let answer = run(&folder, &["cea", "another.toml"]).refused(&[
-        "cannot read another.toml: there is no file ",
-        "another.toml; `frictionsim init",
-    ]);
-    assert!(!answer.stderr.contains("did you mean"));
+    run(&folder, &["cea", "another.toml"])
+        .refused(&["cannot read another.toml: there is no file \
+         ; another.toml; `frictionsim init ; !did you mean"]);
     run(&folder, &["mesh", "."]).refused(&["cannot read .: it is a folder"]);
 }
 
