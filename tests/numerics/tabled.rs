@@ -10,7 +10,7 @@ fn rubber(scale: f64) -> Vec<[f64; 3]> {
 }
 
 /// The disc, whose modulus depends on frequency, on a deformable shaft of steel.
-fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
+fn tangent(rows: Vec<[f64; 3]>, stiffness: ContactStiffness) -> SlidingTangent {
     let specification = on_shaft(annulus(Quad4, 16, 3), 1);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let steel = ElasticMaterial { loss_factor: 0.002, ..crate::shaft::STEEL };
@@ -18,12 +18,9 @@ fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingT
     let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
     let disc = RegionMaterial { table: Some(Arc::new(table)), ..disc.into() };
     let materials = vec![disc, steel.into()];
-    let options = TangentOptions {
-        geometric_stiffness: true,
-        damping: rayleigh_damping(20.0, 1e-7),
-        contact: contact_stiffness,
-        ..TANGENT
-    };
+    let damping = rayleigh_damping(20.0, 1e-7);
+    let options =
+        TangentOptions { geometric_stiffness: true, damping, contact: stiffness, ..TANGENT };
     linearized(&mesh, &materials, &contact(610.0), &options)
 }
 
