@@ -49,7 +49,7 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_819),
+    ("crates/case", 10_823),
     ("crates/chart", 4_744),
     ("crates/described", 107),
     ("crates/formats", 6_047),

@@ -216,10 +216,14 @@ impl<'a> Section<'a> {
         self.misread(key, !self.declared(key).is_numeric(), error);
     }
 
-    /// Reports a value that cannot be read, a number or what others hang on: nothing more is said of it then.
+    /// Reports a value that cannot be read, a number or what others hang on: nothing more is said of it then, but of
+    /// another key that has its value from the same place of a mesh file.
     fn misread(&self, key: &str, is_word: bool, error: Diagnostic) {
         let (part, at) = (part_of(&self.name(key)).to_owned(), error.at.clone());
-        self.findings.add(error);
+        let mut errors = self.findings.errors.borrow_mut();
+        if !errors.contains(&error) {
+            errors.push(error);
+        }
         self.findings.misread.borrow_mut().push((part, is_word, at));
     }
 
