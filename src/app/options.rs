@@ -155,16 +155,19 @@ impl OutputOptions {
         (own, replace)
     }
 
-    /// Takes the folder of a run. With `--dry-run` says instead which one it would be.
+    /// As [`Self::destination`], where the run may have that. With `--dry-run` says instead which one it would be.
     ///
     /// # Errors
-    /// Those of [`OutputFolder::open`]; [`Failure::DryRun`].
-    pub fn open_folder(
+    /// Those of [`OutputFolder::may_open`]; [`Failure::DryRun`].
+    pub fn find_folder(
         &self,
         manifest: &Manifest,
         is_continued: bool,
-    ) -> Result<OutputFolder, Failure> {
+    ) -> Result<(PathBuf, Replace), Failure> {
         let (path, replace) = self.destination(manifest, is_continued);
+        if is_continued && !path.exists() {
+            tracing::warn!("{} does not exist: starting from the beginning", path.display());
+        }
         if replace == Replace::Anything {
             refuse_input_inside(&path, Path::new(&manifest.case_file))?;
         }
@@ -172,6 +175,15 @@ impl OutputOptions {
             OutputFolder::may_open(&path, manifest, replace)?;
             return Err(self.dry_run_at(&path, manifest));
         }
+        Ok((path, replace))
+    }
+
+    /// Takes the folder of a run.
+    ///
+    /// # Errors
+    /// Those of [`Self::find_folder`] and [`OutputFolder::open`].
+    pub fn open_folder(&self, manifest: &Manifest, goes_on: bool) -> Result<OutputFolder, Failure> {
+        let (path, replace) = self.find_folder(manifest, goes_on)?;
         Ok(OutputFolder::open(&path, manifest, replace)?)
     }
 
@@ -192,15 +204,10 @@ impl OutputOptions {
     }
 
     /// Completes the output folder and prints as [`Self::print`].
-    pub fn finish(
-        &self,
-        folder: OutputFolder,
-        table: &str,
-        summary: &Value,
-    ) -> Result<(), Failure> {
+    pub fn finish(&self, folder: OutputFolder, text: &str, summary: &Value) -> Result<(), Failure> {
         let path = folder.destination().to_owned();
         folder.finish()?;
-        self.print(table, summary, &path)
+        self.print(text, summary, &path)
     }
 
     /// Writes the tables, the figures, the page and the summary of a result; gives what is printed of it, for people
@@ -354,11 +361,8 @@ impl Default for FigureOptions {
 impl FigureOptions {
     /// What the drawing needs to know.
     pub fn drawing(&self) -> DrawingOptions {
-        DrawingOptions {
-            dots_per_inch: self.dpi,
-            width_mm: self.width,
-            formats: self.format.clone(),
-        }
+        let formats = self.format.clone();
+        DrawingOptions { dots_per_inch: self.dpi, width_mm: self.width, formats }
     }
 }
 

@@ -101,13 +101,9 @@ impl Session {
     }
 
     /// The same for a finding.
-    pub fn finish_finding(
-        &self,
-        folder: OutputFolder,
-        finding: &impl Finding,
-    ) -> Result<(), Failure> {
-        let figures = || declared(finding.figures());
-        self.finish_result(folder, finding.document(), finding, figures)
+    pub fn finish_finding(&self, folder: OutputFolder, own: &impl Finding) -> Result<(), Failure> {
+        let figures = || declared(own.figures());
+        self.finish_result(folder, own.document(), own, figures)
     }
 
     /// What its summary begins with.

@@ -1,7 +1,6 @@
 //! Options of the commands whose work is dealt out: parts of it, and a folder that is gone on with.
 
 use super::{Failure, Session};
-use crate::results::OutputFolder;
 use crate::results::sweep::{Start, SweepFolder};
 use crate::study::Shard;
 use clap::Args;
@@ -39,11 +38,7 @@ impl ShareOptions {
             (true, false) => Start::Resume,
             (false, false) => Start::Fresh,
         };
-        let (path, replace) = output.destination(&session.manifest, self.resume);
-        if output.dry_run {
-            OutputFolder::may_open(&path, &session.manifest, replace)?;
-            return Err(output.dry_run_at(&path, &session.manifest));
-        }
+        let (path, _) = output.find_folder(&session.manifest, self.resume)?;
         let folder = SweepFolder::open(&path, &session.manifest, count, pieces, start)?;
         session.keep_inputs(folder.output())?;
         Ok(folder)

@@ -2,9 +2,8 @@
 
 use crate::common::prelude::*;
 use base64::prelude::{BASE64_STANDARD, Engine};
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader};
 use std::net::{TcpListener, TcpStream};
-use std::process::{Child, Command, Stdio};
 
 /// One page in one browser; closed when dropped.
 pub struct Browser {

@@ -305,8 +305,7 @@ fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     // Curves of both runs in one panel.
     press(&browser, "pairs", "Zoom");
     let names = browser.run("return [...document.querySelectorAll('#pairs .series')].map(b => b.textContent.split(': ')[0])");
-    let names: BTreeSet<&str> =
-        names.as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    let names: BTreeSet<_> = names.as_array().unwrap().iter().filter_map(Value::as_str).collect();
     assert_eq!(names.len(), 2, "{names:?}");
     check_page(&browser);
 }

@@ -58,8 +58,7 @@ fn a_sweep_has_the_values_asked_for_and_that_of_the_case() {
         let folder = folder();
         let answer = on_disc(&folder, "cea", &["--no-figures"]).set(&[asked]).out("o").done();
         let rows = answer.rows("eigenvalues.csv");
-        let found: BTreeSet<&String> =
-            rows.iter().map(|row| &row["friction_coefficient"]).collect();
+        let found: BTreeSet<_> = rows.iter().map(|row| &row["friction_coefficient"]).collect();
         assert_eq!(found.into_iter().collect::<Vec<_>>(), ["0.1", "0.2", "0.3"]);
     }
 }
@@ -88,11 +87,9 @@ fn a_file_that_is_not_there_is_answered_with_the_one_that_is_meant() {
     let shipped = run(&folder, &["frf", "cases/hammer-test.toml"]);
     shipped.refused(&["`frictionsim init --all` writes the shipped cases ; !did you mean"]);
     // The system's words alone told neither where it was looked for nor what to do.
-    let answer = run(&folder, &["cea", "another.toml"]).refused(&[
-        "cannot read another.toml: there is no file ",
-        "another.toml; `frictionsim init",
-    ]);
-    assert!(!answer.stderr.contains("did you mean"));
+    run(&folder, &["cea", "another.toml"])
+        .refused(&["cannot read another.toml: there is no file \
+         ; another.toml; `frictionsim init ; !did you mean"]);
     run(&folder, &["mesh", "."]).refused(&["cannot read .: it is a folder"]);
 }
 
@@ -293,7 +290,6 @@ fn completions_and_manual_name_every_subcommand_with_files_and_exit_status() {
 #[cfg(unix)]
 #[test]
 fn a_reader_that_leaves_early_is_no_failure() {
-    use std::process::Stdio;
     let mut program = Run::new(&["completions", "zsh"]).program();
     let mut child = program.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());

@@ -1,7 +1,6 @@
 //! Commands inside another program: side by side, interrupted, panicking.
 
 use crate::prelude::*;
-use frictionsim::app::Failure;
 use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
 use std::ffi::OsString;
 

@@ -12,7 +12,7 @@ fn fitted(name: &str, table: &str, set: &[&str]) -> Answer {
     run.out("out").set(set).end()
 }
 
-const COARSE_DISC: [&str; 2] = ["mesh.circumferential_elements=40", "mesh.radial_elements=8"];
+const COARSE: &str = "mesh.circumferential_elements=40 ; mesh.radial_elements=8";
 
 fn disc_table() -> String {
     fs::read_to_string(shipped("table-1.csv")).unwrap()
@@ -88,8 +88,7 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
 
 #[test]
 fn what_the_data_cannot_tell_apart_is_named() {
-    let set = ["fit.parameters.\"material.density\"=[1000, 1500]", "fit.starts=2"];
-    let set = [COARSE_DISC.as_slice(), &set].concat();
+    let set = [COARSE, "fit.parameters.\"material.density\"=[1000, 1500] ; fit.starts=2"];
     let said = "cannot tell ; material.young_modulus ; material.density ; contact.normal_stiffness";
     fitted("fit-table-1.toml", &disc_table(), &set).code(1).warns(&[said]);
 }
@@ -97,9 +96,8 @@ fn what_the_data_cannot_tell_apart_is_named() {
 #[test]
 fn a_line_that_no_mode_can_be_is_named() {
     let table = "frequency_hz,harmonic,unstable\n7660,1,1\n9900,2,1\n10500,1,1\n9000,0,1\n";
-    let one = ["fit={ starts = 1, parameters = { \"material.young_modulus\" = [1.5e9, 3e9] } }"];
-    let set = [COARSE_DISC.as_slice(), &one].concat();
-    fitted("fit-table-1.toml", table, &set).code(1).warns(&["line 5", "n = 0, unstable"]);
+    let one = "fit={ starts = 1, parameters = { \"material.young_modulus\" = [1.5e9, 3e9] } }";
+    fitted("fit-table-1.toml", table, &[COARSE, one]).code(1).warns(&["line 5", "n = 0, unstable"]);
 }
 
 #[test]
@@ -107,14 +105,13 @@ fn more_parameters_than_data_and_bad_tables_are_refused_before_anything_runs() {
     let tables = [("5857\n7655", &["3 parameters", "2 measured"][..]), ("abc", &["modes.csv:2:1"])];
     for (rows, said) in tables {
         let table = format!("frequency_hz\n{rows}\n");
-        fitted("fit-table-1.toml", &table, &COARSE_DISC).code(2).warns(said);
+        fitted("fit-table-1.toml", &table, &[COARSE]).code(2).warns(said);
     }
 }
 
 #[test]
 fn a_fit_on_its_bound_says_so() {
-    let set = ["fit.parameters={ \"material.young_modulus\" = [1.5e9, 2.2e9] }"];
-    let set = [COARSE_DISC.as_slice(), &set].concat();
+    let set = [COARSE, "fit.parameters={ \"material.young_modulus\" = [1.5e9, 2.2e9] }"];
     // The disc's lowest torsion and the lowest waves around it.
     let folder = folder_with(&[("m.csv", b"f [Hz],harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n")]);
     let words = ["fit", &shipped("fit-table-1.toml"), "m.csv", "--json", "--format", "svg"];

@@ -149,7 +149,7 @@ fn points_off_the_body_are_counted_and_wrong_units_recognised() {
 }
 
 #[test]
-fn a_table_has_shapes_by_their_names_in_any_columns() {
+fn a_table_has_shapes_by_their_names_in_any_columns_and_a_universal_file_complex_ones() {
     let text = "mode;frequency_hz;x;y;uy_im;uy_re;ux\n\
                 a;100;0;1;0,5;1;2+3j\nb;200;0;1;1;2;3\na;100;1;1;;-1;nan\n;;;;;;\n";
     let shapes = read_shapes(text.as_bytes(), "s.csv").unwrap();
@@ -159,12 +159,8 @@ fn a_table_has_shapes_by_their_names_in_any_columns() {
     let first = [Some(c64::new(2.0, 3.0)), Some(c64::new(1.0, 0.5)), None];
     assert_eq!(shapes[0].motion[0], first);
     assert_eq!(shapes[0].motion[1][0], None);
-}
-
-#[test]
-fn a_universal_file_has_nodes_and_complex_shapes() {
-    let text = include_str!("../cases/shape.unv");
-    let shapes = read_shapes(text.as_bytes(), "s.unv").unwrap();
+    // A universal file has nodes and complex shapes.
+    let shapes = read_shapes(include_bytes!("../cases/shape.unv"), "s.unv").unwrap();
     assert_eq!(shapes[0].name, "4");
     assert!((shapes[0].frequency_hz.unwrap() - 1000.0).abs() < 1e-9);
     assert_eq!(shapes[0].points, [[1.0, 2.0, 3.0]]);

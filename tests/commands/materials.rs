@@ -63,14 +63,13 @@ fn five_constants_are_the_nine_of_a_transversely_isotropic_material() {
 
 #[test]
 fn structural_damping_has_its_meaning_or_is_refused() {
-    let run = "transient={ duration=1e-4, expansion_time=5e-5 }";
-    let case = read(&["material.loss_factor=0.1", "mesh.element=\"quad4\"", run]).unwrap();
+    let lossy = "material.loss_factor=0.1 ; mesh.element=quad4 ; \
+        transient={ duration=1e-4, expansion_time=5e-5 }";
+    let case = read(&[lossy]).unwrap();
     let message = case.require_transient().unwrap_err().to_string();
     has(&message, &["material.loss_factor ; cea.max_frequency_hz ; stiffness_coefficient"]);
     // With a band to keep it over, a chain stands for it, whose error is known.
-    let band =
-        ["material.loss_factor=0.1", "mesh.element=\"quad4\"", run, "cea.max_frequency_hz=12000.0"];
-    let stepped = read(&band).unwrap();
+    let stepped = read(&[lossy, "cea.max_frequency_hz=12000.0"]).unwrap();
     stepped.require_transient().unwrap();
     let chain = stepped.relaxed.as_ref().unwrap()[0].chain.as_ref().unwrap();
     assert_eq!(chain.band_hz, [120.0, 12000.0]);

@@ -31,24 +31,19 @@ fn counts_are_printed_and_summed_up() {
 /// Harmonics with losses, and those of a body of revolution.
 #[test]
 fn harmonics_hold_as_many_modes_as_the_whole_mesh() {
-    let plane = ["mesh.radial_elements=4", "material.loss_factor=0.02"];
-    let solid = ["mesh.radial_elements=3", "mesh.axial_elements=1"];
-    for (case, sets) in [("polycarbonate-disc.toml", plane), ("disc-three-dimensions.toml", solid)]
-    {
-        let common = [
-            "mesh.circumferential_elements=12",
-            "mesh.element=\"quad4\"",
-            "cea.friction_coefficients=[0.0, 0.3]",
-            "cea.max_frequency_hz=12000",
-        ];
-        let sets = [&common[..], &sets].concat();
+    for (case, sets) in [
+        ("polycarbonate-disc.toml", ["mesh.radial_elements=4", "material.loss_factor=0.02"]),
+        ("disc-three-dimensions.toml", ["mesh.radial_elements=3", "mesh.axial_elements=1"]),
+    ] {
+        let common = "mesh.circumferential_elements=12 ; mesh.element=quad4 ; \
+            cea.friction_coefficients=[0.0, 0.3] ; cea.max_frequency_hz=12000";
+        let sets = [&[common][..], &sets].concat();
         let waves =
             counted(case, &sets).says(&["harmonics are counted at quarters", "harmonics 0 to 6"]);
         let whole = [&sets[..], &["cea.method=\"sparse\""]].concat();
-        let summary = counted(case, &whole).summary();
-        let counts = summary["mode_counts"].as_array().unwrap();
-        assert_eq!(counts.len(), 2, "{counts:?}");
-        for count in counts {
+        let counts = counted(case, &whole).summary()["mode_counts"].clone();
+        assert!(counts[1].is_object() && counts[2].is_null(), "{counts}");
+        for count in counts.as_array().unwrap() {
             let friction = count["friction_coefficient"].as_f64().unwrap();
             let rows = waves.rows("eigenvalues.csv").into_iter();
             let listed = rows.filter(|row| row.numbers(["friction_coefficient"]) == [friction]);
@@ -61,18 +56,13 @@ fn harmonics_hold_as_many_modes_as_the_whole_mesh() {
 #[test]
 fn branches_that_hardly_grow_are_told_from_squeal() {
     let run = |damping: &str| {
-        let sets = [
-            "mesh.circumferential_elements=24",
-            "mesh.radial_elements=4",
-            "cea.geometric_stiffness=false",
-            "contact.normal_stiffness=1e5",
-            "damping.stiffness_coefficient=0",
-            damping,
-        ];
-        Run::of("cea", shipped("polycarbonate-disc.toml")).out("run").set(&sets).done().said()
+        let sets = "mesh.circumferential_elements=24 ; mesh.radial_elements=4 ; \
+            cea.geometric_stiffness=false ; contact.normal_stiffness=1e5 ; \
+            damping.stiffness_coefficient=0";
+        let run = Run::of("cea", shipped("polycarbonate-disc.toml")).out("run");
+        run.set(&[sets, damping]).done().said()
     };
-    let undamped = run("damping.mass_coefficient=0");
-    has(&undamped, &["13 unstable branches hardly grow ("]);
+    has(&run("damping.mass_coefficient=0"), &["13 unstable branches hardly grow ("]);
     has(&run("damping.mass_coefficient=1"), &["0 unstable ; !hardly grow"]);
 }
 

@@ -41,9 +41,8 @@ fn the_force_of_an_interference_gives_that_interference_back() {
         let force = with("contact.interference=2e-5").normal_forces().unwrap()[0];
         assert!(force > 0.0, "{own:?}");
         let pressed = with(&format!("contact.normal_force={force:?}"));
-        let found = pressed.contact.sliding.interference;
-        assert!((found / 2e-5 - 1.0).abs() < 1e-9, "{own:?}: {found:e}");
-        assert!((pressed.normal_forces().unwrap()[0] / force - 1.0).abs() < 1e-9);
+        near_each(&[pressed.contact.sliding.interference], &[2e-5], 1e-9);
+        near_each(&pressed.normal_forces().unwrap()[..1], &[force], 1e-9);
     }
 }
 
@@ -59,9 +58,9 @@ fn every_contact_gets_its_own_force() {
         )
     };
     let forces = |more: &[String], [left, right]: [f64; 2]| {
-        let set =
-            [&[SEAM.to_owned(), contact("left", left), contact("right", right)], more].concat();
-        case_of(folder.path().join("case.toml"), PADS, &set).normal_forces().unwrap()
+        let own = [SEAM.to_owned(), contact("left", left), contact("right", right)];
+        let path = folder.path().join("case.toml");
+        case_of(path, PADS, &[&own, more].concat()).normal_forces().unwrap()
     };
     near_each(&forces(&[], [200.0, 300.0]), &[200.0, 300.0], 1e-9);
     for (held, bound) in [(1e4, 1e-4), (1e6, 1e-6), (1e9, 1e-9)] {
@@ -74,26 +73,20 @@ fn every_contact_gets_its_own_force() {
     }
 }
 
-/// Closed form: a block without Poisson's ratio under a rigid plane is a spring `E A / h`.
+/// Closed forms: a block without Poisson's ratio under a rigid plane is a spring `E A / h`; springs of `k` on the length `l` give way by
+/// `F / (k l)`, and a stiff block with them. The force that is found on springs so soft is rounded by more than the share to which it is
+/// met elsewhere.
 #[test]
 fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
     let folder = folder();
-    let set = [ON_PLANE, "contact.normal_force=1000.0 ; material.poisson_ratio=0.0"];
-    let case = case_of(folder.path().join("case.toml"), PADS, &set);
-    let exact = 1000.0 * 0.01 / (2.5e9 * 0.02 * 0.02);
-    let found = case.contact.sliding.interference;
-    assert!((found / exact - 1.0).abs() < 1e-9, "{found:e} {exact:e}");
-}
-
-/// Closed form: springs of `k` on the length `l` give way by `F / (k l)`, and a stiff block with them. The force that is found on
-/// springs so soft is rounded by more than the share to which it is met elsewhere.
-#[test]
-fn a_stiff_block_on_soft_springs_is_pushed_in_by_its_force() {
-    let folder = folder();
-    let set = "material.young_modulus=2e11 ; contact.normal_force=10.0 ; boundaries.back={ \
+    let block = [ON_PLANE, "contact.normal_force=1000.0 ; material.poisson_ratio=0.0"];
+    let springs = "material.young_modulus=2e11 ; contact.normal_force=10.0 ; boundaries.back={ \
         condition=\"support\", normal_stiffness=1e4, tangential_stiffness=1e4 }";
-    let case = case_of(folder.path().join("case.toml"), BLOCK, &[set]);
-    let exact = 10.0 / (1e4 * 0.04);
-    let found = case.contact.sliding.interference;
-    assert!((found / exact - 1.0).abs() < 1e-4, "{found:e} {exact:e}");
+    for (text, set, exact, bound) in [
+        (PADS, &block[..], 1000.0 * 0.01 / (2.5e9 * 0.02 * 0.02), 1e-9),
+        (BLOCK, &[springs], 10.0 / (1e4 * 0.04), 1e-4),
+    ] {
+        let case = case_of(folder.path().join("case.toml"), text, set);
+        near_each(&[case.contact.sliding.interference], &[exact], bound);
+    }
 }

@@ -63,13 +63,10 @@ fn check_redrawn(folder: &TempDir, expected: &str) {
     }
 }
 
-const COARSE: [&str; 2] = ["mesh.circumferential_elements=60", "mesh.radial_elements=12"];
+const COARSE: &str = "mesh.circumferential_elements=60 ; mesh.radial_elements=12";
 
-const SHORT: [&str; 3] = [
-    COARSE[0],
-    COARSE[1],
-    "output.probes=[1,200] ; output.snapshots=[0.002] ; transient.duration=0.004",
-];
+const SHORT: [&str; 2] =
+    [COARSE, "output.probes=[1,200] ; output.snapshots=[0.002] ; transient.duration=0.004"];
 const CYCLE_MESH: &str = "mesh.circumferential_elements=90 ; mesh.radial_elements=18";
 
 /// Holds figures of a run to be there and to be drawn again: command, shipped case, changes, figures, one of them and its words.
@@ -91,8 +88,7 @@ macro_rules! drawn_again {
 
 drawn_again! {
     eigenvalue_figures_are_drawn_again: "cea" on "polycarbonate-disc.toml" with [
-        COARSE[0],
-        COARSE[1],
+        COARSE,
         "cea.friction_coefficients={from=0.0,to=0.4,count=5} ; cea.shapes_at=[0.2,0.3]",
     ];
     "locus pairs prestress modes-mu-0.3 branch-n1-2-against", of which "locus" says &[];
@@ -101,8 +97,7 @@ drawn_again! {
     "overview-1 overview-200 spectrum-200 growth velocity shear-stress trajectories contact energy",
         of which "growth" says &["rate of the eigenvalue analysis"];
     study_figures_are_drawn_again: "sweep" on "speed-friction-study.toml" with [
-        COARSE[0],
-        COARSE[1],
+        COARSE,
         "output.probes=[1] ; transient.duration=0.004 ; \
          sweep.\"contact.rotation_speed_rpm\"=[70,610]",
         "sweep.\"contact.friction_coefficient\"=[0.3]",
@@ -138,9 +133,9 @@ drawn_again! {
 #[test]
 fn response_and_identification_are_drawn_again_to_the_same_bytes() {
     let folder = folder();
-    let set = ["mesh.circumferential_elements=60 ; mesh.radial_elements=12 ; frf.force_node=13 ; \
-         frf.response_node=13 ; frf.frequencies_hz={from=4.0,to=10000.0,count=2500}"];
-    run(&folder, "frf", "hammer-test.toml", &set).args(&FEW_DOTS).done();
+    let set = "frf.force_node=13 ; frf.response_node=13 ; \
+        frf.frequencies_hz={from=4.0,to=10000.0,count=2500}";
+    run(&folder, "frf", "hammer-test.toml", &[COARSE, set]).args(&FEW_DOTS).done();
     check_redrawn(&folder, "response");
     fs::rename(folder.path().join("out/frf.csv"), folder.path().join("response.csv")).unwrap();
     // The tables are not needed.
@@ -181,7 +176,7 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     let refuse = |more: &[&str], reason: &str| plot(&folder, more).refused(&[reason]);
     refuse(&[], "there is no such folder");
     refuse(&["--dpi", "5"], "20 to 1200");
-    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE).done();
+    run(&folder, "mesh", "polycarbonate-disc.toml", &[COARSE]).done();
     let above = Run::new(&["plot", "."]).within(&folder);
     above.refused(&["it has no manifest.json (results are in ./out)"]);
     let pair = Run::new(&["compare", "out", "none"]).within(&folder);
@@ -216,10 +211,9 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
 fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
     let folder = folder();
     let answer = run(&folder, "mesh", "pad-on-disc.toml", &[]).done();
-    let words =
-        ">lining< ; >rim< ; >hub< ; pad:  ; counterface edge ; outward normal of the contact edge";
     let picture = answer.text("figures/mesh.svg");
-    has(&picture, &[words]);
+    has(&picture, &[">lining< ; >rim< ; >hub< ; pad:  ; counterface edge"]);
+    has(&picture, &["outward normal of the contact edge"]);
     // The contact edge lies over its counterface.
     assert!(picture.rfind("#d55e00") > picture.rfind("#56b4e9"));
     let summary = answer.summary();

@@ -23,10 +23,9 @@ fn cea(folder: &Path, case: impl AsRef<Path>, set: &[&str]) -> Answer {
 fn budget(answer: &Answer, tolerance: f64) -> Vec<(bool, f64, f64, Vec<Row>)> {
     let rows = answer.rows("contributions.csv");
     let of_mode = |mode: Row| {
-        let is_own = |row: &Row| {
-            ["mode", "friction_coefficient"].iter().all(|name| row[*name] == mode[*name])
-        };
-        let own: Vec<Row> = rows.iter().filter(|row| is_own(row)).cloned().collect();
+        let names = ["mode", "friction_coefficient"];
+        let is_own = |row: &&Row| names.iter().all(|name| row[*name] == mode[*name]);
+        let own: Vec<Row> = rows.iter().filter(is_own).cloned().collect();
         let [growth, hz] = mode.numbers(["growth_rate_per_s", "frequency_hz"]);
         let (omega, sum) = (TAU * hz, own.iter().map(rate).sum::<f64>());
         assert!((sum - growth).abs() < tolerance * omega, "{sum} {growth}");
@@ -94,11 +93,9 @@ fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
         .map(|line| line.replace("normal_damping = 1e4", ""));
     let case = undamped.collect::<Vec<_>>().join("\n");
     let folder = folder_with(&[("pads.msh", &pads()), ("case.toml", case.as_bytes())]);
-    for (lossy, name) in [
-        ("boundaries.slab_z0.loss_factor=0.1", "slab_z0"),
-        ("contacts.first.loss_factor=0.1", "first"),
-    ] {
-        let answer = cea(folder.path(), "case.toml", &[lossy]);
+    for [group, name] in [["boundaries", "slab_z0"], ["contacts", "first"]] {
+        let lossy = format!("{group}.{name}.loss_factor=0.1");
+        let answer = cea(folder.path(), "case.toml", &[&lossy]);
         let mut largest = 0.0_f64;
         for (has_friction, growth, omega, own) in budget(&answer, 1e-8) {
             if !has_friction {

@@ -5,9 +5,7 @@ use crate::prelude::*;
 use flate2::read::ZlibDecoder;
 use frictionsim::results::cea::{Solution, View, document, page, summary, write_fields};
 use frictionsim::results::mesh::MeshStatistics;
-use frictionsim::results::{EncodedMesh, Field, FolderError, Head, cartesian_vectors, write_vtu};
-use frictionsim::results::{write_summary, write_tables};
-use std::io::Read;
+use frictionsim::results::{EncodedMesh, Field, cartesian_vectors, write_summary, write_vtu};
 
 fn annulus(element: ElementKind) -> AnnulusMesh {
     let even = crate::disc::ring([0.02, 0.09], element, 12, 3);
@@ -240,8 +238,7 @@ fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
     let ratio = times[0].parse::<f64>().unwrap() / mode.frequency_hz();
     assert!((ratio - 1.0).abs() <= 1e-10, "{times:?} {ratio}");
     assert_eq!(BTreeSet::from_iter(&times).len(), times.len());
-    let real: Vec<f64> =
-        mode.shape.as_deref().unwrap_or_default().iter().map(|value| value.re).collect();
+    let real: Vec<f64> = mode.shape.as_deref().unwrap_or_default().iter().map(|u| u.re).collect();
     let written = floats(&decode(&bytes, "displacement_real"));
     assert_eq!(written, cartesian_vectors(&mesh.mesh, &real));
     for amplitude in floats(&decode(&bytes, "amplitude")) {

@@ -2,8 +2,10 @@
 
 use crate::prelude::*;
 
-fn disc() -> String {
-    disc_of([90, 18], "")
+/// What is measured, beside the disc.
+fn beside(name: &str, measured: &str) -> TempDir {
+    let disc = disc_of([90, 18], "");
+    folder_with(&[(name, measured.as_bytes()), ("disc.toml", disc.as_bytes())])
 }
 
 /// Grows at 600 1/s and 9.87 kHz into a limit cycle at 9.44 kHz with superharmonics; sampled each 2 us.
@@ -26,8 +28,7 @@ fn squeal() -> String {
 
 #[test]
 fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
-    let folder =
-        folder_with(&[("probe.csv", squeal().as_bytes()), ("disc.toml", disc().as_bytes())]);
+    let folder = beside("probe.csv", &squeal());
     let words = ["signal", "probe.csv", "--case", "disc.toml", "--json", "--quiet"];
     let summary = Run::new(&words).within(&folder).done().value();
     let channel = &summary["channels"][0];
@@ -48,8 +49,7 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
 
 #[test]
 fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
-    let table = tones(2.5e5, 20_000, &[("x", 9433.0)]);
-    let folder = folder_with(&[("tone.csv", table.as_bytes()), ("disc.toml", disc().as_bytes())]);
+    let folder = beside("tone.csv", &tones(2.5e5, 20_000, &[("x", 9433.0)]));
     let run = |more: &[&str]| {
         Run::of("signal", "tone.csv").within(&folder).args(&["--case", "disc.toml"]).args(more)
     };

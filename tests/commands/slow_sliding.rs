@@ -57,8 +57,7 @@ fn bodies_that_creep_on_cylinders_and_balls_have_every_mode_of_a_dense_decomposi
         let all = quadratic_eigenvalues(matrices.each_ref());
         // Damping of half of critical makes an eigenvalue 1.16 times its frequency.
         let listed = largest_error(&all, &own);
-        let is_due =
-            |mode: &c64| mode.im > 0.0 && mode.im < own[5].im && -mode.re < 0.5 * mode.norm();
+        let is_due = |l: &c64| l.im > 0.0 && l.im < own[5].im && -l.re < 0.5 * l.norm();
         let due: Vec<c64> = all.into_iter().filter(is_due).collect();
         let error = listed.max(largest_error(&own, &due));
         below(error, 8e-9, format!("{counterface} {rpm}: {own:?} {due:?}"));

@@ -4,7 +4,6 @@
 
 use crate::prelude::*;
 use crate::sweep::table;
-use std::process::{Child, Stdio};
 
 /// A coarse disc: thirty transients of some five milliseconds each.
 const STUDY: &str = include_str!("../cases/sweep-of-short-runs.toml");
@@ -127,6 +126,19 @@ fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
     assert_eq!(points(&study.folder("full")), before);
     study.sweep("full", &["--resume"]).done();
     study.is_whole("full");
+}
+
+#[test]
+fn a_folder_that_is_not_there_to_go_on_with_is_named_once() {
+    let study = Study::new();
+    let set = ["sweep={ \"contact.friction_coefficient\" = [0.3] }", "cea={ modes = 1 }"];
+    for command in ["sweep", "cea", "transient"] {
+        let run = || Run::of(command, "study.toml").within(&study.root).set(&set).out(command);
+        let said = run().args(&["--resume"]).done().stderr;
+        let note = format!("{command} does not exist: starting from the beginning");
+        assert_eq!(said.matches(&note).count(), 1, "{said}");
+        assert!(said.matches("from the beginning").count() == 1, "{said}");
+    }
 }
 
 #[test]

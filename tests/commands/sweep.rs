@@ -2,9 +2,7 @@
 //! place of a solver, so that the checks are about who runs what and what is kept of it.
 
 use crate::prelude::*;
-use frictionsim::app::Failure;
 use frictionsim::app::sweep::{SweepProgress, *};
-use frictionsim::results::FolderError;
 use frictionsim::results::sweep::{Start, SweepFolder};
 use serde_json::Map;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -117,13 +117,9 @@ fn a_vibration_that_decays_ends_in_steady_sliding() {
 
 #[test]
 fn a_run_from_a_limit_cycle_has_no_linear_stage() {
-    let start = [
-        "transient.initial=\"limit-cycle\"",
-        "transient.limit_cycle_harmonic=2",
-        // The waves of coarser meshes are no motion of the disc.
-        "mesh.circumferential_elements=90",
-        "mesh.radial_elements=18",
-    ];
+    // The waves of coarser meshes are no motion of the disc.
+    let start = ["transient.initial=limit-cycle ; transient.limit_cycle_harmonic=2 ; \
+         mesh.circumferential_elements=90 ; mesh.radial_elements=18"];
     let summary = transient(folder().path(), &start).done().says(&["!linear stage"]).summary();
     assert!(summary["growth"].as_array().unwrap().is_empty());
     assert!(summary["no_growth"].as_object().unwrap().is_empty());
@@ -155,36 +151,26 @@ fn stopped(out: &Path, signal: Option<&str>) -> Answer {
 
 const OFTEN: [&str; 2] = ["output.checkpoint_interval=0.02", "transient.duration=0.03"];
 
+/// Killed, and interrupted, which keeps what it has and says how to go on; a run may have ended before the signal came.
 #[test]
-fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
+fn a_stopped_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
     let folder = folder();
-    let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
-    let whole = transient(&whole, &OFTEN).done();
-    stopped(&killed, None);
-    let killed = resumed(&killed, &OFTEN).done();
-    assert_same(&killed, &whole);
+    let whole = transient(&folder.path().join("whole"), &OFTEN).done();
     let without_times = |mut summary: Value| {
-        for key in ["wall_s", "element_steps_per_s"] {
-            summary[key] = Value::Null;
-        }
+        ["wall_s", "element_steps_per_s"].iter().for_each(|key| summary[*key] = Value::Null);
         summary
     };
-    assert_eq!(without_times(killed.summary()), without_times(whole.summary()));
-}
-
-#[cfg(unix)]
-#[test]
-fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
-    let folder = folder();
-    let out = folder.path().join("out");
-    let answer = stopped(&out, Some("INT"));
-    if answer.code == Some(0) {
-        // The run ended before the signal came.
-        return;
+    for signal in [None, Some("INT")].into_iter().take(1 + usize::from(cfg!(unix))) {
+        let out = folder.path().join(signal.unwrap_or("killed"));
+        let answer = stopped(&out, signal);
+        if signal.is_some() && answer.code != Some(0) {
+            let answer = answer.code(130).warns(&["--resume"]).wrote("energy.csv");
+            assert_eq!(answer.summary()["finished"], false);
+        }
+        let resumed = resumed(&out, &OFTEN).done();
+        assert_same(&resumed, &whole);
+        assert_eq!(without_times(resumed.summary()), without_times(whole.summary()));
     }
-    let answer = answer.code(130).warns(&["--resume"]).wrote("energy.csv");
-    assert_eq!(answer.summary()["finished"], false);
-    assert_eq!(resumed(&out, &OFTEN).done().summary()["finished"], true);
 }
 
 /// Longer runs of a finished one: the bytes of a run that was asked to last that long at once.
@@ -222,8 +208,7 @@ fn a_refused_continuation_leaves_the_finished_folder_as_it_was() {
     fs::write(&path, file_of(&[BRICK], |point| point)).unwrap();
     let case = include_str!("../cases/short-transient.toml");
     let out = folder.path().join("out");
-    let run =
-        |further: &[&str]| Run::of_text("transient", folder.path(), case).out("out").args(further);
+    let run = |more: &[&str]| Run::of_text("transient", folder.path(), case).out("out").args(more);
     run(&[]).done();
     let known = ["manifest.json", "mesh.msh", "summary.json", "checkpoint.bin"];
     let bytes = || known.map(|name| fs::read(out.join(name)).unwrap());

@@ -2,13 +2,8 @@
 
 use super::prelude::*;
 
-pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2.5e9,
-    poisson_ratio: 0.3805,
-    density: 1228.0,
-    formulation: PlaneFormulation::PlaneStrain,
-    ..ElasticMaterial::PLAIN
-};
+pub const POLYCARBONATE: ElasticMaterial =
+    elastic(2.5e9, 0.3805, 1228.0, PlaneFormulation::PlaneStrain);
 
 pub const DAMPING: RayleighDamping = rayleigh_damping(40.0, 4.5e-7);
 
@@ -37,20 +32,13 @@ pub fn ring(
 
 /// The cylinder with friction that falls over speeds of the order of its own, 1.31 m/s at 610 rpm.
 pub fn falling(rotation_speed_rpm: f64) -> SlidingContact {
-    SlidingContact {
-        decay: Some(FrictionDecay { static_ratio: 1.5, decay_speed: 0.8 }),
-        ..contact(rotation_speed_rpm)
-    }
+    let decay = Some(FrictionDecay { static_ratio: 1.5, decay_speed: 0.8 });
+    SlidingContact { decay, ..contact(rotation_speed_rpm) }
 }
 
 /// The cylinder at friction coefficient 0.3.
 pub fn contact(rotation_speed_rpm: f64) -> SlidingContact {
-    SlidingContact {
-        decay: None,
-        friction_coefficient: 0.3,
-        interference: 25e-6,
-        rotation_speed: rotation_speed_rpm * PI / 30.0,
-    }
+    sliding_at(0.3, 25e-6, rotation_speed_rpm * PI / 30.0)
 }
 
 /// Rigid contact without dashpots.
@@ -275,8 +263,7 @@ pub fn grows_from(model: TransientModel<'_>, mode: &ComplexMode) {
 
     // The factor of the shape at the end, by least squares.
     let end = run.state();
-    let moved: Vec<f64> =
-        end.displacement.iter().zip(&base).map(|(u, b)| (u - b) / scale).collect();
+    let moved: Vec<_> = end.displacement.iter().zip(&base).map(|(u, b)| (u - b) / scale).collect();
     let parts = DMatrix::from_fn(shape.len(), 2, |i, k| [shape[i].re, -shape[i].im][k]);
     let moved = DMatrix::from_vec(shape.len(), 1, moved);
     let factor = (parts.transpose() * &parts).lu().solve(&(parts.transpose() * &moved)).unwrap();

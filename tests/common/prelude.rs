@@ -17,6 +17,7 @@ pub use super::table_1::TABLE_1;
 pub use super::tier::sized;
 pub use super::triangles::{body, triangles};
 pub use faer::{Mat, c64};
+pub use frictionsim::app::Failure;
 pub use frictionsim::case::{Case, CaseErrors, KEYS, unset};
 pub use frictionsim::cea::ModeLimit::{Lowest, MaxFrequency};
 pub use frictionsim::fem::MassKind::{Consistent, Lumped};
@@ -28,7 +29,11 @@ pub use frictionsim::mesh::ElementKind::{Tet4, Tet10, Tri3, Tri6, Wedge6, Wedge1
 pub use frictionsim::prestress::DampingModel::{BodyOnly, WholeTangent};
 pub use frictionsim::results::cea::{BaseField, BaseState, CeaReport, ContactPlace, ContactState};
 pub use frictionsim::results::{BodyStress, Extent, Manifest, OutputFolder, Replace, ShownBody};
+pub use frictionsim::results::{
+    DrawingOptions, FolderError, Format, Head, write_page, write_tables,
+};
 pub use frictionsim::study::eigenvalues::modes_and_onsets;
+pub use frictionsim::study::transient::TransientStudy;
 pub use frictionsim::{cea::*, contact::*, cycle::*, fem::*, frf::*, linalg::*, mesh::*};
 pub use frictionsim::{prestress::*, transient::*};
 pub use nalgebra::DMatrix;
@@ -37,8 +42,10 @@ pub use std::collections::{BTreeMap, BTreeSet};
 pub use std::f64::consts::{PI, TAU};
 pub use std::fmt::Write as _;
 pub use std::fs;
+pub use std::io::{Read, Write};
 pub use std::ops::ControlFlow;
 pub use std::path::{Path, PathBuf};
+pub use std::process::{Child, Command, Stdio};
 pub use std::sync::{Arc, LazyLock};
 pub use std::time::{Duration, Instant};
 pub use tempfile::TempDir;

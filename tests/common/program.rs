@@ -2,9 +2,8 @@
 
 use super::prelude::*;
 use std::ffi::OsStr;
-use std::io::Write;
 use std::ops::Index;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 /// A run that is being put together.
 pub struct Run {

@@ -4,8 +4,7 @@
 
 use crate::cycle_branch::over_speed;
 use crate::prelude::*;
-use frictionsim::study::basin::boundary;
-use frictionsim::study::basin::boundary_of_modes;
+use frictionsim::study::basin::{boundary, boundary_of_modes};
 
 fn cycle(case: &Case) -> FoundCycle {
     cycles(case).remove(0).outcome.unwrap()

@@ -2,7 +2,6 @@
 //!
 //! Independent: integration from event to event on both sides of a fold; the spectrum of steady sliding. The others are identities.
 
-use crate::oscillator::{EventDriven, oscillator};
 use crate::prelude::*;
 use frictionsim::cycle::periodic::PeriodicBranch;
 

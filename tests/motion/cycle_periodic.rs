@@ -6,9 +6,6 @@
 use crate::prelude::*;
 use frictionsim::results::cycle::Origin;
 use frictionsim::study::cycle::refuse_nothing;
-use frictionsim::study::transient::TransientStudy;
-
-use crate::oscillator::{EventDriven, oscillator};
 
 /// The block at a friction coefficient at which one mode grows.
 fn block(overrides: &[&str]) -> Case {
@@ -39,10 +36,8 @@ pub fn hold_to_transient(case: &Case) -> PeriodicResult {
 }
 
 /// A transient that grows from noise.
-const FROM_NOISE: [&str; 1] = [
-    "transient.duration=0.012 ; transient.time_step=4e-7 ; transient.initial=\"steady-sliding\" ; \
-     transient.perturbation.noise=1e-2",
-];
+const FROM_NOISE: [&str; 1] = ["transient.duration=0.012 ; transient.time_step=4e-7 ; \
+     transient.initial=\"steady-sliding\" ; transient.perturbation.noise=1e-2"];
 
 #[test]
 fn the_cycle_of_a_block_is_that_of_its_transient() {
@@ -110,24 +105,18 @@ fn impacts_leave_a_perturbation_that_grows_its_rate() {
 }
 
 #[test]
-fn springs_and_dashpots_of_the_contact_are_those_of_the_transient() {
+fn cycles_on_springs_and_dashpots_of_the_contact_and_of_two_bodies_are_those_of_their_transients() {
     let springs = ["contact.normal_stiffness=2e13", "contact.tangential_damping=1e3"];
-    let result = hold_to_transient(&block(&[&FROM_NOISE[..], &springs].concat()));
-    let powers = found(&result).motion.powers;
-    assert!(powers.contact.damping > 0.0 && powers.balance_residual() < 1e-6);
-}
-
-#[test]
-fn the_cycle_of_a_disc_on_a_deformable_shaft_is_that_of_its_transient() {
-    let result = hold_to_transient(&shipped_case(
-        "deformable-shaft.toml",
-        &["mesh.circumferential_elements=48 ; mesh.radial_elements=10 ; \
-             mesh.shaft_radial_elements=2 ; cea.max_frequency_hz=12000.0 ; \
-             cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" } ; \
-             transient.duration=0.012 ; \
-             transient.perturbation={ harmonics = [1], velocity = 0.05 }"],
-    ));
-    assert!(found(&result).motion.powers.balance_residual() < 1e-6);
+    let shaft = "mesh.circumferential_elements=48 ; mesh.radial_elements=10 ; \
+        mesh.shaft_radial_elements=2 ; cea.max_frequency_hz=12000.0 ; \
+        cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" } ; \
+        transient.duration=0.012 ; transient.perturbation={ harmonics = [1], velocity = 0.05 }";
+    let on_springs = block(&[&FROM_NOISE[..], &springs].concat());
+    for case in [on_springs, shipped_case("deformable-shaft.toml", &[shaft])] {
+        let powers = found(&hold_to_transient(&case)).motion.powers;
+        assert!(powers.balance_residual() < 1e-6);
+        assert_eq!(powers.contact.damping > 0.0, case.contact.stiffness.tangential_damping > 0.0);
+    }
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use frictionsim::study::eigenvalues::modes_with_waves_below;
-use frictionsim::study::transient::TransientStudy;
 
 /// A pad on a disc that turns, the seam of the disc glued.
 const PAD: &str = include_str!("../cases/pad-on-a-turning-disc.toml");

@@ -123,11 +123,10 @@ fn pressed(
     let range = body.range(frictions).unwrap();
     let states = frictions.iter().zip(&range.state_of).map(|(friction, &k)| {
         let state = &range.states[k];
-        let (forces, displacement) =
-            (state.normal_forces(*friction), state.displacement(*friction));
+        let (forces, moved) = (state.normal_forces(*friction), state.displacement(*friction));
         let total: f64 = forces.iter().sum();
         for (i, force) in forces.iter().enumerate() {
-            let gap = displacement[2 * edge.nodes[i] as usize] - interference;
+            let gap = moved[2 * edge.nodes[i] as usize] - interference;
             assert!(*force >= -pulled * total && gap >= -deep, "{friction} {i} {force} {gap}");
             assert!(*force <= pulled * total || gap.abs() < deep, "{friction} {i} {force} {gap}");
         }

@@ -42,8 +42,7 @@ impl Body {
             let value = report.parameters[at].1;
             // Moduli run away with Poisson's ratio.
             let step = if key.ends_with("poisson_ratio") { 2e-4 } else { 2e-3 } * value;
-            let sides =
-                [1.0, -1.0].map(|sign| self.solve(&[format!("{key}={:?}", value + sign * step)]));
+            let sides = [1.0, -1.0].map(|s| self.solve(&[format!("{key}={:?}", value + s * step)]));
             let hold = |own: c64, derivative: c64, [above, below]: [c64; 2], rounding: f64| {
                 let difference = (above - below) / (2.0 * step);
                 let error = (derivative - difference).norm();
@@ -90,10 +89,8 @@ fn supported_oval(contact: &str) -> Body {
 /// Supports with dashpots, falling friction, prestress: nothing is proportional, and the base state moves.
 #[test]
 fn sensitivities_of_an_oval_on_supports_are_differences_of_its_spectra() {
-    let falling = supported_oval(
-        "static_friction_ratio = 1.3\ndecay_speed = 1.0\ntangential_damping = 200.0\n",
-    );
-    let onsets = falling.check(&[
+    let falls = "static_friction_ratio = 1.3\ndecay_speed = 1.0\ntangential_damping = 200.0\n";
+    let onsets = supported_oval(falls).check(&[
         ("material.young_modulus", "young_modulus"),
         ("material.poisson_ratio", "poisson_ratio"),
         ("material.density", "density"),
@@ -141,11 +138,9 @@ fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
     ];
     let folder = folder_with(&[("blocks.msh", &file_of(&blocks, |point| point))]);
     let text = include_str!("../cases/two-blocks-under-pressure.toml").to_owned();
-    let (isotropic, orthotropic) = (
-        "young_modulus = 8e9\npoisson_ratio = 0.25\n",
-        "young_moduli = [8e9, 7e9, 3e9]\npoisson_ratios = [0.25, 0.15, 0.2]\n\
-         shear_moduli = [3e9, 1.2e9, 1e9]\n",
-    );
+    let isotropic = "young_modulus = 8e9\npoisson_ratio = 0.25\n";
+    let orthotropic = "young_moduli = [8e9, 7e9, 3e9]\npoisson_ratios = [0.25, 0.15, 0.2]\n\
+         shear_moduli = [3e9, 1.2e9, 1e9]\n";
     let mut body = Body { folder, text };
     body.check(&[
         ("materials.upper.young_modulus", "materials.upper.young_modulus"),

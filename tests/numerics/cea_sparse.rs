@@ -83,6 +83,13 @@ fn an_unstable_mode_just_above_the_list_is_told() {
     }
 }
 
+/// Whatever lists the modes: of a whole mesh, of waves, of a part that stands free.
+#[test]
+fn a_mode_on_a_limit_in_frequency_is_listed_and_one_that_a_limit_in_number_parts_from_its_pair() {
+    let selected = |limit: ModeLimit| limit.selected([1.0, TAU, TAU, 7.0].into_iter());
+    assert_eq!([MaxFrequency(1.0), Lowest(2), Lowest(1)].map(selected), [3, 3, 1]);
+}
+
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.
 #[test]
 fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {

@@ -41,9 +41,8 @@ fn solid(file: &FileMesh) -> Mesh {
 fn pressed(file: &FileMesh, interference: f64) -> [f64; 2] {
     let mesh = solid(file);
     let contact = on_rigid(&mesh, "z0", ball(interference), Some(1e13));
-    let assembly =
-        Assembly::new(&mesh, &RUBBER, (&[], &[contact]), (&[], BaseChoice::Solved), Consistent)
-            .unwrap();
+    let (contacts, base) = (&[contact][..], (&[][..], BaseChoice::Solved));
+    let assembly = Assembly::new(&mesh, &RUBBER, (&[], contacts), base, Consistent).unwrap();
     let forces = assembly.state(0.0).unwrap().normal_forces(0.0);
     let points = &assembly.contacts()[0].1.points;
     let pressures = forces.iter().zip(points).map(|(force, point)| force / point.weight);

@@ -9,7 +9,6 @@ mod folded;
 pub mod rates;
 
 use crate::continuum::prestress::SteadyState;
-use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
 use crate::prelude::*;
 use folded::{Discretisation, FORWARD, INTERFERENCE, Study, base_states, material};
 use rates::{DISC, assert_rate, rate, refinements};

@@ -257,9 +257,8 @@ fn a_disc_of_linear_bricks_has_the_contact_of_its_whole_mesh() {
 fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
     for (divisions, tolerance) in [([20, 3], 0.02), ([40, 6], 0.01)] {
         let [around, radial] = divisions;
-        let mesh =
-            format!("mesh.circumferential_elements={around} ; mesh.radial_elements={radial}");
-        let [waves, whole] = METHODS.map(|method| under_a_ring(&[], &[&mesh, method]).sweep);
+        let set = format!("mesh.circumferential_elements={around} ; mesh.radial_elements={radial}");
+        let [waves, whole] = METHODS.map(|method| under_a_ring(&[], &[&set, method]).sweep);
         let [own, other] = [&waves, &whole].map(|sweep| -> Vec<f64> {
             sweep.points[1].modes.iter().map(ComplexMode::frequency_hz).collect()
         });
@@ -279,40 +278,34 @@ fn on_a_cylinder(name: &str, change: &str, method: &str) -> Solution {
 }
 
 /// Cross-method: what a support of the outer face has around the axis, its dashpot too, does not act along it. There it has a stiffness
-/// of its own. A flat face has all of it along both tangents.
+/// of its own. A flat face has all of it along both tangents. A pressure on the outer face acts on the face that the nodes span, and with
+/// its stress on the modes.
 #[test]
-fn a_disc_on_supports_is_its_whole_mesh() {
+fn a_disc_on_supports_and_under_pressure_is_its_whole_mesh() {
     let outer = "boundaries.outer={ condition = \"support\", normal_stiffness = 5e10, \
                  tangential_stiffness = 3e10, axial_stiffness = 2e10, normal_damping = 2e4, \
                  tangential_damping = 1e4 }";
     let bottom = "boundaries.bottom={ condition = \"support\", normal_stiffness = 1e10, \
                   tangential_stiffness = 3e10, normal_damping = 1e4, tangential_damping = 2e4 }";
     let lumped = format!("cea.mass=lumped ; {outer}");
+    let pressure = "boundaries.outer={ condition = \"pressure\", pressure = 2e7 } ; \
+                    boundaries.bottom={ condition = \"clamped\" } ; cea.geometric_stiffness=true";
     // The small space that a harmonic is solved in leaves out 2e-7 of what dashpots of the first do to its modes.
-    for (support, tolerance) in [(outer, 2e-6), (bottom, 1e-9), (&lumped, 2e-6)] {
+    let all = [(outer, 2e-6), (bottom, 1e-9), (&lumped, 2e-6), (pressure, 1e-9)];
+    for (support, tolerance) in all {
         let [waves, whole] = METHODS.map(|method| on_a_cylinder("support", support, method));
         assert_equal(&waves, &whole, tolerance);
     }
 }
 
-/// Cross-method: a pressure on the outer face acts on the face that the nodes span, and with its stress on the modes.
-#[test]
-fn a_disc_under_pressure_is_its_whole_mesh() {
-    let pressure = "boundaries.outer={ condition = \"pressure\", pressure = 2e7 } ; \
-                    boundaries.bottom={ condition = \"clamped\" } ; cea.geometric_stiffness=true";
-    let [waves, whole] = METHODS.map(|method| on_a_cylinder("pressure", pressure, method));
-    assert_equal(&waves, &whole, 1e-9);
-}
-
 /// A face that is held along the axis, or across it, is so in every sector; one that is held along x alone makes the sectors differ.
 #[test]
 fn a_disc_with_a_face_held_along_some_axes_is_its_whole_mesh() {
-    for directions in ["\"z\"", "\"x\", \"y\"", "\"x\""] {
-        let held =
-            format!("boundaries.bottom={{ condition = \"fixed\", directions = [{directions}] }}");
+    for held in ["\"z\"", "\"x\", \"y\"", "\"x\""] {
+        let set = format!("boundaries.bottom={{ condition = \"fixed\", directions = [{held}] }}");
         let [own, whole] =
-            ["cea.method=auto", METHODS[1]].map(|method| on_a_cylinder("held", &held, method));
-        let method = if directions == "\"x\"" { "sparse" } else { "cyclic" };
+            ["cea.method=auto", METHODS[1]].map(|by| on_a_cylinder("held", &set, by));
+        let method = if held == "\"x\"" { "sparse" } else { "cyclic" };
         assert_eq!([own.method, whole.method], [method, "sparse"]);
         assert_equal(&own, &whole, 1e-9);
     }

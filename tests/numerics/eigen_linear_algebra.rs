@@ -82,9 +82,8 @@ fn one_analysis_solves_real_complex_and_transposed_systems() {
 fn singular_matrix_is_an_error_not_a_nan() {
     // A closed chain without supports: constant vectors are in its kernel.
     let n = 40;
-    let entries =
-        (0..n).flat_map(|i| [(i, i, 2.0), (i, (i + 1) % n, -1.0), ((i + 1) % n, i, -1.0)]);
-    let p = MatrixPolynomial::from_triplets(n, &[entries.collect()]);
+    let all = (0..n).flat_map(|i| [(i, i, 2.0), (i, (i + 1) % n, -1.0), ((i + 1) % n, i, -1.0)]);
+    let p = MatrixPolynomial::from_triplets(n, &[all.collect()]);
     let analysis = LuAnalysis::new(p.pattern()).unwrap();
     let outcome = SparseLu::factorize(&analysis, p.evaluate(0.0));
     // The message names what exceeds its bound: the solution is exact, but for a nearby right side.

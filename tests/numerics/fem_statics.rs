@@ -1,8 +1,6 @@
 //! Independent checks of the element matrices against elasticity theory.
 
 use crate::prelude::*;
-use crate::solid_elements::sample;
-use nalgebra::Matrix3;
 
 const ELEMENTS: [ElementKind; 2] = [Quad4, Quad8];
 

@@ -23,14 +23,7 @@ fn sliding(damping_model: DampingModel) -> FrfSystem {
 fn on_dashpots() -> FrfSystem {
     let mut mesh = annulus().mesh;
     let rim = mesh.boundaries.iter_mut().find(|own| own.condition == Clamped).unwrap();
-    let [stiffness, damping] = [1e12, 5e5];
-    rim.condition = Support(ElasticSupport {
-        normal_stiffness: stiffness,
-        tangential_stiffness: stiffness,
-        normal_damping: damping,
-        tangential_damping: damping,
-        ..ElasticSupport::default()
-    });
+    rim.condition = support([1e12, 1e12, 0.0], [5e5; 2]);
     FrfSystem::body(&mesh, &POLYCARBONATE, Consistent, DAMPING, true)
 }
 

@@ -102,8 +102,7 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
                 let component = own.direction.component().unwrap();
                 tangent.unknowns.unknown_of[2 * own.node + component].unwrap()
             });
-            let [from, to] =
-                [force, response].map(|own| whole.port(&mesh, None, own, "node").unwrap());
+            let [from, to] = [force, response].map(|t| whole.port(&mesh, None, t, "node").unwrap());
             let direct = direct_response(&whole, &from, &to, &frequencies, &|_| {}).unwrap();
             let waves = cyclic_response(&cyclic, force, response, &frequencies).unwrap();
             let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);

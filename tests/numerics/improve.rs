@@ -61,9 +61,8 @@ impl Body {
         let label = mesh.node_label(node);
         let along = |direction: [f64; 3]| {
             let listed = &direction[..mesh.dimension];
-            let place =
-                format!("modifications.t.at={label} ; modifications.t.direction={listed:?}");
-            let with = |p| vec![format!("{place} ; modifications.t.{key}={p:?}")];
+            let at = format!("modifications.t.at={label} ; modifications.t.direction={listed:?}");
+            let with = |p| vec![format!("{at} ; modifications.t.{key}={p:?}")];
             self.difference(eigenvalue, step, &with)
         };
         // The quadratic form from its values along the axes and between them.
@@ -100,8 +99,7 @@ impl Body {
         let middle = own().map(|e| mesh.element_middle(e)).next().unwrap();
         let listed = &middle[..mesh.dimension];
         let place = format!("modifications.t.center={listed:?} ; modifications.t.radius=1e-6");
-        let damped =
-            |p: f64| vec![format!("{place} ; modifications.t.stiffness_coefficient={p:?}")];
+        let damped = |p| vec![format!("{place} ; modifications.t.stiffness_coefficient={p:?}")];
         let by_damping = self.difference(eigenvalue, 1e-8, &damped);
         let first = own().next().unwrap();
         near("damping", fields.damping[first] * size(first), by_damping, &[by_damping]);

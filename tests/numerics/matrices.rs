@@ -5,7 +5,6 @@
 
 use crate::cea_cyclic::dense::dense_quadratic;
 use crate::prelude::*;
-use std::io::Read;
 
 /// The eigenvalues published with the problem.
 fn published() -> Vec<c64> {
@@ -16,10 +15,9 @@ fn published() -> Vec<c64> {
 /// Badly scaled on purpose: sizes of eigenvalues lie seven orders apart. A plain linearization loses the small ones.
 #[test]
 fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
-    let [mass, damping, stiffness] =
-        ["M.mtx", "C.mtx", "K.mtx"].map(|name| market_matrix(&public(name)));
+    let [m, c, k] = ["M.mtx", "C.mtx", "K.mtx"].map(|name| market_matrix(&public(name)));
     let exact = published();
-    let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+    let found = quadratic_modes(m.as_ref(), c.as_ref(), k.as_ref()).unwrap();
     assert_eq!(found.len(), exact.len());
     let own: Vec<c64> = found.iter().map(|mode| mode.eigenvalue).collect();
     // A prototype in another language, by the same windows, has 3e-13.
@@ -131,13 +129,12 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
     let block = |name, z: f64, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, 0.01], counts);
     let blocks = [block("low", 0.0, [2, 2, 1]), block("high", 0.01, [3, 2, 1])];
     let text = format!("{BLOCKS}[cea]\nfriction_coefficients = [0.4]\nmodes = 6\n");
-    let files: [(&str, &[u8]); 2] =
-        [("block.msh", &file_of(&blocks, |p| p)), ("block.toml", text.as_bytes())];
-    let stiffer =
-        "boundaries.high_x1.normal_stiffness=1e12 ; contacts.face.friction_coefficient=0.4";
+    let mesh = file_of(&blocks, |p| p);
+    let files = [("block.msh", &mesh[..]), ("block.toml", text.as_bytes())];
+    let set = "boundaries.high_x1.normal_stiffness=1e12 ; contacts.face.friction_coefficient=0.4";
     for contact in [&["contacts.face.normal_stiffness=1e13"][..], &[]] {
         let folder = folder_with(&files);
-        let answer = solved(&folder, &[&[stiffer], contact].concat());
+        let answer = solved(&folder, &[&[set], contact].concat());
         assert!(listed_modes_found(&folder, 0.4) >= 6);
         // Points part by one where the upper block, second in the file, is lifted by one; pressed rigid points do not part.
         let unknowns = columns(&answer.rows("unknowns.csv"), ["node", "direction_z"]);
@@ -158,11 +155,9 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
 
 /// Two blocks of which the upper one, taller than wide, is held loosely at its side, and slides on the lower.
 fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
-    let block =
-        |name, z: f64, height, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], counts);
-    let across = sized(1, 2);
-    let blocks =
-        [block("low", 0.0, 0.01, [2, across, 1]), block("high", 0.01, 0.03, [3, across, 2])];
+    let block = |name, z: f64, high, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, high], counts);
+    let wide = sized(1, 2);
+    let blocks = [block("low", 0.0, 0.01, [2, wide, 1]), block("high", 0.01, 0.03, [3, wide, 2])];
     let cea = format!("[cea]\nfriction_coefficients = {frictions}\nmodes = 6\n");
     let text = format!("{BLOCKS}{contact}\n{cea}");
     fs::write(folder.path().join("block.msh"), file_of(&blocks, |p| p)).unwrap();
@@ -216,10 +211,9 @@ fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
     files.retain(|name| !name.starts_with('.'));
     let beside = ["manifest.json", "mesh.msh", "summary.json"];
     assert_eq!(files, [&["C.mtx", "K.mtx", "M.mtx"][..], &beside].concat());
-    let [mass, damping, stiffness] =
-        ["M.mtx", "C.mtx", "K.mtx"].map(|name| market_matrix(&out.join(name)));
-    let none = Mat::zeros(mass.nrows(), mass.nrows());
-    [mass, damping, stiffness, none]
+    let [m, c, k] = ["M.mtx", "C.mtx", "K.mtx"].map(|name| market_matrix(&out.join(name)));
+    let none = Mat::zeros(m.nrows(), m.nrows());
+    [m, c, k, none]
 }
 
 /// Independent: contact that stiffens, whose points open within the sweep. The polynomials of each state hold in its own range only: the
@@ -302,20 +296,22 @@ fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
 }
 
 #[test]
-fn check_takes_a_superelement_as_cea_does() {
+fn superelements_are_checked_as_cea_solves_them_and_what_they_cannot_is_refused_with_the_reason() {
     let folder = folder();
-    brake(&folder, "K.mtx");
     let case = folder.path().join("block.toml");
-    let found = frictionsim::app::check::examine(&case, &[]).unwrap();
+    let examine = || frictionsim::app::check::examine(&case, &[]);
+    brake(&folder, "K.mtx");
+    let found = examine().unwrap();
     assert_eq!((&found["valid"], &found["dofs"]), (&true.into(), &100.into()), "{found}");
+    for command in ["matrices", "mesh", "frf", "transient", "sweep"] {
+        let words = ["superelements have eigenvalues alone ; block.toml:1:2 ; !missing section"];
+        run(&folder, command, &[]).refused(&words);
+    }
+    let beside = run(&folder, "cea", &["mesh.file=disc.msh"]);
+    beside.refused(&["superelements are solved free-standing ; beside a body"]);
     brake(&folder, "nowhere.mtx");
-    let refused = frictionsim::app::check::examine(&case, &[]).unwrap_err().messages().concat();
-    assert!(refused.contains("superelements.brake.stiffness: "), "{refused}");
-}
-
-#[test]
-fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
-    let folder = folder();
+    has(&examine().unwrap_err().messages().concat(), &["superelements.brake.stiffness: "]);
+    run(&folder, "cea", &[]).end().warns(&["superelements.brake.stiffness: nowhere.mtx"]);
     for (matrix, words) in [
         ("2 2 1\n1 1 1.0\n", "superelements.brake.stiffness is 2 x 2"),
         ("100 100 1\n1 1 inf\n", "line 3: inf is not finite"),
@@ -326,18 +322,4 @@ fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
         fs::write(folder.path().join("other.mtx"), text).unwrap();
         run(&folder, "cea", &[]).refused(&[words]);
     }
-    brake(&folder, "nowhere.mtx");
-    run(&folder, "cea", &[]).end().warns(&["superelements.brake.stiffness: nowhere.mtx"]);
-}
-
-#[test]
-fn what_needs_a_body_says_what_superelements_have() {
-    let folder = folder();
-    brake(&folder, "K.mtx");
-    for command in ["matrices", "mesh", "frf", "transient", "sweep"] {
-        let words = ["superelements have eigenvalues alone ; block.toml:1:2 ; !missing section"];
-        run(&folder, command, &[]).refused(&words);
-    }
-    let beside = run(&folder, "cea", &["mesh.file=disc.msh"]);
-    beside.refused(&["superelements are solved free-standing ; beside a body"]);
 }

@@ -41,11 +41,8 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
             let found = force / point.weight;
             assert!((found / pressure - 1.0).abs() < 2e-3, "{found} {pressure}");
         }
-        let options = TangentOptions {
-            damping: RayleighDamping::default(),
-            contact: stiffening(law),
-            ..TANGENT
-        };
+        let (damping, contact) = (RayleighDamping::default(), stiffening(law));
+        let options = TangentOptions { damping, contact, ..TANGENT };
         let tangent = body.tangent(&base, &options).unwrap();
         let modes = modes_at(&tangent, 0.0, Lowest(3));
         let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();

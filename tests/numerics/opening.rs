@@ -1,9 +1,7 @@
 //! Contact points that open one after the other between two friction values of a sweep, against analyses at single values (independent
 //! checks): these know one contact state each, and follow no branch.
 
-use crate::body::rectangle;
 use crate::prelude::*;
-use crate::sliding_bodies::sums;
 
 /// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
 const CASE: &str = include_str!("../cases/mounted-block.toml");
@@ -13,12 +11,11 @@ fn block() -> TempDir {
 }
 
 fn sweep_of(text: &str, folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
-    let name = folder.path().join("case.toml").display().to_string();
     // The case's own friction value is solved, too.
     let own = frictions[frictions.len() - 1];
     let all = format!("cea.friction_coefficients={frictions:?}");
     let set = [all, format!("contact.friction_coefficient={own:?}")];
-    modes_and_onsets(&case_of(name, text, &set)).unwrap()
+    modes_and_onsets(&case_of(folder.path().join("case.toml"), text, &set)).unwrap()
 }
 
 /// Intervals that do not begin beyond the wanted modes.
@@ -73,8 +70,8 @@ fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
 #[test]
 fn a_contact_state_between_two_friction_values_is_swept_once() {
     let folder = block();
-    let name = folder.path().join("case.toml").display().to_string();
-    let case = case_of(name, CASE, &["contact.friction_coefficient=0.8".to_owned()]);
+    let set = ["contact.friction_coefficient=0.8"];
+    let case = case_of(folder.path().join("case.toml"), CASE, &set);
     let cea = case.require_cea().unwrap();
     let model = SlidingModel::new(&case, cea).unwrap();
     let kept = Kept::default();
@@ -126,8 +123,8 @@ fn strut(lean: f64) -> TempDir {
 
 /// Positive real eigenvalues of the matrices at one friction coefficient, 1/s, by a dense decomposition (independent check).
 fn static_growth(text: &str, folder: &TempDir, friction: f64) -> Vec<f64> {
-    let name = folder.path().join("case.toml").display().to_string();
-    let case = case_of(name, text, &[format!("contact.friction_coefficient={friction:?}")]);
+    let set = [format!("contact.friction_coefficient={friction:?}")];
+    let case = case_of(folder.path().join("case.toml"), text, &set);
     let [mass, damping, stiffness, losses] = sums(&matrices(&case, Some(friction)).unwrap());
     let values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
     let real = values.iter().filter(|own| own.re > 0.0 && own.im.abs() < 1e-6 * own.re);

@@ -1,11 +1,8 @@
 //! Orthotropic materials against closed forms, a Rayleigh-Ritz series and the isotropic material.
 
-use crate::continuum::radial::gauss_legendre;
 use crate::prelude::*;
-use crate::solid_elements::Pencil;
 use frictionsim::fem::MaterialAxes;
 use frictionsim::fem::element::ElementGeometry;
-use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// A lining: soft across its plane.
 fn lining(axes: MaterialAxes) -> Orthotropy {
@@ -194,14 +191,9 @@ fn flat_element(kind: ElementKind) -> Mesh {
 
 #[test]
 fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
-    let all_axes = [
-        MaterialAxes::global(),
-        MaterialAxes::along([1.0, 2.0, 0.5], [0.0, 1.0, -1.0]).unwrap(),
-        MaterialAxes::Cylindrical {
-            axis: [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0],
-            center: [0.3, -0.1, 0.2],
-        },
-    ];
+    let (axis, center) = ([2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0], [0.3, -0.1, 0.2]);
+    let along = MaterialAxes::along([1.0, 2.0, 0.5], [0.0, 1.0, -1.0]).unwrap();
+    let all_axes = [MaterialAxes::global(), along, MaterialAxes::Cylindrical { axis, center }];
     for formulation in [PlaneStrain, PlaneStress, ThreeDimensional] {
         let plain = ElasticMaterial { formulation, ..POLYCARBONATE };
         let is_flat = formulation != ThreeDimensional;

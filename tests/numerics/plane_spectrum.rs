@@ -1,6 +1,5 @@
 //! Eigenvalues on unstructured meshes against Table 1 and the exact continuum (independent checks).
 
-use crate::continuum::Contact;
 use crate::convergence::rates::DISC;
 use crate::prelude::*;
 
@@ -11,13 +10,10 @@ const EXACT: [(usize, usize, i8); 7] =
     [(0, 1, 0), (1, 1, 1), (1, 1, -1), (2, 1, 1), (2, 1, -1), (1, 2, 1), (1, 2, -1)];
 
 fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
-    let options = TangentOptions {
-        contact: ContactStiffness { normal_stiffness: Some(NORMAL_STIFFNESS), ..RIGID },
-        ..TANGENT
-    };
-    let contact = contact(610.0);
-    let tangent = linearized(mesh, &POLYCARBONATE, &contact, &options);
-    modes_at(&tangent, contact.friction_coefficient, Lowest(count))
+    let springs = compliant(NORMAL_STIFFNESS, [0.0; 2]);
+    let options = TangentOptions { contact: springs, ..TANGENT };
+    let tangent = linearized(mesh, &POLYCARBONATE, &contact(610.0), &options);
+    modes_at(&tangent, 0.3, Lowest(count))
 }
 
 fn exact(names: &[(usize, usize, i8)]) -> Vec<c64> {

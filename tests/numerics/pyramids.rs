@@ -1,7 +1,6 @@
 //! Pyramids between bricks and tetrahedra (theory: the patch test), and as Gmsh and Nastran number them (independent: their manuals).
 
 use crate::prelude::*;
-use crate::solid_elements::passes_the_patch_test;
 
 /// Three cells in a row: a brick, six pyramids, and tetrahedra with a pyramid on the side of the others.
 fn row(is_quadratic: bool) -> FileMesh {

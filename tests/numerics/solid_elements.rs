@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use faer::sparse::{SparseColMat, Triplet};
-use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
 fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
@@ -160,8 +159,7 @@ fn frequencies(mesh: &Mesh, count: usize) -> Vec<f64> {
 
 /// Independent check: a linear displacement has the constant stress of Hooke's law, and no force acts on inner nodes.
 pub fn passes_the_patch_test(mesh: &Mesh, what: &str) {
-    let gradient: Matrix3<f64> =
-        Matrix3::new(1e-3, 4e-4, -2e-4, 3e-4, -7e-4, 5e-4, 2e-4, -1e-4, 6e-4);
+    let gradient = Matrix3::new(1e-3, 4e-4, -2e-4, 3e-4, -7e-4, 5e-4, 2e-4, -1e-4, 6e-4);
     let strain: Matrix3<f64> = 0.5 * (gradient + gradient.transpose());
     let [lambda, shear] = STEEL.lame_constants();
     let exact = Matrix3::identity() * (lambda * strain.trace()) + 2.0 * shear * strain;

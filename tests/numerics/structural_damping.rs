@@ -51,11 +51,10 @@ pub fn two_unknowns(system: &FrfSystem, tangent: &SlidingTangent) -> [(usize, Po
 
 /// Eigenvalues with `Im > 0` of `lambda^2 M + lambda C + K + i H`, by rising frequency.
 pub fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
-    let [mass, damping, stiffness] =
-        [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
-    let none = || Mat::zeros(mass.nrows(), mass.nrows());
+    let [m, c, k] = [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
+    let none = || Mat::zeros(m.nrows(), m.nrows());
     let losses = tangent.structural().map_or_else(none, |p| dense(p, mu));
-    let mut values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
+    let mut values = lossy_eigenvalues([&m, &c, &k, &losses]);
     values.retain(|value| value.im > 0.0);
     values.sort_by(|a, b| a.im.total_cmp(&b.im));
     values
@@ -72,7 +71,7 @@ fn one_loss_factor_turns_every_undamped_eigenvalue_by_the_root_of_its_stiffness(
         let turn = c64::new(1.0, eta).sqrt();
         for point in 0..frictions.len() {
             let expected: Vec<c64> =
-                eigenvalues(&undamped, point).iter().map(|value| value * turn).collect();
+                eigenvalues(&undamped, point).iter().map(|v| v * turn).collect();
             let error = largest_error(&eigenvalues(&found, point), &expected);
             below(error, 1e-9, format!("eta {eta} mu {}", frictions[point]));
         }

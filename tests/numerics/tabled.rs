@@ -10,7 +10,7 @@ fn rubber(scale: f64) -> Vec<[f64; 3]> {
 }
 
 /// The disc, whose modulus depends on frequency, on a deformable shaft of steel.
-fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
+fn tangent(rows: Vec<[f64; 3]>, stiffness: ContactStiffness) -> SlidingTangent {
     let specification = on_shaft(annulus(Quad4, 16, 3), 1);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let steel = ElasticMaterial { loss_factor: 0.002, ..crate::shaft::STEEL };
@@ -18,12 +18,9 @@ fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingT
     let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
     let disc = RegionMaterial { table: Some(Arc::new(table)), ..disc.into() };
     let materials = vec![disc, steel.into()];
-    let options = TangentOptions {
-        geometric_stiffness: true,
-        damping: rayleigh_damping(20.0, 1e-7),
-        contact: contact_stiffness,
-        ..TANGENT
-    };
+    let damping = rayleigh_damping(20.0, 1e-7);
+    let options =
+        TangentOptions { geometric_stiffness: true, damping, contact: stiffness, ..TANGENT };
     linearized(&mesh, &materials, &contact(610.0), &options)
 }
 
@@ -97,14 +94,8 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     const LENGTH: f64 = 0.4;
     const FACE: f64 = 0.002;
     const CORE: f64 = 0.001;
-    let rows = vec![
-        [1.0, 4e6, 0.3],
-        [50.0, 9e6, 0.6],
-        [200.0, 16e6, 0.8],
-        [1000.0, 30e6, 0.9],
-        [5000.0, 60e6, 0.7],
-    ];
-    let table = ModulusTable::new("materials.core.table", "core.csv", rows);
+    let rows = "1 4e6 0.3 ; 50 9e6 0.6 ; 200 16e6 0.8 ; 1000 30e6 0.9 ; 5000 60e6 0.7";
+    let table = ModulusTable::new("materials.core.table", "core.csv", rows_of(rows));
     // Three layers of 20-node bricks; faces without Poisson's contraction are a beam.
     let mut file = block(Hex20, [40, 1, 3], |[x, y, z]| {
         let layers = [0.0, FACE, FACE + CORE, 2.0 * FACE + CORE];
@@ -154,8 +145,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         };
         let mut lambda = c64::new(0.0, TAU * 50.0);
         for _ in 0..100 {
-            lambda =
-                c64::new(0.0, 1.0) * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
+            lambda = c64::I * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
         }
         let own = *nearest_by(&found, |own| (**own - lambda).norm());
         let [found, expected] = [own, lambda].map(|value| {
@@ -171,8 +161,7 @@ const RUBBER: &str = include_str!("../commands/refused/rubber.csv");
 
 /// A block of steel on one of rubber that stands on the ground; both move along z alone.
 fn mount(name: &str, table: &str) -> Case {
-    let block =
-        |name, z: f64, height: f64| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], [2, 2, 2]);
+    let block = |name, z: f64, high| brick(name, [0.0, 0.0, z], [0.02, 0.02, high], [2, 2, 2]);
     let mesh = file_of(&[block("rubber", 0.0, 0.01), block("mass", 0.01, 0.02)], |point| point);
     let files = [("mount.msh", &mesh[..]), ("rubber.csv", table.as_bytes())];
     case_beside(name, &files, include_str!("../commands/refused/mount.toml"), AS_IT_IS)

@@ -71,11 +71,7 @@ pub(super) fn clamp_held_in_plane(boundaries: &mut [NamedCondition]) {
 }
 
 /// Support along the axis is for bodies of revolution; others have a plane, or no axis.
-pub(super) fn no_axial_support(
-    root: &Section<'_>,
-    boundaries: &mut [NamedCondition],
-    is_file: bool,
-) {
+pub(super) fn no_axial_support(root: &Section<'_>, given: &mut [NamedCondition], is_file: bool) {
     let section = root.section("boundaries", false);
     let [body, label, help] = match is_file {
         false => ["a plane body", "the body is plane", "leave axial_stiffness out"],
@@ -85,7 +81,7 @@ pub(super) fn no_axial_support(
             "leave axial_stiffness out: tangential_stiffness acts along all tangents",
         ],
     };
-    for (name, condition) in boundaries {
+    for (name, condition) in given {
         let BoundaryCondition::Support(support) = condition else { continue };
         refuse_if!(support.axial_stiffness.is_some_and(|own| own > 0.0); section, name,
             "boundaries.{name}.axial_stiffness has no effect on {body}"; "{label}"; "{help}");

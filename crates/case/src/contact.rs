@@ -159,15 +159,12 @@ pub(super) fn contact(
 }
 
 /// The springs and dashpots of a contact, and how they stiffen; one without springs loses nothing in them.
-pub(super) fn contact_stiffness(
-    section: &Section<'_>,
-    is_base_compliant: bool,
-) -> ContactStiffness {
+pub(super) fn contact_stiffness(section: &Section<'_>, is_compliant: bool) -> ContactStiffness {
     let stiffness = ContactStiffness {
         normal_stiffness: section.optional_number("normal_stiffness"),
         normal_damping: section.number("normal_damping"),
         tangential_damping: section.number("tangential_damping"),
-        is_base_compliant,
+        is_base_compliant: is_compliant,
         loss_factor: loss_factor(section),
         ..ContactStiffness::default()
     };

@@ -43,11 +43,12 @@ pub(super) struct Description<'a> {
 impl<'a> Description<'a> {
     pub fn read(root: &'a Section<'a>, raw: &'a RawCase) -> Self {
         let tables = TableFiles::of(raw);
+        let mesh = root.section("mesh", true);
+        // One that cannot be read is a file all the same.
+        let file = mesh.optional_text("file").or_else(|| mesh.has("file").then(String::new));
         let common = material(root, &tables);
         let modifications = modifications::sections(root);
         let conditions = boundaries::all(root);
-        let mesh = root.section("mesh", true);
-        let file = mesh.optional_text("file");
         let scale = length_factor(&mesh);
         let of_file = if file.is_none() { mesh.refused("units scale take drop") } else { vec![] };
         for key in of_file {

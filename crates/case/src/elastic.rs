@@ -52,14 +52,10 @@ pub(super) fn elastic(
                 "beside the keys of an orthotropic material"; "isotropic or orthotropic";
                 "leave out the constants of the one or of the other");
         }
-        let orthotropy = orthotropy(section);
-        let [young_modulus, poisson_ratio] = orthotropy.mean_constants();
-        return ElasticMaterial {
-            young_modulus,
-            poisson_ratio,
-            orthotropy: Some(orthotropy),
-            ..plain
-        };
+        let own = orthotropy(section);
+        let [young_modulus, poisson_ratio] = own.mean_constants();
+        let orthotropy = Some(own);
+        return ElasticMaterial { young_modulus, poisson_ratio, orthotropy, ..plain };
     }
     // Known keys of the section, though none is given.
     let _ = ORTHOTROPIC.map(|key| section.numbers(key));

@@ -74,17 +74,9 @@ pub(super) fn sections(
     sections
 }
 
-fn section(
-    path: (&'static str, &str),
-    keys: Vec<(&'static str, RawValue)>,
-    place: &str,
-) -> FileSection {
-    FileSection {
-        path: (path.0, path.1.to_owned()),
-        keys,
-        place: place.to_owned(),
-        name: path.1.to_owned(),
-    }
+fn section(of: (&'static str, &str), keys: Vec<(&'static str, RawValue)>, at: &str) -> FileSection {
+    let (path, place, name) = ((of.0, of.1.to_owned()), at.to_owned(), of.1.to_owned());
+    FileSection { path, keys, place, name }
 }
 
 fn held(axes: [bool; 3], dimension: usize) -> Vec<(&'static str, RawValue)> {

@@ -186,10 +186,7 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
 }
 
 /// The shaft, if the case has one, and its material.
-fn shaft(
-    own: &Description<'_>,
-    contact_radius: f64,
-) -> Option<(ShaftSpecification, RegionMaterial)> {
+fn shaft(own: &Description<'_>, reach: f64) -> Option<(ShaftSpecification, RegionMaterial)> {
     let Description { geometry, mesh, .. } = own;
     let bore = geometry.optional_number("shaft_inner_radius");
     let elements = mesh.optional_count("shaft_radial_elements");
@@ -201,10 +198,10 @@ fn shaft(
             "give geometry.shaft_inner_radius and [materials.shaft], or leave it out");
         return None;
     };
-    refuse_if!(bore >= contact_radius; geometry, "shaft_inner_radius",
+    refuse_if!(bore >= reach; geometry, "shaft_inner_radius",
         "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = \
-         {contact_radius}: the shaft reaches from its bore to the contact";
-        "must be below {contact_radius}");
+         {reach}: the shaft reaches from its bore to the contact";
+        "must be below {reach}");
     refuse_if!(found.is_none(); geometry, "shaft_inner_radius",
         "the shaft of geometry.shaft_inner_radius has no material"; "needs [materials.shaft]";
         "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \

@@ -99,17 +99,13 @@ impl RawCase {
     }
 
     /// Lays overrides over the case, or gives the errors so far and theirs.
-    fn lay(
-        mut self,
-        overrides: &[String],
-        mut diagnostics: Vec<Diagnostic>,
-    ) -> Result<Self, CaseErrors> {
-        for text in overrides {
+    fn lay(mut self, texts: &[String], mut errors: Vec<Diagnostic>) -> Result<Self, CaseErrors> {
+        for text in texts {
             self.overrides.push(text.clone());
             let laid = overrides::lay(&mut self.root, text, self.overrides.len());
-            diagnostics.extend(laid.err().into_iter().flatten());
+            errors.extend(laid.err().into_iter().flatten());
         }
-        if diagnostics.is_empty() { Ok(self) } else { Err(self.errors(diagnostics)) }
+        if errors.is_empty() { Ok(self) } else { Err(self.errors(errors)) }
     }
 
     /// This case with further overrides, as a sweep makes its points.

@@ -7,7 +7,7 @@ mod lists;
 use super::value::{cut, with_point};
 use super::{
     Bound, CaseKey, Default, Diagnostic, Kind, Location, RawEntry, RawItem, RawTable, RawValue,
-    keys, refuse_at, suggestion,
+    keys, placed, suggestion,
 };
 pub(super) use lists::NodePlace;
 pub use lists::range_values;
@@ -21,6 +21,16 @@ const MOST_UNKNOWN: usize = 10;
 /// Largest whole number that a key takes: products of two are safe in 64 bits.
 const LARGEST_COUNT: usize = u32::MAX as usize;
 
+/// The sections that the body is made of are one part of a case.
+const BODY: &str =
+    "mesh geometry material materials boundaries contact contacts ties motion modifications";
+
+/// The part of a case that a key belongs to.
+fn part_of(name: &str) -> &str {
+    let section = name.split('.').next().unwrap_or(name);
+    if BODY.split(' ').any(|own| own == section) { BODY } else { section }
+}
+
 /// Errors and warnings found so far, and what the case may have.
 #[derive(Debug)]
 pub(crate) struct Findings<'a> {
@@ -29,18 +39,29 @@ pub(crate) struct Findings<'a> {
     warnings: RefCell<Vec<Diagnostic>>,
     /// Keys and sections that are not there, each with an error about that.
     absent: RefCell<Vec<(String, String)>>,
+    /// Values that cannot be read: of which part of the case, whether words or sections, and where they stand.
+    misread: RefCell<Vec<(String, bool, Location)>>,
 }
 
 impl<'a> Findings<'a> {
     /// Nothing found so far in a case.
     pub fn of(root: &'a RawTable) -> Self {
-        let (errors, warnings, absent) = std::default::Default::default();
-        Self { scope: suggestion::Scope::of(root), errors, warnings, absent }
+        let (errors, warnings, absent, misread) = std::default::Default::default();
+        Self { scope: suggestion::Scope::of(root), errors, warnings, absent, misread }
     }
 
-    /// Takes note of an error.
+    /// Takes note of an error that may follow from what the body is.
     pub fn push(&self, error: Diagnostic) {
-        self.errors.borrow_mut().push(error);
+        if self.misread.borrow().iter().all(|own| own.0 != BODY) {
+            self.add(error);
+        }
+    }
+
+    /// Takes note of an error, where nothing has been said of the value there.
+    fn add(&self, error: Diagnostic) {
+        if self.misread.borrow().iter().all(|own| own.2 != error.at) {
+            self.errors.borrow_mut().push(error);
+        }
     }
 
     /// Takes note of what is no error but what the user should hear of.
@@ -81,13 +102,8 @@ impl<'a> Section<'a> {
         Self::new(findings, String::new(), Some(table), at)
     }
 
-    fn new(
-        findings: &'a Findings<'a>,
-        path: String,
-        table: Option<&'a RawTable>,
-        at: Location,
-    ) -> Self {
-        Self { findings, path, table, at, declarations: None, asked: RefCell::default() }
+    fn new(all: &'a Findings<'a>, path: String, table: Option<&'a RawTable>, at: Location) -> Self {
+        Self { findings: all, path, table, at, declarations: None, asked: RefCell::default() }
     }
 
     /// Whether the case has this section.
@@ -157,11 +173,16 @@ impl<'a> Section<'a> {
         help: Option<String>,
     ) {
         let (name, message) = (self.name(key), message.into());
+        // It may only seem wrong or missing where a word or section of its part or of the body cannot be read.
+        let is_cause = |own: &(String, bool, _)| own.1 && [BODY, part_of(&name)].contains(&&*own.0);
+        if self.findings.misread.borrow().iter().any(is_cause) {
+            return;
+        }
         let help = help.or_else(|| suggestion::usage(&name));
         if !self.has(key) {
             self.findings.absent.borrow_mut().push((name, message.clone()));
         }
-        self.findings.push(Diagnostic::error(message, label, self.place(key), help));
+        self.findings.add(Diagnostic::error(message, label, self.place(key), help));
     }
 
     /// Length of a key that is given as a list.
@@ -191,7 +212,19 @@ impl<'a> Section<'a> {
         let point = point.map(|point| format!("write the number with a decimal point: {point}"));
         let help = point.or_else(|| suggestion::usage(&self.name(key)));
         let message = format!("{} = {} {bound}", self.name(key), item.value.shortened());
-        self.findings.push(Diagnostic::error(message, bound, item.at.clone(), help));
+        let error = Diagnostic::error(message, bound, item.at.clone(), help);
+        self.misread(key, !self.declared(key).is_numeric(), error);
+    }
+
+    /// Reports a value that cannot be read, a number or what others hang on: nothing more is said of it then, but of
+    /// another key that has its value from the same place of a mesh file.
+    fn misread(&self, key: &str, is_word: bool, error: Diagnostic) {
+        let (part, at) = (part_of(&self.name(key)).to_owned(), error.at.clone());
+        let mut errors = self.findings.errors.borrow_mut();
+        if !errors.contains(&error) {
+            errors.push(error);
+        }
+        self.findings.misread.borrow_mut().push((part, is_word, at));
     }
 
     /// Reports a key that must be there.
@@ -220,9 +253,12 @@ impl<'a> Section<'a> {
                 section.at = entry.key_at.clone();
                 match &entry.item.value {
                     RawValue::Table(table) => section.table = Some(table),
-                    other => refuse_at!(self, &entry.item.at, "`{}` is {}, not a section",
-                        section.path, other.kind(); "expected a section";
-                        "write its keys below [{}]", section.path),
+                    other => {
+                        let error = placed!(entry.item.at.clone(), "`{}` is {}, not a section",
+                            section.path, other.kind(); "expected a section";
+                            "write its keys below [{}]", section.path);
+                        self.misread(key, true, error);
+                    }
                 }
             }
             None if required => {
@@ -259,12 +295,12 @@ impl<'a> Section<'a> {
                 self.findings.take_back(&self.name(meant));
             }
             let message = format!("unknown key `{}`", cut(self.name(key)));
-            self.findings.push(Diagnostic::error(message, place, entry.key_at.clone(), Some(help)));
+            self.findings.add(Diagnostic::error(message, place, entry.key_at.clone(), Some(help)));
         }
         if let Some((_, first)) = unknown.next() {
             let count = 1 + unknown.count();
-            refuse_at!(self, &first.key_at,
-                "{count} more unknown keys, of which this is the first"; "{place}");
+            self.findings.add(placed!(first.key_at.clone(),
+                "{count} more unknown keys, of which this is the first"; "{place}"));
         }
     }
 

@@ -148,18 +148,13 @@ impl<'a> Scope<'a> {
 
     /// A hint for a key that does not exist: one that is gone, a synonym, a near miss in its section,
     /// the same key of another section that the case has, or the keys there are.
-    pub fn suggest(
-        &self,
-        section: &str,
-        (word, value): (&str, &RawValue),
-        asked: &[&str],
-    ) -> String {
+    pub fn suggest(&self, section: &str, (word, value): (&str, &RawValue), own: &[&str]) -> String {
         let name = full(section, word);
         if let Some((_, place)) = GONE.iter().find(|gone| gone.0 == name) {
             return (*place).to_owned();
         }
         let refused = self.refused.borrow();
-        let known = asked.iter().copied().filter(|key| !refused.contains(&full(section, key)));
+        let known = own.iter().copied().filter(|key| !refused.contains(&full(section, key)));
         let known: Vec<&str> = known.collect();
         let elsewhere = self.elsewhere((section, word), |key| key.takes(value));
         // A word that others use for a key elsewhere is no slip of the keyboard.

@@ -148,14 +148,9 @@ fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
 }
 
 /// The matrix of a file.
-fn matrix(
-    section: &Section<'_>,
-    key: &str,
-    path: &Path,
-    digest: &mut Sha256,
-) -> Option<MarketMatrix> {
+fn matrix(own: &Section<'_>, key: &str, path: &Path, digest: &mut Sha256) -> Option<MarketMatrix> {
     let reject = |what: String, label: &str| {
-        refuse!(section, key, "{}: {}: {what}", section.name(key), path.display(); "{label}";
+        refuse!(own, key, "{}: {}: {what}", own.name(key), path.display(); "{label}";
             "a real matrix in the Matrix Market format, as scipy.io.mmwrite writes it");
     };
     let bytes = frictionsim_bounds::read(path, MATRIX);

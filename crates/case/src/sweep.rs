@@ -116,13 +116,9 @@ fn length(entry: &RawEntry) -> usize {
 }
 
 /// Refuses studies of too many points or values.
-fn fits(
-    section: &Section<'_>,
-    combination: Combination,
-    entries: &[(VariedKey, &RawEntry)],
-) -> bool {
+fn fits(section: &Section<'_>, how: Combination, entries: &[(VariedKey, &RawEntry)]) -> bool {
     let lengths = entries.iter().map(|(_, entry)| length(entry));
-    let (count, what) = match combination {
+    let (count, what) = match how {
         Combination::Grid => (lengths.fold(1, usize::saturating_mul), "points"),
         Combination::Zip => (lengths.fold(0, usize::saturating_add), "values"),
     };

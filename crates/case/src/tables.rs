@@ -48,15 +48,12 @@ impl<'a> TableFiles<'a> {
 }
 
 /// The table of `[material]` or of a section of `[materials.*]`, where it has one.
-pub(super) fn modulus_table(
-    section: &Section<'_>,
-    files: &TableFiles<'_>,
-) -> Option<Arc<ModulusTable>> {
-    let file = section.optional_text("table")?;
+pub(super) fn modulus_table(own: &Section<'_>, all: &TableFiles<'_>) -> Option<Arc<ModulusTable>> {
+    let file = own.optional_text("table")?;
     let reject = |message: String, label: &str, help: &str| {
-        refuse!(section, "table", "{}: {message}", section.name("table"); "{label}"; "{help}");
+        refuse!(own, "table", "{}: {message}", own.name("table"); "{label}"; "{help}");
     };
-    let readable = files.bytes(&file);
+    let readable = all.bytes(&file);
     let rows = readable.and_then(|bytes| read_moduli(&bytes, &file).map_err(|e| e.to_string()));
     let columns = "its columns are frequency_hz, young_modulus (Pa) and loss_factor";
     let rows = rows.map_err(|reason| reject(reason, "not a table of moduli", columns)).ok()?;
@@ -65,12 +62,12 @@ pub(super) fn modulus_table(
         return None;
     }
     if let Some((line, what)) = falling(&rows) {
-        caution!(section, "table",
+        caution!(own, "table",
             "{}: {file}:{line}: {what}; the modulus of a passive material rises with the frequency",
-            section.name("table"); "falls with the frequency");
+            own.name("table"); "falls with the frequency");
     }
     let rows = rows.iter().map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
-    let key = section.name("table");
+    let key = own.name("table");
     Some(Arc::new(ModulusTable::new(&key, &file, rows.collect())))
 }
 

@@ -81,9 +81,11 @@ pub fn document(summary: &IdentificationSummary) -> Document {
     let peaks = summary.unmatched_peaks_hz.iter();
     let peaks = peaks.map(|peak| format!("The peak at {peak:.2} Hz has no mode in the fit."));
     let is_other = summary.reduced_chi_square > 3.0;
-    let other = is_other.then(|| {
-        "The material is not exactly Rayleigh, and the intervals are widened for it.".to_owned()
-    });
+    let mut other =
+        "The material is not exactly Rayleigh, and the intervals are widened for it.".to_owned();
+    if !summary.has_phase {
+        other += " It may be two modes under one peak, too, which magnitudes alone do not part: measure the phase.";
+    }
     let half = summary.half_power;
     let estimators = std::iter::once(("fit of the response", summary.rayleigh))
         .chain(half.map(|own| ("half-power alone", own)));
@@ -98,7 +100,7 @@ pub fn document(summary: &IdentificationSummary) -> Document {
                     .columns(COEFFICIENTS, estimators)])
                 .text(few)
                 .text(summary.responses.iter().map(of_response))
-                .text(std::iter::once(scatter).chain(other).chain(peaks))
+                .text(std::iter::once(scatter).chain(is_other.then_some(other)).chain(peaks))
                 .text([summary.damping_block()])
                 .figures([""]),
         )

@@ -129,11 +129,6 @@ fn commands(case: &Case) -> Vec<&'static str> {
 ///
 /// # Errors
 /// Those of the case, at the key that asks for most of it.
-pub fn refuse_memory(
-    case: &Case,
-    command: &str,
-    bytes: f64,
-    available: f64,
-) -> Result<(), CaseErrors> {
-    if bytes > available { Err(case.memory_error(command, bytes, available)) } else { Ok(()) }
+pub fn refuse_memory(case: &Case, command: &str, bytes: f64, free: f64) -> Result<(), CaseErrors> {
+    if bytes > free { Err(case.memory_error(command, bytes, free)) } else { Ok(()) }
 }

@@ -2,7 +2,7 @@
 
 use super::StudyError;
 use crate::prelude::*;
-use frictionsim_case::{FreeSystem, ModeLimit};
+use frictionsim_case::FreeSystem;
 use frictionsim_physics::cea::quadratic_modes;
 use frictionsim_physics::linalg::MarketMatrix;
 use frictionsim_results::matrices::{FreeSpectrum, FreeSpectrumSummary};
@@ -19,10 +19,7 @@ pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
     let oscillating = all.into_iter().filter(|mode| mode.eigenvalue.im > 0.0);
     let mut modes = sorted(oscillating, |mode| mode.eigenvalue.im);
     let overdamped = total - modes.len();
-    match system.modes {
-        ModeLimit::Lowest(count) => modes.truncate(count),
-        ModeLimit::MaxFrequency(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),
-    }
+    modes.truncate(system.modes.selected(modes.iter().map(|mode| mode.eigenvalue.im)));
     let summary = FreeSpectrumSummary {
         superelement: own.name.clone(),
         dofs: own.mass.rows,

@@ -65,7 +65,7 @@ pub fn find(session: &Session) -> Result<Option<Checkpoint>, Failure> {
     refuse_other_case(session, &path)?;
     let found = read_checkpoint(&path, &run_hash(session), &session.manifest.simd);
     let found = found.map_err(Failure::usage)?;
-    if found.is_none() {
+    if found.is_none() && path.exists() {
         let missing = path.join(CHECKPOINT);
         tracing::warn!("{} does not exist: starting from the beginning", missing.display());
     }

@@ -169,8 +169,7 @@ fn transient(bench: &Bench, operator: &str) -> Verdict {
     let residual = own["max_balance_residual"].as_f64().unwrap();
     verdict(residual <= 1e-10, || format!("energy balance {residual:e}"))?;
     let (_, other) = needed(bench.run("transient", &[]))?;
-    let strain =
-        |folder: &Path| *column(&rows(&folder.join("energy.csv")), "strain_j").last().unwrap();
+    let strain = |out: &Path| *column(&rows(&out.join("energy.csv")), "strain_j").last().unwrap();
     let (own, other) = (strain(&folder), strain(&other));
     verdict(is_close(own, other, 1e-8), || format!("strain energy {own} and {other}"))
 }
@@ -281,8 +280,7 @@ fn is_boundary(summary: &Value) -> bool {
         own
     };
     let (firsts, seconds) = (won(&rivals[0]), won(&rivals[1]));
-    let bound =
-        |run: Option<&&Value>| run.map_or(Value::Null, |run| run["saturation_ratio"].clone());
+    let bound = |of: Option<&&Value>| of.map_or(Value::Null, |of| of["saturation_ratio"].clone());
     let bounds = &summary["boundary"];
     let alone = match (firsts.is_empty(), seconds.is_empty()) {
         (true, _) => rivals[1].clone(),

@@ -21,6 +21,7 @@ const POLYCARBONATE: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.3805\ndens
 const LINING: &str = "young_moduli = [2e9, 5e9, 1.5e9]\npoisson_ratios = [0.2, 0.3, 0.25]
 shear_moduli = [1.2e9, 0.8e9, 0.9e9]\naxes = \"cylindrical\"\ndensity = 1700.0\n";
 const STEEL: &str = "young_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
+const FALLING: &str = "static_friction_ratio = 1.2\ndecay_speed = 2.0\n";
 const STIFFENING: &str = "normal_law = \"exponential\"\nreference_pressure = 2e5\nheight = 2e-6\n";
 
 /// A kind of the text of a case, to which it adds keys of the contact and further sections.
@@ -80,6 +81,7 @@ fn solids(name: &'static str, contact: &str, support: &str, counts: [[usize; 3];
 /// The kinds, in the order of the table.
 pub fn kinds() -> Vec<Kind> {
     let whole = || grids(&[disc(&|_| "disc")]);
+    let opening = plane_block([0.04, 0.06], [10; 2], ["face", "back", "block"]);
     let shaft = format!("[materials.shaft]\n{STEEL}");
     let journal = format!(
         "boundary = \"inner\"\ncounterface = \"body\"\ncounter_boundary = \"journal\"\n{shaft}
@@ -102,11 +104,7 @@ normal_stiffness = 1e12\n[boundaries.bottom]\ncondition = \"guide\"\n";
             .on(whole())
             .like("annulus, stiffening contact"),
         kind("annulus, supported", ANNULUS, &on_springs("outer", "2e11")),
-        kind(
-            "annulus, falling friction",
-            ANNULUS,
-            "static_friction_ratio = 1.2\ndecay_speed = 2.0\n",
-        ),
+        kind("annulus, falling friction", ANNULUS, FALLING),
         kind("annulus and shaft", ANNULUS, &shaft)
             .but("[mesh]\n", "shaft_inner_radius = 0.006\n[mesh]\nshaft_radial_elements = 2\n"),
         kind("annulus from a file", FILE, "").on(whole()).like("annulus"),
@@ -119,11 +117,7 @@ normal_stiffness = 1e12\n[boundaries.bottom]\ncondition = \"guide\"\n";
             .on(grids(&[Grid { is_cut: true, ..disc(&|_| "disc") }])),
         kind("two materials", FILE, &rim)
             .on(grids(&[disc(&|layer| if layer < 4 { "disc" } else { "rim" })])),
-        kind("block, contact opens in part", BLOCK, "").on(plane_block(
-            [0.04, 0.06],
-            [10; 2],
-            ["face", "back", "block"],
-        )),
+        kind("block, contact opens in part", BLOCK, "").on(opening),
         kind("two bodies, matching", FILE, &journal).on(two_bodies(32)).like("annulus and shaft"),
         kind("two bodies, not matching", FILE, &journal).on(two_bodies(24)),
         kind("body of revolution, contact on the edge", REVOLUTION, ""),

@@ -1,7 +1,6 @@
 //! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
 
 use super::*;
-use std::process::Stdio;
 
 #[test]
 fn no_override_is_costly() {

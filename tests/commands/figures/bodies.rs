@@ -5,7 +5,6 @@
 use crate::figures::{check_texts, synthetic, texts};
 use crate::prelude::*;
 use frictionsim::results::cea::{Solution, View, document, figures, page, write_fields};
-use frictionsim::results::{DrawingOptions, Format, write_page, write_tables};
 
 /// A body whose mesh is no annulus to the program, though its hole is round.
 fn body() -> Mesh {

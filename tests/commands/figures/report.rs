@@ -3,7 +3,6 @@
 use crate::figures::{check_texts, synthetic};
 use crate::prelude::*;
 use frictionsim::results::cea::{figures, page};
-use frictionsim::results::{DrawingOptions, Format, write_page};
 
 #[test]
 fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {

@@ -3,7 +3,6 @@
 use crate::figures::check;
 use crate::prelude::*;
 use frictionsim::chart::Figure;
-use frictionsim::results::Head;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::transient::{LinearStage, RecordedRun, SolvedTransient, draw_run};
 

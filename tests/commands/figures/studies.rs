@@ -3,8 +3,7 @@
 use crate::figures::check;
 use crate::prelude::*;
 use frictionsim::results::charts::ModeLine;
-use frictionsim::results::sweep::PointRecord;
-use frictionsim::results::sweep::draw_sweep;
+use frictionsim::results::sweep::{PointRecord, draw_sweep};
 
 fn point(number: usize, swept: Value, summaries: Value) -> PointRecord {
     let object = |value: Value| value.as_object().cloned().unwrap_or_default();

@@ -10,7 +10,6 @@ mod changes;
 use crate::columns::visit_all;
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::process::Command;
 
 /// A list of numbers, by its size and three values that a change would move.
 #[derive(Serialize, Deserialize, Clone, Debug, Default, PartialEq)]
@@ -135,10 +134,8 @@ fn compare(case: &str, frozen: &Result, now: &Result) -> Vec<String> {
                 None => note(file, key, "is missing".to_owned()),
                 Some(_) if changes::depends_on_the_clock(key) => {}
                 Some(found) => {
-                    if let Some(text) = numbers.differs(found, changes::tolerance(case, file, key))
-                    {
-                        note(file, key, text);
-                    }
+                    let far = numbers.differs(found, changes::tolerance(case, file, key));
+                    far.into_iter().for_each(|text| note(file, key, text));
                 }
             }
         }

@@ -1,7 +1,6 @@
 //! The contact law, the steady start, and an exact impact.
 
 use super::*;
-use frictionsim::study::transient::TransientStudy;
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
 #[test]

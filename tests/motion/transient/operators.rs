@@ -148,8 +148,7 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
     let [cyclic, sparse] = &operators;
     let dofs = cyclic.dof_count();
     assert!((0..dofs).any(|dof| sparse.position(dof) != dof));
-    let held: Vec<bool> =
-        (0..dofs).map(|dof| cyclic.masses()[cyclic.position(dof)] == 0.0).collect();
+    let held: Vec<bool> = (0..dofs).map(|k| cyclic.masses()[cyclic.position(k)] == 0.0).collect();
     let start: Vec<f64> =
         (0..dofs).map(|dof| if held[dof] { 0.0 } else { (1.7 * dof as f64).sin() }).collect();
     let coefficients = coefficients(&model, 1e-8);

@@ -33,14 +33,12 @@ fn each_harmonic_has_its_own_velocity_and_its_crest_at_its_phase() {
 #[test]
 fn noise_has_its_standard_deviation_in_both_directions_and_spares_the_clamped_edge() {
     let annulus = disc(90, 30);
-    let noise = |seed: u64| {
-        let perturbation =
-            Perturbation { noise: 2e-3, noise_seed: seed, ..Perturbation::default() };
+    let noise = |noise_seed: u64| {
+        let perturbation = Perturbation { noise: 2e-3, noise_seed, ..Perturbation::default() };
         model(&annulus, 610.0).perturbed(&perturbation).unwrap()
     };
     let field = noise(1);
-    let clamped =
-        |node: usize| annulus.mesh.boundary("outer").unwrap().nodes.contains(&(node as u32));
+    let clamped = |n: usize| annulus.mesh.boundary("outer").unwrap().nodes.contains(&(n as u32));
     for component in 0..2 {
         let free = (0..annulus.mesh.node_count()).filter(|&node| !clamped(node));
         let values: Vec<f64> = free.map(|node| field[2 * node + component]).collect();

@@ -76,8 +76,7 @@ fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
     let (whole, _) = run(610.0, &settings, &RecorderSettings::default());
     let wanted = RecorderSettings { stop_when_settled: true, ..Default::default() };
     let (stopped, end) = run(610.0, &settings, &wanted);
-    assert_eq!(end, RunEnd::Stopped);
-    assert!(stopped.has_stopped);
+    assert!(end == RunEnd::Stopped && stopped.has_stopped);
     let count = stopped.rows.len();
     assert!(count > 1000 && count < whole.rows.len());
     assert_eq!(stopped.rows, whole.rows[..count]);
@@ -132,14 +131,11 @@ fn a_snapshot_has_the_contact_of_its_own_step() {
     for (i, &node) in annulus.mesh.contact_edge().nodes.iter().enumerate() {
         let node = node as usize;
         match snapshot.contact.status[i] {
-            0 => assert_eq!(snapshot.contact.pressure[i], 0.0),
+            // A node in contact is where the cylinder holds it, 25 um out, up to the step that brings it there.
+            0 => assert!(snapshot.contact.pressure[i] == 0.0 && snapshot.gap[i] > -1e-9),
             // A node that has stuck for a step has the speed of the cylinder before and after.
             1 if (snapshot.velocity[2 * node + 1] / surface - 1.0).abs() < 1e-9 => stuck += 1,
             _ => assert!(snapshot.contact.pressure[i] > 0.0),
-        }
-        // A node in contact is where the cylinder holds it, 25 um out, up to the step that brings it there.
-        if snapshot.contact.status[i] == 0 {
-            assert!(snapshot.gap[i] > -1e-9);
         }
     }
     assert!(stuck > 3, "{stuck}");

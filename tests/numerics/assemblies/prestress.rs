@@ -3,7 +3,6 @@
 use super::rigid_counterface::plane;
 use super::*;
 use crate::solids::parts::SOLID_RING;
-use nalgebra::Vector3;
 
 const STRESSED: TangentOptions = TangentOptions { geometric_stiffness: true, ..OPTIONS };
 
@@ -29,8 +28,7 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
         bound.flat_map(|own| own.nodes.iter().map(|&node| node as usize)).collect();
     let rows = tangent.distances.iter().filter(|(dof, _)| loaded.contains(&(dof / 3)));
     let moving = rows.flat_map(|(_, row)| row.iter().map(|(dof, _)| dof / 3));
-    let is_loaded =
-        |own: &&RigidFriction| own.lift.iter().any(|(dof, _)| loaded.contains(&(dof / 3)));
+    let is_loaded = |own: &&RigidFriction| own.lift.iter().any(|(k, _)| loaded.contains(&(k / 3)));
     let dragged = tangent.friction.iter().filter(is_loaded);
     let moving = moving.chain(dragged.flat_map(|own| own.slip.iter().map(|(dof, _)| dof / 3)));
     let outer: BTreeSet<usize> = moving.chain(loaded.iter().copied()).collect();
@@ -61,8 +59,7 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
     let of = ElementGeometry::geometric_stiffnesses;
     let stress = assemble_around((mesh, &STEEL), &[displacement], None, of);
     let alone = stress[0].multiply(mesh.dof_count(), &rotation);
-    largest(&|unknown| whole[(unknown, 0)])
-        / largest(&|unknown| alone[tangent.unknowns.dofs[unknown]])
+    largest(&|k| whole[(k, 0)]) / largest(&|k| alone[tangent.unknowns.dofs[k]])
 }
 
 /// Blocks as they are, or bent around the axis z at a radius of 50 mm.

@@ -38,13 +38,10 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
         let held =
             SlidingSurfaces { topography: Some(Arc::clone(&gaps)), ..sliding(&mesh, stiffness) };
         let held = assembled(&mesh, held, std::slice::from_ref(&motion)).unwrap();
-        let on_rigid = SlidingSurfaces {
-            counter: Counterpart::Rigid(plane(RigidMotion::Turning(10.0), center)),
-            ..sliding(&mesh, stiffness)
-        };
+        let counter = Counterpart::Rigid(plane(RigidMotion::Turning(10.0), center));
+        let on_rigid = SlidingSurfaces { counter, ..sliding(&mesh, stiffness) };
         let on_rigid = assembled(&mesh, on_rigid, &[]).unwrap();
-        let pressures =
-            [&held, &on_rigid].map(|assembly| assembly.state(0.4).unwrap().normal_forces(0.4));
+        let pressures = [&held, &on_rigid].map(|a| a.state(0.4).unwrap().normal_forces(0.4));
         if stiffness.is_none() {
             let largest = pressures[0].iter().copied().fold(0.0, f64::max);
             assert!(largest > 0.0);

@@ -21,10 +21,8 @@ fn a_plane_of_gaps_at_scattered_points_is_exact_and_measured_points_keep_their_o
     let mesh = bar();
     let plane = |[x, y, _]: [f64; 3]| 1e-6 + 3e-5 * x - 2e-5 * y;
     for stiffness in [None, Some(1e14)] {
-        let contact = SlidingSurfaces {
-            topography: measured(&places(400), plane),
-            ..sliding(&mesh, stiffness)
-        };
+        let topography = measured(&places(400), plane);
+        let contact = SlidingSurfaces { topography, ..sliding(&mesh, stiffness) };
         let assembly = assembled(&mesh, contact, &[aside(&mesh)]).unwrap();
         let (_, surface) = &assembly.contacts()[0];
         for (point, site) in surface.points.iter().zip(&surface.sites) {
@@ -53,10 +51,8 @@ fn a_measured_gap_presses_as_the_same_gap_of_the_mesh_and_opens_where_it_opens()
     let friction = 0.3;
     for stiffness in [None, Some(2e13)] {
         let plain = sliding(&tilted, stiffness);
-        let contact = SlidingSurfaces {
-            topography: measured(&places(2000), |[x, ..]| gap(x)),
-            ..sliding(&flat, stiffness)
-        };
+        let topography = measured(&places(2000), |[x, ..]| gap(x));
+        let contact = SlidingSurfaces { topography, ..sliding(&flat, stiffness) };
         let pressures = |mesh: &Mesh, contact: SlidingSurfaces| -> Vec<(f64, bool)> {
             let assembly = assembled(mesh, contact, &[aside(mesh)]).unwrap();
             let state = assembly.state(friction).unwrap();

@@ -1,7 +1,6 @@
 //! Independent check: sensitivities against finite differences of the whole analysis.
 
 use crate::prelude::*;
-use crate::waves::Differences;
 
 /// The branches at the limit are looked for far above it.
 fn hold(model: &AnnulusModel, [factor, tolerance]: [f64; 2], what: &str) {

@@ -2,7 +2,7 @@
 
 use super::rates::{DISC, refinements};
 use crate::cea_cyclic::dense::fold;
-use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped, smallest_first};
+use crate::continuum::{damped, smallest_first};
 use crate::prelude::*;
 
 /// Radial expansion of the cylinder, m.
@@ -58,11 +58,10 @@ impl Discretisation {
         let Study { annulus, contact, mass, rayleigh } = *study;
         let mesh = AnnulusMesh::generate(specification).expect("a valid mesh");
         let material = material(&annulus);
-        let (mass_coefficient, stiffness_coefficient) = rayleigh;
         let options = TangentOptions {
             mass,
             geometric_stiffness: contact.prestress_interference.is_some(),
-            damping: RayleighDamping { mass_coefficient, stiffness_coefficient },
+            damping: rayleigh_damping(rayleigh.0, rayleigh.1),
             contact: ContactStiffness { normal_stiffness: contact.normal_stiffness, ..RIGID },
             ..TANGENT
         };

@@ -1,6 +1,5 @@
 //! Families of meshes and the rate at which errors fall over them.
 
-use crate::continuum::Annulus;
 use crate::prelude::*;
 
 pub const DISC: Annulus = Annulus {

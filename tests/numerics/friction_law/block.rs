@@ -2,7 +2,6 @@
 //!
 //! `M u'' + (c + N mu'(V)) u' + k u = 0` about steady sliding: unstable below `V = v_c ln(N mu (q - 1) / (v_c c))`.
 
-use crate::body::rectangle;
 use crate::prelude::*;
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.

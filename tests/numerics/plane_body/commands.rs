@@ -50,8 +50,7 @@ fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
         assert_eq!(found.len(), expected.len(), "{name}");
         for (row, other) in found.iter().zip(expected) {
             // Sparse and cyclic sums differ in their last digits; accelerations are their differences.
-            let near =
-                |column: usize| (row[column] - other[column]).abs() <= 1e-6 * largest(column);
+            let near = |k: usize| (row[k] - other[k]).abs() <= 1e-6 * largest(k);
             assert!((0..7).all(near), "{name} {row:?} {other:?}");
         }
     }
@@ -100,8 +99,7 @@ fn convergence_of_an_imported_body_splits_its_elements() {
     let series = &summary["series"][0];
     assert_eq!(series["levels"][2], "1536 elements");
     let quantities = series["quantities"].as_array().unwrap();
-    let name =
-        |of: &Value| of["name"].as_str().is_some_and(|own| own.starts_with("frequency, mode"));
+    let name = |of: &Value| of["name"].as_str().is_some_and(|n| n.starts_with("frequency, mode"));
     let orders = quantities.iter().filter(|own| name(own));
     let orders: Vec<f64> = orders.filter_map(|own| own["order"].as_f64()).collect();
     assert!(orders.len() >= 3, "{orders:?}");

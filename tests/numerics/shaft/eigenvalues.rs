@@ -1,7 +1,6 @@
 //! Small motions of disc and shaft.
 
 use super::*;
-use crate::waves::{STEP, is_of, pairs, rates};
 
 /// Limit: a shaft whose modulus is beyond all others is the rigid cylinder.
 #[test]

@@ -57,8 +57,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
         };
         let [with, without] = [true, false].map(of);
         let unknowns = with.dofs.unknown_of.iter().enumerate();
-        let unknowns: Vec<(usize, usize)> =
-            unknowns.filter_map(|(k, u)| Some((k, (*u)?))).collect();
+        let unknowns: Vec<_> = unknowns.filter_map(|(k, u)| Some((k, (*u)?))).collect();
         let mut rotation = vec![0.0; with.harmonic(0).stiffness[0].dimension()];
         for &(dof, unknown) in unknowns.iter().filter(|own| own.0 % 3 == 1) {
             rotation[unknown] = sector.nodes[dof / 3].radius;
@@ -132,7 +131,7 @@ fn frequencies_converge_with_the_order_of_the_bricks() {
             let found = modes(&model, 0.0, 1.15 * exact);
             let distance = |mode: &&ComplexMode| (mode.frequency_hz() - exact).abs();
             let twists =
-                found.iter().filter(|mode| mode.harmonic == 0 && mode.axial_share < Some(1e-6));
+                found.iter().filter(|own| own.harmonic == 0 && own.axial_share < Some(1e-6));
             distance(&nearest_by(twists, distance)) / exact
         });
         let orders = [0, 1].map(|k| (errors[k] / errors[k + 1]).log2());

@@ -24,14 +24,9 @@ fn courses([around, radial]: [usize; 2]) -> [Course; 2] {
 
 /// Three periods of a wave strong enough that nodes stick and lift.
 fn course(body: TransientModel<'_>, is_solid: bool) -> Course {
-    let settings = TransientSettings {
-        duration: 3e-4,
-        time_step: TimeStep::Seconds(1e-7),
-        sample_interval: 5e-6,
-        expansion_time: 0.0,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation::of(&[2], 8.0),
-    };
+    let (initial, kick) = (InitialState::SteadySliding, Perturbation::of(&[2], 8.0));
+    let mut settings = transient_settings([3e-4, 5e-6, 0.0], initial, kick);
+    settings.time_step = TimeStep::Seconds(1e-7);
     let mut course = Course::default();
     watch(&mut started(body, OperatorChoice::Auto, &settings), |sample| {
         let nodes = sample.contact().status.len();

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::solids::response::{at, sliding};
-use frictionsim::frf::Direction::Tangential;
 
 /// Distance of the response's nearest pole from `lambda / 2 pi`, Hz, from lines up to `range` (Hz) around `Im lambda / 2 pi`.
 ///

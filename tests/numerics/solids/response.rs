@@ -3,8 +3,6 @@
 use super::*;
 use crate::solids::whole_ring::WholeRing;
 
-use Direction::{Axial, Radial, Tangential};
-
 pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let options = &model.options;

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::solids::response::{FREQUENCIES, at, body, sliding};
-use frictionsim::frf::Direction::{Axial, Radial, Tangential};
 
 /// Responses of plane strain for each metre and of the guided body times its thickness to a force along the inner edge, at places
 /// of a sixteenth of the circle: `(plane, solid)`, line by line.

@@ -1,7 +1,6 @@
 //! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
 
 use super::*;
-use crate::waves::{Differences, STEP, pairs, rates};
 
 /// Linear elements in the first tier; quadratic ones stay there under a ring in rigid contact and where a ring is pressed in part.
 fn kinds() -> &'static [ElementKind] {
@@ -18,12 +17,8 @@ fn hold(model: &SolidModel, what: &str) {
 
 const SPRINGS: ContactStiffness = compliant(2e12, [3e4, 2e4]);
 
-const COMPLIANT: ContactStiffness = ContactStiffness {
-    normal_stiffness: Some(4e11),
-    normal_damping: 3e4,
-    is_base_compliant: true,
-    ..RIGID
-};
+const COMPLIANT: ContactStiffness =
+    ContactStiffness { is_base_compliant: true, ..compliant(4e11, [3e4, 0.0]) };
 
 /// Of about the stiffness of the body where it is pressed.
 const LAWS: [NormalLaw; 2] = [exponential(2e6, 4e-5), cubic(1e11, 1e19)];
@@ -45,12 +40,7 @@ fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
 /// In rigid contact, with a base state on springs, and where the stiffness follows the pressure, and that the approach.
 #[test]
 fn sensitivities_equal_finite_differences_whatever_carries_the_base_state() {
-    let laws = LAWS.map(|law| ContactStiffness {
-        law: Some(law),
-        normal_stiffness: Some(law.stiffness(0.0)),
-        is_base_compliant: false,
-        ..COMPLIANT
-    });
+    let laws = LAWS.map(|law| ContactStiffness { normal_damping: 3e4, ..stiffening(law) });
     for &element in kinds() {
         for contact in [RIGID, COMPLIANT].into_iter().chain(laws) {
             hold(&strained(element, contact), &format!("{contact:?}, {element:?}"));
@@ -110,11 +100,8 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
 fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
     let mut model = bending(Quad8, [24, 8, 2]);
     model.options.geometric_stiffness = true;
-    model.options.contact = ContactStiffness {
-        normal_stiffness: Some(1e11),
-        is_base_compliant: true,
-        ..ContactStiffness::default()
-    };
+    model.options.contact =
+        ContactStiffness { is_base_compliant: true, ..compliant(1e11, [0.0; 2]) };
     let own_rates = |modulus: f64, step: f64| -> Vec<f64> {
         let mut model = model.clone();
         model.material = elastic(modulus, 0.3, 7850.0, ThreeDimensional);

@@ -56,10 +56,8 @@ fn dense_at<M: MaterialField + Clone>(
     // Losses are the conjugates for the other half of the plane.
     let halves = [1.0, -1.0].map(|sign| {
         let stiffness = full(&at.stiffness_at(c64::new(0.0, sign * omega)));
-        let values = inverse_spectrum(
-            [full(&at.matrices.mass), full(&at.matrices.damping), stiffness],
-            sigma,
-        );
+        let [mass, damping] = [&at.matrices.mass, &at.matrices.damping].map(|own| full(own));
+        let values = inverse_spectrum([mass, damping, stiffness], sigma);
         values.into_iter().filter(move |value| value.im * sign > 0.0)
     });
     let is_standing = tangent.is_standing(n);
@@ -105,9 +103,8 @@ fn assert_equal(found: &WaveSweep, n: usize, exact: &[c64], what: &str) {
 #[test]
 fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() {
     for (element, divisions) in [(Quad4, [24, 6, 2]), (Quad8, [24, 4, 1])] {
-        let speeds =
-            [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (100.0, 0.0), (10.0, 0.1), (100.0, 0.05)];
-        for (rpm, loss_factor) in speeds {
+        let all = [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (100.0, 0.0), (10.0, 0.1), (100.0, 0.05)];
+        for (rpm, loss_factor) in all {
             let mut model = turning(element, divisions, rpm);
             model.material.loss_factor = loss_factor;
             let found = solved(&model);

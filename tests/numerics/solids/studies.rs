@@ -2,7 +2,6 @@
 
 use crate::matrices::array_of;
 use crate::prelude::*;
-use crate::waves::pairs;
 use frictionsim::study::eigenvalues::{modes_below, modes_with_waves_below, unstable_intervals};
 
 const COARSE: [&str; 1] =
@@ -36,11 +35,17 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
     let (modes, waves) = modes_with_waves_below(&case, 6e3, &[]).unwrap();
     let waves = waves.unwrap();
     let pairs = pairs(&waves.tangent, &waves.branches, 0.3);
+    are_among(&modes, &pairs, 1e-6);
+}
+
+/// Holds modes to the eigenvalues of the pairs of their names.
+fn are_among(modes: &[ComplexMode], pairs: &[cyclic::WavePair], tolerance: f64) {
     for mode in modes {
         let name = (mode.harmonic, mode.branch, mode.direction);
         let mut own = pairs.iter();
         let own = own.find(|pair| (pair.harmonic, pair.branch, pair.direction) == name);
-        assert!((own.unwrap().eigenvalue - mode.eigenvalue).norm() < 1e-6 * mode.eigenvalue.norm());
+        let error = (own.unwrap().eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
+        assert!(error < tolerance, "{name:?} {error:e}");
     }
 }
 
@@ -60,13 +65,7 @@ fn modes_of_a_damped_disc_on_springs_are_those_of_its_whole_harmonics() {
     let friction = case.contact.sliding.friction_coefficient;
     let pairs = pairs(&waves.tangent, &waves.branches, friction);
     assert!(modes.len() > 4, "{modes:?}");
-    for mode in modes {
-        let name = (mode.harmonic, mode.branch, mode.direction);
-        let mut own = pairs.iter();
-        let own = own.find(|pair| (pair.harmonic, pair.branch, pair.direction) == name);
-        let error = (own.unwrap().eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
-        assert!(error < 1e-8, "{name:?} {error:e}");
-    }
+    are_among(&modes, &pairs, 1e-8);
 }
 
 /// Falling friction is a negative dashpot: squeal from a lower friction on, and the law is said.

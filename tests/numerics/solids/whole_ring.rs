@@ -38,14 +38,8 @@ impl WholeRing {
         let mut ring = Self::new(model, false);
         let sector = ring.sector.clone();
         let (material, contact, mass) = (&model.material, &model.contact, model.options.mass);
-        let base = SolidSliding::solve(
-            &sector,
-            &sector.strip.stiffness_alike(material),
-            contact,
-            &RIGID,
-            mass,
-        )
-        .unwrap();
+        let alike = sector.strip.stiffness_alike(material);
+        let base = SolidSliding::solve(&sector, &alike, contact, &RIGID, mass).unwrap();
         let face = sector.specification.contact.face();
         let (normal, across) = (face.normal_component(), face.across_component());
         // T = mu N along +e_theta for a rotor that turns counter-clockwise.

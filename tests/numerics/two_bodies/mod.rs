@@ -5,7 +5,6 @@ mod growth;
 mod model;
 mod sweeps;
 
-use crate::body::options;
 use crate::prelude::*;
 use model::{blocks_of, held_blocks, rectangle, ring, rings, rings_of};
 

@@ -44,8 +44,7 @@ fn closed_form(n: f64) -> [f64; 2] {
         own * integral(inner, outer, |r| DENSITY * r * value(a % TERMS, r) * value(b % TERMS, r))
     });
     let (square, shape) = ritz(&stiffness, &mass);
-    let part =
-        |first: usize, r: f64| -> f64 { (0..TERMS).map(|j| shape[first + j] * value(j, r)).sum() };
+    let part = |k: usize, r: f64| -> f64 { (0..TERMS).map(|j| shape[k + j] * value(j, r)).sum() };
     let [u, v] = [0, TERMS].map(|first| move |r: f64| part(first, r));
     let coupled = integral(inner, outer, |r| 2.0 * r * u(r) * v(r));
     let whole = integral(inner, outer, |r| r * (u(r).powi(2) + v(r).powi(2)));

@@ -45,8 +45,7 @@ fn errors(step: f64) -> [f64; 2] {
     let nodes = table(&folder, "cea", case, "", "prestress.csv");
     let mut nodes = columns(&nodes, ["x_m", "pressure_pa"]);
     nodes.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let between =
-        nodes.windows(2).map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]));
+    let between = nodes.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1]));
     let force: f64 = between.sum();
     // The closed form under this force; friction pulls the body along +x, the patch lies behind.
     let (poisson, friction) = (0.3_f64, 0.5);

@@ -12,7 +12,6 @@ mod nafems_fv52;
 mod oberst;
 mod sector_pads;
 
-use crate::continuum::radial::gauss_legendre;
 use crate::prelude::*;
 use nalgebra::DVector;
 

@@ -16,8 +16,7 @@ const TARGETS: [f64; 7] = [45.897, 109.44, 109.44, 167.89, 193.59, 206.19, 206.1
 /// The plate of `n` x `n` x 1 bricks of 20 nodes, as an input file.
 fn plate(n: usize) -> String {
     let file = block(Hex20, [n, n, 1], |[x, y, z]| [10.0 * x, 10.0 * y, z]);
-    let is_held =
-        |[x, y, z]: &Place| *z == 0.0 && [x, y].iter().any(|at| [0.0, 10.0].contains(*at));
+    let is_held = |[x, y, z]: &Place| *z == 0.0 && [x, y].iter().any(|k| [0.0, 10.0].contains(*k));
     let edges = file.labels.iter().zip(&file.points).filter(|(_, place)| is_held(place));
     let edges: String = edges.map(|(number, _)| format!("{number},\n")).collect();
     let mesh = abaqus_of(&file, "C3D20, ELSET=plate");

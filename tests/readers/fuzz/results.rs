@@ -5,8 +5,7 @@ use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
 use frictionsim::app::plot::redraw;
 use frictionsim::results::sweep::{Found, SweepFolder};
 use frictionsim::results::transient::{CHECKPOINT, read_checkpoint, write_checkpoint};
-use frictionsim::results::{DrawingOptions, Format, read_manifest, read_record};
-use std::io::{Read, Write};
+use frictionsim::results::{read_manifest, read_record};
 
 /// One finished folder of a command with the files that `plot` reads, of a run that takes moments.
 fn finished(folder: &Path, command: &str) -> PathBuf {

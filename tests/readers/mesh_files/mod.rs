@@ -63,8 +63,7 @@ pub fn said_of(folder: &Path, text: &str) -> String {
 /// Lines `FROM => TO => SAID` of a change to a right file, and what must be said of it.
 fn check_errors(name: &str, text: &str, changes: &str) {
     for change in changes.trim_matches('\n').split('\n') {
-        let parts: Vec<String> =
-            change.split(" => ").map(|part| part.replace("\\n", "\n")).collect();
+        let parts: Vec<String> = change.split(" => ").map(|own| own.replace("\\n", "\n")).collect();
         let [from, to, said] = &parts[..] else { panic!("{change}") };
         assert!(text.contains(from), "{from}");
         let found = error(name, &text.replacen(from, to, 1));

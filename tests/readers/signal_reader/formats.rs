@@ -3,7 +3,6 @@
 use super::{read_response, read_signal};
 use crate::prelude::*;
 use frictionsim::signal::reader::*;
-use std::io::Write;
 
 /// Channels of these names at 50 kHz, all of the same samples.
 pub fn signal(names: &[&str], samples: &[f64]) -> SignalFile {

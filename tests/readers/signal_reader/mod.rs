@@ -177,7 +177,7 @@ fn columns_without_names_are_read_only_where_the_numbers_leave_no_doubt() {
 fn signals_are_read_with_time_column_or_rate() {
     let tone = |i: usize| (0.3 * i as f64).sin();
     let timed: String =
-        (0..40).map(|i| format!("{:.6},{},{}\n", 2e-6 * i as f64, tone(i), i)).collect();
+        (0..40).map(|i| format!("{:.6},{},{i}\n", 2e-6 * i as f64, tone(i))).collect();
     let file =
         read_signal(format!("time_s,a_r_m_per_s2,other\n{timed}").as_bytes(), "x", None).unwrap();
     assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);

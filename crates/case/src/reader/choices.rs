@@ -2,7 +2,7 @@
 
 use super::Section;
 use crate::words::Choice;
-use crate::{CaseKey, RawItem, RawValue, keys, refuse_at, refuse_if, suggestion, words};
+use crate::{CaseKey, RawItem, RawValue, keys, placed, refuse_if, suggestion, words};
 
 impl Section<'_> {
     /// A list of words out of a few; empty where it is not given.
@@ -56,8 +56,9 @@ impl Section<'_> {
                 return Some(choice);
             }
             if let Some(near) = suggestion::nearest_word(text, &words) {
-                refuse_at!(self, &item.at, "{} = {} is not one of its values", self.name(key),
-                    item.value.shortened(); "{bound}"; "did you mean \"{near}\"?");
+                let error = placed!(item.at.clone(), "{} = {} is not one of its values",
+                    self.name(key), item.value.shortened(); "{bound}"; "did you mean \"{near}\"?");
+                self.misread(key, true, error);
                 return None;
             }
         }

@@ -126,10 +126,7 @@ impl FrictionPoint {
         mut modes: Vec<ComplexMode>,
     ) -> Self {
         let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
-        let above = modes.split_off(match limit {
-            ModeLimit::Lowest(count) => keeping_ties(frequencies, count),
-            ModeLimit::MaxFrequency(hz) => frequencies.take_while(|own| *own <= TAU * hz).count(),
-        });
+        let above = modes.split_off(limit.selected(frequencies));
         Self { friction_coefficient, modes, above }
     }
 
@@ -151,6 +148,16 @@ impl FrictionPoint {
             }
         }
         found
+    }
+}
+
+impl ModeLimit {
+    /// Number of leading modes that it selects of those with the rising angular `frequencies` (rad/s), one on a limit included.
+    pub fn selected(self, frequencies: impl Iterator<Item = f64>) -> usize {
+        match self {
+            Self::Lowest(count) => keeping_ties(frequencies, count),
+            Self::MaxFrequency(hz) => frequencies.take_while(|own| *own <= TAU * hz).count(),
+        }
     }
 }
 

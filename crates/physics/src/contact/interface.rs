@@ -52,8 +52,7 @@ impl ContactInterface {
             let frames = nodes.iter().map(|&node| mesh.frame_angles()[node as usize]);
             (frames.collect(), vec![0.0; nodes.len()])
         } else {
-            let places =
-                nodes.iter().map(|&node| counterface.place(mesh.plane_node(node as usize)));
+            let places = nodes.iter().map(|&own| counterface.place(mesh.plane_node(own as usize)));
             let distances = mesh.distances_from_counterface(edge);
             let gaps = nodes.iter().map(|node| distances[node]);
             (phases(&counterface, places.collect()), gaps.collect())

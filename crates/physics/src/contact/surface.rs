@@ -367,11 +367,7 @@ fn nodes_with<T>(face: &BoundaryFace, values: Vec<T>) -> Vec<(u32, T)> {
 }
 
 /// The part of a face in its plane that another lies over; `None` where there is nothing but round-off.
-fn shared_polygon(
-    facet: &Facet<'_>,
-    other: &Facet<'_>,
-    plane: &Plane,
-) -> Option<Vec<Vector2<f64>>> {
+fn shared_polygon(own: &Facet<'_>, other: &Facet<'_>, plane: &Plane) -> Option<Vec<Vector2<f64>>> {
     let flat = |corners: &[Vector3<f64>]| -> Vec<Vector2<f64>> {
         corners.iter().map(|corner| plane.flat(corner)).collect()
     };
@@ -379,7 +375,7 @@ fn shared_polygon(
     if signed_area(&shadow) < 0.0 {
         shadow.reverse();
     }
-    let smallest = SLIVER * facet.area.min(other.area);
-    let polygon = without_straight_corners(clipped(flat(facet.corners()), &shadow), smallest);
+    let smallest = SLIVER * own.area.min(other.area);
+    let polygon = without_straight_corners(clipped(flat(own.corners()), &shadow), smallest);
     (polygon.len() > 2 && signed_area(&polygon) > smallest).then_some(polygon)
 }

@@ -72,7 +72,7 @@ impl Topography {
     }
 
     /// The nearest three points of each quadrant around a place, so that scan lines far from each other are still joined; fewer
-    /// where the coarsest grid has no more.
+    /// where the coarsest grid has no more. The nearest of all lies in the middle of a quadrant: the axes of the mesh turn none.
     fn around(
         &self,
         grids: &[Grid],
@@ -81,13 +81,17 @@ impl Topography {
     ) -> Vec<usize> {
         let mut chosen = Vec::new();
         for grid in grids {
+            let near = grid.near(position, grid.size).into_iter();
+            let near = near.map(|i| (Vector3::from(self.points[i].0) - position, i));
+            let near: Vec<_> = near.filter(|(arm, _)| arm.norm() <= grid.size).collect();
+            let nearest = near.iter().map(|own| own.0).min_by(|a, b| a.norm().total_cmp(&b.norm()));
+            let [x, y] = axes.map(|axis| nearest.map_or(0.0, |arm| arm.dot(&axis)));
+            let halves = [[x - y, x + y], [x + y, y - x]]; // The nearest turned by an eighth to either side.
             let mut quadrants: [Vec<(f64, usize)>; 4] = Default::default();
-            for i in grid.near(position, grid.size) {
-                let arm = Vector3::from(self.points[i].0) - position;
-                if arm.norm() <= grid.size {
-                    let [along, across] = axes.map(|axis| usize::from(arm.dot(&axis) < 0.0));
-                    quadrants[2 * along + across].push((arm.norm(), i));
-                }
+            for (arm, i) in near {
+                let [along, across] = halves
+                    .map(|[x, y]| usize::from(x * arm.dot(&axes[0]) + y * arm.dot(&axes[1]) < 0.0));
+                quadrants[2 * along + across].push((arm.norm(), i));
             }
             for quadrant in &mut quadrants {
                 quadrant.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -128,5 +132,37 @@ impl Topography {
         let is_flat = moments.determinant() < FLAT * total;
         let factors = moments.cholesky().filter(|_| !is_flat);
         factors.map_or(right[0] / total, |factors| factors.solve(&right)[0])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Rotation3;
+
+    #[test]
+    fn gaps_between_measured_points_do_not_depend_on_the_axes_of_the_mesh() {
+        // Scattered places, always the same, and a surface that waves more than they tell.
+        let place = |i: u32| {
+            [2654435761_u32, 2246822519].map(|k| f64::from(i.wrapping_mul(k)) / f64::from(u32::MAX))
+        };
+        let points: Vec<_> = (1..=400)
+            .map(place)
+            .map(|[x, y]| ([x, y, 0.0], (40.0 * x).sin() * (30.0 * y).cos()))
+            .collect();
+        let axes = [Vector3::x(), Vector3::y()];
+        let gaps_turned_by = |angle: f64| -> Vec<f64> {
+            let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+            let turned =
+                points.iter().map(|&(place, gap)| ((turn * Vector3::from(place)).into(), gap));
+            let own = Topography::new("", turned.collect());
+            let at = (401..450).map(|i| turn * Vector3::new(place(i)[0], place(i)[1], 0.0));
+            let grids = own.grids(0.3);
+            at.map(|at| own.fitted(&own.around(&grids, &at, &axes), &at, &axes)).collect()
+        };
+        let as_it_lies = gaps_turned_by(0.0);
+        for (turned, gap) in gaps_turned_by(0.4).iter().zip(&as_it_lies) {
+            assert!((turned - gap).abs() < 1e-10, "{turned} {gap}");
+        }
     }
 }

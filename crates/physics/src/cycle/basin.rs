@@ -139,16 +139,12 @@ impl DiscModel {
     }
 
     /// Period of the slower of the two waves that grow, s.
-    fn slowest_period(
-        &self,
-        point: &OperatingPoint,
-        request: &BasinRequest,
-    ) -> Result<f64, CycleError> {
-        let friction = point.contact.friction_coefficient;
+    fn slowest_period(&self, at: &OperatingPoint, asked: &BasinRequest) -> Result<f64, CycleError> {
+        let friction = at.contact.friction_coefficient;
         let onsets = self.onsets(friction, crate::cea::ModeLimit::Lowest(super::MODES))?;
-        let own = onsets.iter().filter(|onset| request.harmonics.contains(&onset.harmonic));
+        let own = onsets.iter().filter(|onset| asked.harmonics.contains(&onset.harmonic));
         let slowest = own.map(|onset| onset.frequency).reduce(f64::min).ok_or_else(|| {
-            let [one, other] = request.harmonics;
+            let [one, other] = asked.harmonics;
             CycleError::NotFound(format!(
                 "steady sliding is stable against waves of {one} and {other} nodal diameters at \
                  contact.friction_coefficient = {friction}: neither can win. Raise it, or name \

@@ -18,7 +18,7 @@ const E_FOLDS: f64 = 5.0;
 const E_FOLDS_OF_RANDOM: f64 = 8.0;
 /// Most periods that are spent on a slow perturbation.
 const MOST_PERIODS: usize = 200;
-/// Looks at the edge in each period.
+/// Looks at the edge in each period, and as many half way between them for what turns fast.
 const LOOKS: usize = 16;
 /// Harmonics of the edge that are looked at, besides the wave's own.
 const HARMONICS: usize = 8;
@@ -84,6 +84,14 @@ fn turned(amplitudes: &[c64]) -> f64 {
     amplitudes.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum() // Known where looks are closer than half a turn.
 }
 
+/// The same from looks that stand half an interval apart: from every second one where the turns between these are told without doubt.
+/// A wave of harmonic 8 in a cycle of harmonic 1 turns through half a turn between them, either way.
+fn turned_by_halves(looks: &[c64]) -> f64 {
+    let whole: Vec<c64> = looks.iter().step_by(2).copied().collect();
+    let is_slow = whole.windows(2).all(|pair| (pair[1] * pair[0].conj()).re > 0.0); // Less than a quarter turn.
+    turned(if is_slow { &whole } else { looks })
+}
+
 impl MeshStepping<'_> {
     /// Steps the disc through `periods` periods or more from a cycle, seeded in the harmonic of its leading perturbation, and
     /// reads the last fifth.
@@ -103,7 +111,7 @@ impl MeshStepping<'_> {
         let mode = leading.and_then(|found| found.mode);
         let seed = mode.map(|mode| (mode.harmonic, SEED * surface_speed));
         let (mut run, steps) = self.start(cycle, seed)?;
-        let look_every = (steps / LOOKS).max(1);
+        let look_every = (steps / LOOKS).max(2);
         let first = (periods - periods / 5) * steps;
         for _ in 0..=first {
             interruption::check();
@@ -117,12 +125,13 @@ impl MeshStepping<'_> {
         for step in 1..=counted {
             interruption::check();
             run.advance();
-            if step.is_multiple_of(look_every) {
+            if [0, look_every / 2].contains(&(step % look_every)) {
                 looks.push(slips(&run));
             }
         }
+        looks.truncate((looks.len() - 1) / 2 * 2 + 1); // Whole intervals.
         let (powers, _, counts) = run.take_sums();
-        let duration = ((looks.len() - 1) * look_every) as f64 * run.plan().time_step;
+        let duration = (looks.len() / 2 * look_every) as f64 * run.plan().time_step;
 
         // The largest harmonic, if it is one.
         let highest = HARMONICS.min(run.interface().len() / 2);
@@ -130,13 +139,15 @@ impl MeshStepping<'_> {
         let harmonics = (1..=highest).chain(own).map(|m| {
             (m, looks.iter().map(|edge| amplitude(edge, m as isize)).collect::<Vec<c64>>())
         });
-        let size = |own: &[c64]| own.iter().map(|a| a.norm()).sum::<f64>() / looks.len() as f64;
+        let size = |own: &[c64]| own.iter().map(|a| a.norm()).sum::<f64>() / own.len() as f64;
         let main = harmonics.max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
         let least = 1e-4 * cycle.state.point.contact.interference;
         let main = main.filter(|(_, own)| size(own) > least);
         let found = Confirmation {
             periods,
-            main_frequency_hz: main.as_ref().map(|(_, own)| turned(own).abs() / TAU / duration), // Turns over time.
+            main_frequency_hz: main
+                .as_ref()
+                .map(|(_, own)| turned_by_halves(own).abs() / TAU / duration), // Turns over time.
             main_harmonic: main.map(|(harmonic, _)| harmonic),
             status: counts.fractions(),
             external_power: powers.external / counted as f64,
@@ -222,4 +233,20 @@ fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
         sums.iter_mut().zip(slips(&map.run)).for_each(|(sum, slip)| *sum += slip * turn);
     }
     sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wave_that_turns_half_around_between_two_looks_has_a_sense() {
+        for turns in [-8.0, -1.0, 1.0, 8.0] {
+            // Over a period whose looks hardly wait for equal times.
+            let angle =
+                |k: usize| TAU * turns * (k as f64 + 0.01 * (k as f64).sin()) / (2 * LOOKS) as f64;
+            let looks: Vec<c64> = (0..=2 * LOOKS).map(|k| c64::from_polar(1.0, angle(k))).collect();
+            assert!((turned_by_halves(&looks) - TAU * turns).abs() < 0.1, "{turns}");
+        }
+    }
 }

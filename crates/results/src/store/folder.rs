@@ -330,14 +330,10 @@ fn is_owned(path: &Path, manifest: &Manifest) -> Result<bool, FolderError> {
 
 /// Whether a run is to replace what lies in an existing folder, results of another case or foreign files; refuses what
 /// must stay. A run that was begun so goes on without being allowed again.
-fn replaces_others(
-    path: &Path,
-    manifest: &Manifest,
-    replace: Replace,
-) -> Result<bool, FolderError> {
+fn replaces_others(path: &Path, ours: &Manifest, replace: Replace) -> Result<bool, FolderError> {
     let replaces = match read_contents(path)? {
         Some(found) if is_void(path, &found) => Ok(false),
-        Some(found) => check_owner(path, &found.manifest, manifest, replace).map(|same| !same),
+        Some(found) => check_owner(path, &found.manifest, ours, replace).map(|same| !same),
         None => match refuse_foreign(path) {
             Ok(()) => Ok(false),
             Err(_) if replace == Replace::Anything => Ok(true),
@@ -345,7 +341,7 @@ fn replaces_others(
         },
     };
     match replaces {
-        Err(_) if is_owned(&path.join(STAGING), manifest)? => Ok(true),
+        Err(_) if is_owned(&path.join(STAGING), ours)? => Ok(true),
         decided => decided,
     }
 }

@@ -142,12 +142,8 @@ pub(crate) fn create_folder(path: &Path) -> Result<(), FolderError> {
 }
 
 /// Writes a file whole or not at all, flushed to the disk if it is to be durable; gives the checksum of its bytes.
-pub(crate) fn write_whole(
-    path: &Path,
-    is_durable: bool,
-    fill: Fill<'_>,
-) -> Result<u32, FolderError> {
-    try_write(path, is_durable, fill).map_err(|e| FolderError::io("write", path, e))
+pub(crate) fn write_whole(path: &Path, durable: bool, fill: Fill<'_>) -> Result<u32, FolderError> {
+    try_write(path, durable, fill).map_err(|e| FolderError::io("write", path, e))
 }
 
 /// Writes a file under a temporary name in the same folder and renames it, flushed to the disk before

@@ -13,16 +13,17 @@
 //! Marquardt starts from the best of several points. Eigenvalues are differentiated by the model
 //! where it can, and by central differences elsewhere.
 
+mod assignment;
 mod case;
 mod estimate;
 mod free_part;
 mod levenberg_marquardt;
 mod matching;
 
+pub(crate) use assignment::least_cost;
 pub use case::{fit_case, refuse_too_few};
 pub use estimate::fit;
 pub use frictionsim_signal::reader::MeasuredMode;
-pub(crate) use matching::least_cost;
 
 use crate::prelude::*;
 use frictionsim_case::Fit;

@@ -163,17 +163,12 @@ impl<'b, 'a> Corrector<'b, 'a> {
     ///
     /// # Errors
     /// A body that the time loop cannot take.
-    pub fn scaled(
-        &mut self,
-        point: &Point,
-        factor: f64,
-        value: f64,
-    ) -> Result<Guess, TransientError> {
+    pub fn scaled(&mut self, point: &Point, by: f64, value: f64) -> Result<Guess, TransientError> {
         (self.tune)(&mut self.map, point.value)?;
         self.map.step_in(point.found.steps);
         let mut motion = self.map.mean(&point.found.state);
         let vibration = difference(&point.found.state.motion, &motion);
-        add(&mut motion, factor, &vibration); // mean + factor (motion - mean).
+        add(&mut motion, by, &vibration); // mean + by (motion - mean).
         Ok(Guess { value, state: PeriodicState { motion, period: point.found.state.period } })
     }
 
@@ -181,13 +176,8 @@ impl<'b, 'a> Corrector<'b, 'a> {
     ///
     /// # Errors
     /// A motion that dies, leaves its counterface, or does not repeat itself.
-    pub fn correct(
-        &mut self,
-        near: &Point,
-        guess: Guess,
-        goal: &Goal,
-    ) -> Result<Point, CycleError> {
-        let found = self.search(near, guess.clone(), goal);
+    pub fn correct(&mut self, near: &Point, from: Guess, goal: &Goal) -> Result<Point, CycleError> {
+        let found = self.search(near, from.clone(), goal);
         let is_good = |found: &Result<Point, CycleError>| {
             let residual = found.as_ref().map(|point| point.found.residual);
             residual.is_ok_and(|residual| residual < GOOD)
@@ -197,7 +187,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         }
         // What the last points have taught may be of another status of the nodes: once more without it.
         self.forget();
-        let second = self.search(near, guess, goal);
+        let second = self.search(near, from, goal);
         match (&found, &second) {
             (Ok(one), Ok(other)) if one.found.residual <= other.found.residual => found,
             (Ok(_), Err(_)) => found,

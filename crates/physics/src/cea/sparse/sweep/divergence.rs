@@ -16,10 +16,7 @@ impl SparseSweep<'_> {
     ///
     /// # Errors
     /// If the analysis of the pattern fails.
-    pub fn divergence(
-        &self,
-        branches: &[TrackedBranch],
-    ) -> Result<Option<UnstableInterval>, CeaError> {
+    pub fn divergence(&self, all: &[TrackedBranch]) -> Result<Option<UnstableInterval>, CeaError> {
         if self.tangent.is_tabled() {
             return Ok(None);
         }
@@ -27,7 +24,7 @@ impl SparseSweep<'_> {
         // Of two the determinant has no sign.
         let is_unstable = (self.is_continued || self.is_unheld)
             && (self.sign_at(first)? < 0.0 || self.builder.model.static_growth(first)? > 1);
-        let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
+        let ends = all.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
         let mut place = ends.chain(is_unstable.then_some(first)).min_by(f64::total_cmp);
         let after = &self.grid[1..];
         let last = &after[after.len().saturating_sub(1)..];

@@ -7,7 +7,7 @@ use crate::cea::sparse::packed::{PackedModes, PackedVector, joined, side_by_side
 use crate::cea::sparse::point::{ModeCheck, SolvedPoint, normalize};
 use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
-use crate::cea::{ModeLimit, ModeVectors, SweepProgress, SweepStage, keeping_ties};
+use crate::cea::{ModeLimit, ModeVectors, SweepProgress, SweepStage};
 use crate::linalg::vectors::length;
 use crate::linalg::{LinalgError, Mat, c64};
 use std::f64::consts::TAU;
@@ -64,14 +64,10 @@ impl SparseSweep<'_> {
 
         // What they are in the full matrices.
         let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
-        let (wanted, range_end) = match self.limit {
-            ModeLimit::Lowest(count) => {
-                let wanted = keeping_ties(frequencies, count);
-                (wanted, modes[..wanted].last().map_or(0.0, |mode| mode.eigenvalue.im))
-            }
-            ModeLimit::MaxFrequency(hz) => {
-                (frequencies.take_while(|own| *own < TAU * hz).count(), TAU * hz)
-            }
+        let wanted = self.limit.selected(frequencies);
+        let range_end = match self.limit {
+            ModeLimit::Lowest(_) => modes[..wanted].last().map_or(0.0, |mode| mode.eigenvalue.im),
+            ModeLimit::MaxFrequency(hz) => TAU * hz,
         };
         let checked = self.builder.count.max(wanted).min(modes.len()); // Those held beyond the wanted ones, too.
         let checks = self.check(mu, &modes[..checked]);
