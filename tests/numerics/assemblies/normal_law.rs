@@ -32,6 +32,27 @@ fn a_bar_under_pressure_sinks_by_the_approach_of_the_law() {
     }
 }
 
+/// Closed form: the same of the bar on a rigid plane, whose contact is rigid beside one that stiffens.
+#[test]
+fn a_law_and_rigid_contact_share_a_pressure() {
+    let free: Vec<_> = PRESSED[1..].to_vec();
+    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &free);
+    for law in LAWS {
+        let floor = flat(RigidMotion::Sliding([1.0, 0.0, 0.0]), [0.0; 3], 0.0);
+        let contacts = [stiffening(&mesh, law), on_rigid(&mesh, "lower_z0", floor, None)];
+        let motions = (&[aside(&mesh)][..], Solved);
+        let assembly = Assembly::new(&mesh, &STEEL, (&[], &contacts), motions, Consistent).unwrap();
+        let state = assembly.state(0.0).unwrap();
+        let approach = law.approach(1e8);
+        let error = patch_error(&mesh, &state.displacements[0], approach);
+        below(error / approach, 1e-9, format!("{law:?}"));
+        let points = assembly.contacts().iter().flat_map(|(_, surface)| &surface.points);
+        for (point, force) in points.zip(&state.normal_forces[0]) {
+            assert!((force / point.weight / 1e8 - 1.0).abs() < 1e-9, "{law:?} {force}");
+        }
+    }
+}
+
 /// Independent: small motions are those of the linear contact whose stiffness is `dp / dg` at that pressure, friction included.
 #[test]
 fn small_motions_are_those_of_the_stiffness_at_the_pressure() {
