@@ -20,7 +20,7 @@ impl Pressing<'_> {
     /// same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
-    /// [`PrestressError::NoState`] at the first friction coefficient without one; [`PrestressError::GapEverywhere`]; [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
+    /// [`NoState`](super::PrestressError::NoState) at the first friction coefficient without one; otherwise as [`super::Assembly::range`].
     pub fn states(&self, mesh: &Mesh, friction_coefficients: &[f64]) -> Result<PressedRange> {
         let count = mesh.symmetry.as_ref().map_or(1, |symmetry| symmetry.count);
         let Some(first_of) = self.copies(count) else {
