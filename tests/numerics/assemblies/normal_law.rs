@@ -84,3 +84,18 @@ fn a_law_that_hardly_stiffens_is_linear_contact() {
     let error = largest_difference(&eigenvalues(&linear, 0.4, 6), &eigenvalues(&own, 0.4, 6));
     assert!(error < 1e-8, "{error:e}");
 }
+
+/// Balance: forces of contact far stiffer than the bodies, which rounding moves from tangent to tangent, carry the load.
+#[test]
+fn contact_far_stiffer_than_the_bodies_has_a_state() {
+    let mesh = bar();
+    for law in [exponential(1e8, 1e-12), cubic(1e19, 1e38)] {
+        let assembly = solved(&mesh, stiffening(&mesh, law));
+        let area: f64 = assembly.contacts()[0].1.points.iter().map(|point| point.weight).sum();
+        for friction in [0.0, 0.1] {
+            let state = assembly.state(friction).unwrap();
+            let force: f64 = state.normal_forces(friction).iter().sum();
+            below((force / (1e8 * area) - 1.0).abs(), 1e-6, format!("{law:?} {friction}"));
+        }
+    }
+}

@@ -12,25 +12,31 @@ use crate::linalg::{LinearFamily, Mat, SparseLu};
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
 const OPEN_SHARE: f64 = 1e-6;
 
+/// Stiffness of contact over that of the bodies from which on digits of `p_i - c_i` would be lost.
+const FAR_STIFFER: f64 = 1e3;
+
 /// Unknowns along normals up to which the columns of `P^-1` of all of them are held, once a share of as many was solved for one by one:
 /// together they cost that much. Until then, and of more, products after which another matrix is factorized.
 const MOST_HELD: usize = 4000;
 const AT_ONCE: usize = 4;
 const MOST_PRODUCTS: usize = 30;
+/// Products after which that is done at once, and those with it.
+const ENOUGH: usize = 100;
+const AT_MOST: usize = 1000;
 
-/// Tangents of contact that stiffens that are tried, and the change of a force, over the largest, at which they have settled.
+/// Tangents of contact that stiffens that are tried, and the change of a force, over the largest, at which they have settled; that from
+/// which on changes that fall no more are round-off.
 const MOST_TANGENTS: usize = 60;
 const SETTLED: f64 = 1e-11;
+const NEARLY: f64 = 1e-6;
 
 /// Residual of the penetrations, over those without friction: as small as rounding lets it become, for polynomials over a short range of
 /// friction magnify it by up to a million.
 const TOLERANCE: f64 = 1e-16;
 
 /// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
-/// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1.
-const NODES: [usize; 2] = [6, 8];
-/// The same from friction 0 on of rigid contact.
-const RIGID_NODES: usize = 7;
+/// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1; from friction 0 on of rigid contact.
+const NODES: [usize; 3] = [6, 8, 7];
 
 /// Bodies whose contact points have springs `k_i`.
 ///
@@ -52,11 +58,11 @@ const RIGID_NODES: usize = 7;
 /// a system near the identity, as friction and the points that changed since are small beside `P`. Friction is in the matrix alone:
 /// the systems of a set of pressed points share one space.
 ///
-/// Rigid contact, `c_i = p_i` where pressed, has `N_i = -k_i y_i` with any `k_i`; that about as stiff as the bodies leaves no digits lost.
-/// Then `y` itself is unknown:
+/// Of far stiffer contact `p_i - c_i` would be a small difference, that of rigid contact zero. It has `N_i = -k_i y_i` with another `k_i`:
+/// that of the bodies leaves no digits lost. Then `y` itself is unknown:
 ///
 /// ```text
-/// e y + n . P^-1 E y = n . d_0 - s p,   c_i = s_i p_i + e_i y_i,   e_i = 0 where rigid contact is pressed, else 1
+/// e y + n . P^-1 E y = n . d_0 - s p,   c_i = s_i p_i + e_i y_i,   e_i = k_i over its own stiffness where pressed, else 1
 /// E y = sum_i ((s_i - e_i r_i) n_i + mu s_i drag_i t_i) k_i y_i
 /// ```
 ///
@@ -65,10 +71,10 @@ const RIGID_NODES: usize = 7;
 /// is concave, so that no step runs away.
 pub(super) struct ContactSystem<'a> {
     points: JoinedPoints<'a>,
-    /// Points without springs of their own, `e_i = 0` where they are pressed.
-    is_rigid: Vec<bool>,
-    /// `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens; about those of the bodies of rigid contact.
+    /// Stiffness of the bodies at each point, that of its contact and `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens.
+    bodies: Vec<f64>,
     springs: Vec<f64>,
+    even: Vec<f64>,
     pushed: Vec<f64>,
     /// `P`, and `r_i k_i` in it, N/m.
     solver: SparseLu,
@@ -91,6 +97,11 @@ struct Systems {
     family: LinearFamily,
 }
 
+/// `k_i` of a contact on bodies of some stiffness, N/m.
+fn even(spring: f64, bodies: f64) -> f64 {
+    if spring > FAR_STIFFER * bodies { bodies } else { spring }
+}
+
 /// What the equations of a set of pressed points are made of.
 struct Equations<'a> {
     points: &'a JoinedPoints<'a>,
@@ -101,7 +112,7 @@ struct Equations<'a> {
     normal: Vec<f64>,
     origin: Vec<f64>,
     yields: Vec<f64>,
-    has_rigid: bool,
+    is_stiff: bool,
 }
 
 impl Equations<'_> {
@@ -112,20 +123,16 @@ impl Equations<'_> {
         self.points.moved_under(self.inverse, &[fixed, moving])
     }
 
-    fn separations(&self, moved: &[f64]) -> Vec<f64> {
-        self.points.separations(&self.points.along_normals.expand(moved))
-    }
-
-    /// `n . d`; what is unknown with rigid points is `y`.
+    /// `n . d`; what is unknown with stiff contact is `y`.
     fn lifted(&self, x: &[f64]) -> Vec<f64> {
-        if self.has_rigid { x.to_vec() } else { self.separations(x) }
+        if self.is_stiff { x.to_vec() } else { self.points.separations(x) }
     }
 
     /// What is unknown, `x`, in the equations: `d + P^-1 E (n . d)`, or `e y + n . P^-1 E y`.
     fn apply(&self, x: &[f64]) -> Vec<Vec<f64>> {
         let mut found = self.moved(&self.lifted(x));
-        if self.has_rigid {
-            found.iter_mut().for_each(|own| *own = self.separations(own));
+        if self.is_stiff {
+            found.iter_mut().for_each(|own| *own = self.points.separations(own));
             found[0].iter_mut().zip(x).zip(&self.yields).for_each(|((own, x), e)| *own += e * x);
         } else {
             add(&mut found[0], 1.0, x);
@@ -141,30 +148,28 @@ impl<'a> ContactSystem<'a> {
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn new(pressing: &'a Pressing<'a>) -> Result<Self> {
         let points = JoinedPoints::new(pressing);
-        let own = pressing.stiffnesses.iter().zip(points.own_stiffnesses());
-        let springs: Vec<f64> = own.map(|(given, own)| given.unwrap_or(own)).collect();
-        let is_rigid = pressing.stiffnesses.iter().map(Option::is_none).collect();
+        let bodies: Vec<f64> = points.own_stiffnesses().collect();
+        let given = pressing.stiffnesses.iter();
+        let springs: Vec<f64> = given.map(|own| own.unwrap_or(f64::INFINITY)).collect();
+        let even: Vec<f64> = springs.iter().zip(&bodies).map(|(k, own)| even(*k, *own)).collect();
         Ok(Self {
             last: Vec::new(),
             pushed: pressing.pushed.clone(),
-            held: springs.clone(),
-            solver: points.factorize(&springs)?,
+            solver: points.factorize(&even)?,
+            held: even.clone(),
             points,
+            bodies,
             springs,
+            even,
             columns: None,
             asked: 0,
             is_slow: false,
             systems: None,
-            is_rigid,
         })
     }
 
     /// Factorizes `P` of other pressed points where the last solution took long, or holds its columns.
     fn follow(&mut self, is_pressed: &[bool]) -> Result<()> {
-        let shares = is_pressed.iter().zip(&self.springs);
-        let held: Vec<f64> = shares
-            .map(|(&is_pressed, spring)| if is_pressed { *spring } else { OPEN_SHARE * spring })
-            .collect();
         let own = &self.points.along_normals;
         if self.columns.is_some() {
             return Ok(());
@@ -172,30 +177,43 @@ impl<'a> ContactSystem<'a> {
         if self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD {
             let rows: Vec<Row> = own.dofs.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
             self.columns = Some(self.points.columns(&self.solver, &rows));
-        } else if self.is_slow && held != self.held {
-            self.solver = self.points.factorize(&held)?;
-            (self.held, self.systems) = (held, None);
+        } else if self.is_slow {
+            self.factorize(is_pressed)?;
         }
         Ok(())
     }
 
-    /// Separations and normal forces on the springs as they are, and what moves along normals.
-    fn linear_state(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> [Vec<f64>; 3] {
-        let known = self.systems.take().filter(|systems| systems.is_pressed == is_pressed);
-        let equations = self.equations(is_pressed);
+    /// Factorizes `P` of these pressed points.
+    fn factorize(&mut self, is_pressed: &[bool]) -> Result<()> {
+        let mut held = self.even.clone();
+        held.iter_mut().zip(is_pressed).filter(|own| !own.1).for_each(|own| *own.0 *= OPEN_SHARE);
+        if held != self.held {
+            self.solver = self.points.factorize(&held)?;
+            (self.held, self.systems, self.columns, self.asked) = (held, None, None, 0);
+        }
+        Ok(())
+    }
+
+    /// Separations and normal forces on the springs as they are, and what moves along normals; none where `most` products are too few.
+    fn linear_state(&mut self, mu: f64, set: &[bool], most: usize) -> Option<[Vec<f64>; 3]> {
+        let known = self.systems.take().filter(|systems| systems.is_pressed == set);
+        let equations = self.equations(set);
         let Equations { own, origin, yields, .. } = &equations;
-        let mut systems = known.unwrap_or_else(|| self.begin(&equations, is_pressed));
+        let mut systems = known.unwrap_or_else(|| self.begin(&equations, set));
         let apply = |x: &[f64]| equations.apply(x);
-        let (mut moved, products) = systems.family.solve(friction_coefficient, apply, TOLERANCE);
+        let (mut moved, products) = systems.family.solve(mu, apply, (TOLERANCE, most))?;
         let mut y = equations.lifted(&moved);
         add(&mut y, 1.0, &systems.free);
         // N = - s k y, and c = s p + e y; 0 - 0 has no sign.
         let forces = own.iter().zip(&y).map(|(spring, y)| 0.0 - spring * y).collect();
         let separations = (0..y.len()).map(|i| origin[i] + yields[i] * y[i]).collect();
-        (self.is_slow, self.asked) = (products > MOST_PRODUCTS, self.asked + 2 * products);
+        if equations.is_stiff {
+            moved.clear(); // It is no displacement.
+        }
         add(&mut moved, 1.0, &systems.unmoved);
+        (self.is_slow, self.asked) = (products > MOST_PRODUCTS, self.asked + 2 * products);
         self.systems = Some(systems);
-        [separations, forces, moved]
+        Some([separations, forces, moved])
     }
 
     /// The equations of a set of pressed points.
@@ -204,10 +222,9 @@ impl<'a> ContactSystem<'a> {
             let both = values.iter().zip(is_pressed);
             both.map(|(value, is_pressed)| if *is_pressed { *value } else { 0.0 }).collect()
         };
-        let own = pressed(&self.springs);
-        let stands =
-            self.is_rigid.iter().zip(is_pressed).map(|(rigid, pressed)| *rigid && *pressed);
-        let yields: Vec<f64> = stands.map(|stands| f64::from(u8::from(!stands))).collect();
+        let yields = |i: usize| if is_pressed[i] { self.even[i] / self.springs[i] } else { 1.0 };
+        let (own, yields) = (pressed(&self.even), (0..is_pressed.len()).map(yields));
+        let yields: Vec<f64> = yields.collect();
         Equations {
             points: &self.points,
             inverse: (&self.solver, self.columns.as_ref()),
@@ -215,7 +232,7 @@ impl<'a> ContactSystem<'a> {
             own,
             origin: pressed(&self.pushed),
             yields,
-            has_rigid: self.is_rigid.contains(&true),
+            is_stiff: self.even != self.springs,
         }
     }
 
@@ -225,16 +242,15 @@ impl<'a> ContactSystem<'a> {
         let pushes = self.held.iter().zip(origin).map(|(held, origin)| [held * origin, 0.0]);
         let pushes: Vec<[f64; 2]> = pushes.collect();
         let loaded = points.along_normals.restrict(&points.respond(&self.solver, &pushes)); // d_0.
-        if equations.has_rigid {
-            let (free, none) = (equations.separations(&loaded), vec![0.0; origin.len()]);
-            let left = difference(&free, origin);
-            let scale = norm(&left);
+        if equations.is_stiff {
+            let left = difference(&points.separations(&loaded), origin);
+            let (none, scale) = (vec![0.0; origin.len()], norm(&left));
             let family = LinearFamily::new(vec![left, none.clone()], scale);
             return Systems { is_pressed, unmoved: none.clone(), free: none, family };
         }
         // From the state found last where contact stiffens: what is left of the equations there.
         let unmoved = if self.last.is_empty() { loaded.clone() } else { self.last.clone() };
-        let free = difference(&equations.separations(&unmoved), origin); // y_0.
+        let free = difference(&points.separations(&unmoved), origin); // y_0.
         let mut sides = equations.moved(&free);
         sides.iter_mut().flatten().for_each(|value| *value = -*value);
         add(&mut sides[0], 1.0, &difference(&loaded, &unmoved));
@@ -252,6 +268,7 @@ impl<'a> ContactSystem<'a> {
                 // The tangent N = k (p' - c) at the approach g of the force, p' = p - g + N / k.
                 let approach = law.approach(force / point.weight);
                 self.springs[i] = point.weight * law.stiffness(approach);
+                self.even[i] = even(self.springs[i], self.bodies[i]);
                 self.pushed[i] = pressing.pushed[i] - approach + force / self.springs[i];
             }
         }
@@ -266,37 +283,44 @@ impl PressedBodies for ContactSystem<'_> {
     }
 
     fn stiffness_at(&self, point: usize) -> f64 {
-        self.springs[point]
+        self.even[point]
     }
 
     fn usual_points(&self, [lower, upper]: [f64; 2]) -> ([f64; 2], usize) {
-        if self.is_rigid.contains(&true) {
-            return ([0.0, upper.max(LEAST_RANGE)], RIGID_NODES);
+        if self.springs.contains(&f64::INFINITY) {
+            return ([0.0, upper.max(LEAST_RANGE)], NODES[2]);
         }
         (widened([lower, upper]), NODES[usize::from(upper - lower > SHORT_RANGE)])
     }
 
     fn state_of(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> Result<ContactState> {
-        let mut before: Option<Vec<f64>> = None;
+        let (mut before, mut last) = (None::<Vec<f64>>, f64::INFINITY); // Forces, and their change.
         for _ in 0..MOST_TANGENTS {
             self.follow(is_pressed)?;
+            let mut found = self.linear_state(friction_coefficient, is_pressed, ENOUGH);
+            if found.is_none() {
+                self.factorize(is_pressed)?; // Other points were pressed where that was done last.
+                found = self.linear_state(friction_coefficient, is_pressed, AT_MOST);
+            }
             let [separations, normal_forces, moved] =
-                self.linear_state(friction_coefficient, is_pressed);
+                found.ok_or(PrestressError::NoState { friction_coefficient })?;
             let is_linear = !self.follow_laws(&normal_forces);
             let largest = normal_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-            // Newton's method: settled where the forces are those of the tangents' own places.
-            let is_settled = before.as_ref().is_some_and(|before| {
+            // Newton's method: settled where the forces are those of the tangents' own places, or move by round-off alone.
+            let change = before.as_ref().map_or(f64::INFINITY, |before| {
                 let moved = before.iter().zip(&normal_forces).map(|(a, b)| (a - b).abs());
-                moved.fold(0.0, f64::max) <= SETTLED * largest
+                moved.fold(0.0, f64::max)
             });
-            if is_linear || is_settled {
+            if is_linear || change <= largest * if change < 0.5 * last { SETTLED } else { NEARLY } {
+                let pairs = self.springs.iter().zip(&self.even);
+                let finite = pairs.map(|(own, even)| if own.is_finite() { *own } else { *even });
                 return Ok(ContactState {
                     separations,
                     normal_forces,
-                    stiffnesses: (!is_linear).then(|| self.springs.clone()),
+                    stiffnesses: (!is_linear).then(|| finite.collect()),
                 });
             }
-            (before, self.last) = (Some(normal_forces), moved);
+            (before, last, self.last) = (Some(normal_forces), change, moved);
         }
         Err(PrestressError::NoState { friction_coefficient })
     }

@@ -86,12 +86,6 @@ impl<'a> JoinedPoints<'a> {
         })
     }
 
-    /// The load over the unknowns.
-    pub fn load(&self) -> Vec<f64> {
-        let Pressing { elimination, load, .. } = self.pressing;
-        self.unknowns.restrict(&elimination.transposed_forces(load)) // T^T f.
-    }
-
     /// `P^-1` times each of some `rows`, at the unknowns that contact touches.
     pub fn columns(&self, solver: &SparseLu, rows: &[Row]) -> Mat<f64> {
         let solved: Vec<Mat<f64>> = crate::parallel::map(rows.chunks(BLOCK), |rows| {
@@ -126,7 +120,8 @@ impl<'a> JoinedPoints<'a> {
 
     /// `P^-1` times the load and forces along the normals and drags of the points.
     pub fn respond(&self, solver: &SparseLu, along: &[[f64; 2]]) -> Vec<f64> {
-        let mut load = self.load();
+        let Pressing { elimination, load, .. } = self.pressing;
+        let mut load = self.unknowns.restrict(&elimination.transposed_forces(load)); // T^T f.
         self.push(&mut load, along); // f + sum_i F_i n_i + G_i drag_i t_i.
         solver.solve(load)
     }
@@ -140,8 +135,9 @@ impl<'a> JoinedPoints<'a> {
         }
     }
 
-    /// `c_i` of a displacement.
-    pub fn separations(&self, displacement: &[f64]) -> Vec<f64> {
+    /// `c_i` of what moves along normals.
+    pub fn separations(&self, moved: &[f64]) -> Vec<f64> {
+        let displacement = self.along_normals.expand(moved);
         let form = |row: &Row| -> f64 { row.iter().map(|&(dof, a)| a * displacement[dof]).sum() };
         self.normals.iter().map(form).collect()
     }
