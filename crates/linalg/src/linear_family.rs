@@ -113,7 +113,7 @@ mod tests {
     }
 
     /// Consistency check: the residuals of systems that are not symmetric are as small as asked, and those after the first ask for next to no
-    /// products; a few more where both sides are not zero.
+    /// products, or for fewer where both sides are not zero.
     #[test]
     fn systems_of_a_family_are_solved_to_round_off_in_one_space() {
         let count = 60;
@@ -147,7 +147,7 @@ mod tests {
                 assert_eq!(calls.replace(0), taken);
                 products.push(taken);
             }
-            let most = if moving == 0.0 { 1 } else { 9 };
+            let most = if moving == 0.0 { 1 } else { 2 * products[0] / 3 }; // Two sides, two Krylov spaces.
             assert!(products[0] < 25, "{products:?}");
             assert!(products[1..].iter().all(|own| *own <= most), "{products:?}");
         }
