@@ -142,15 +142,17 @@ impl Equations<'_> {
 }
 
 impl<'a> ContactSystem<'a> {
-    /// Bodies on springs at all their points.
-    ///
     /// # Errors
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn new(pressing: &'a Pressing<'a>) -> Result<Self> {
         let points = JoinedPoints::new(pressing);
-        let bodies: Vec<f64> = points.own_stiffnesses().collect();
         let given = pressing.stiffnesses.iter();
         let springs: Vec<f64> = given.map(|own| own.unwrap_or(f64::INFINITY)).collect();
+        // Forces of more springs than unknowns that they move depend on each other: the motion is unknown then.
+        let are_many = springs.len() > points.along_normals.len();
+        let own = points.own_stiffnesses().zip(&springs);
+        let own = own.map(|(own, k)| if are_many && k.is_finite() { f64::INFINITY } else { own });
+        let bodies: Vec<f64> = own.collect();
         let even: Vec<f64> = springs.iter().zip(&bodies).map(|(k, own)| even(*k, *own)).collect();
         Ok(Self {
             last: Vec::new(),
@@ -171,13 +173,11 @@ impl<'a> ContactSystem<'a> {
     /// Factorizes `P` of other pressed points where the last solution took long, or holds its columns.
     fn follow(&mut self, is_pressed: &[bool]) -> Result<()> {
         let own = &self.points.along_normals;
-        if self.columns.is_some() {
-            return Ok(());
-        }
-        if self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD {
+        let has_many = self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD;
+        if self.columns.is_none() && has_many {
             let rows: Vec<Row> = own.dofs.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
             self.columns = Some(self.points.columns(&self.solver, &rows));
-        } else if self.is_slow {
+        } else if self.columns.is_none() && self.is_slow {
             self.factorize(is_pressed)?;
         }
         Ok(())
@@ -239,8 +239,8 @@ impl<'a> ContactSystem<'a> {
     /// The systems of a set of pressed points.
     fn begin(&self, equations: &Equations<'_>, is_pressed: &[bool]) -> Systems {
         let (points, origin, is_pressed) = (&self.points, &equations.origin, is_pressed.to_vec());
-        let pushes = self.held.iter().zip(origin).map(|(held, origin)| [held * origin, 0.0]);
-        let pushes: Vec<[f64; 2]> = pushes.collect();
+        let pushes = self.held.iter().zip(origin);
+        let pushes: Vec<[f64; 2]> = pushes.map(|(k, push)| [k * push, 0.0]).collect();
         let loaded = points.along_normals.restrict(&points.respond(&self.solver, &pushes)); // d_0.
         if equations.is_stiff {
             let left = difference(&points.separations(&loaded), origin);
