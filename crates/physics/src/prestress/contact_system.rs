@@ -13,7 +13,7 @@ use crate::linalg::{LinearFamily, Mat, SparseLu};
 const OPEN_SHARE: f64 = 1e-6;
 
 /// Stiffness of contact over that of the bodies from which on digits of `p_i - c_i` would be lost.
-const FAR_STIFFER: f64 = 1e5;
+const FAR_STIFFER: f64 = 1e3;
 
 /// Unknowns along normals up to which the columns of `P^-1` of all of them are held, once a share of as many was solved for one by one:
 /// together they cost that much. Until then, and of more, products after which another matrix is factorized.
