@@ -1,5 +1,6 @@
 //! The contact state by complementarity: which points are pressed, over a range of friction coefficients.
 
+use super::contact_system::ContactSystem;
 use super::pressed_range::{CHANGE_WIDTH, PressedRange};
 use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, polynomial_state};
 use super::{PrestressError, Result};
@@ -14,13 +15,10 @@ const SHORTEST_RANGE: f64 = 1e-3;
 /// Share of the largest force up to which a violated condition is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Halvings of the way from friction 0 on which a state is followed where the search from there finds none.
-const MOST_HALVINGS: usize = 3;
-
 /// States at every one of `friction_coefficients`, each from the state at friction 0, of which there is one: it is the same whatever other
 /// values are asked for.
 pub(super) fn range(
-    bodies: &mut impl PressedBodies,
+    bodies: &mut ContactSystem<'_>,
     friction_coefficients: &[f64],
 ) -> Result<PressedRange> {
     let mut order: Vec<usize> = (0..friction_coefficients.len()).collect();
@@ -39,7 +37,7 @@ pub(super) fn range(
         let known = bodies.pressing().known.and_then(|known| known.set_at(friction));
         let set = match known.map(<[bool]>::to_vec) {
             Some(set) => set,
-            None => reached(bodies, [0.0, friction], &at_rest, MOST_HALVINGS)?,
+            None => pressed_points(bodies, friction, &at_rest)?,
         };
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
@@ -57,28 +55,10 @@ pub(super) fn range(
     Ok(found)
 }
 
-/// The pressed points at `friction` from those at `before`; where that finds none, by way of those halfway.
-fn reached(
-    bodies: &mut impl PressedBodies,
-    [before, friction]: [f64; 2],
-    start: &[bool],
-    halvings: usize,
-) -> Result<Vec<bool>> {
-    let found = pressed_points(bodies, friction, start);
-    if halvings == 0 || !matches!(found, Err(PrestressError::NoState { .. })) {
-        return found;
-    }
-    let middle = 0.5 * (before + friction);
-    match reached(bodies, [before, middle], start, halvings - 1) {
-        Ok(set) => reached(bodies, [middle, friction], &set, halvings - 1),
-        Err(_) => found,
-    }
-}
-
 /// The state of each set, followed from one change to the next; between the end of the set before and the beginning of its own,
 /// others hold.
 fn follow(
-    bodies: &mut impl PressedBodies,
+    bodies: &mut ContactSystem<'_>,
     sets: &[Vec<bool>],
     found: &mut PressedRange,
 ) -> Result<()> {
@@ -118,7 +98,7 @@ fn follow(
 /// The pressed points at one friction coefficient, by the primal-dual active set (a semismooth Newton iteration on
 /// the complementarity) from `start`; where that runs in circles, one point at a time.
 fn pressed_points(
-    bodies: &mut impl PressedBodies,
+    bodies: &mut ContactSystem<'_>,
     friction_coefficient: f64,
     start: &[bool],
 ) -> Result<Vec<bool>> {
@@ -159,7 +139,7 @@ fn pressed_points(
 
 /// How far each point violates its condition, N: the pull on a pressed one, the force of the point's own stiffness over
 /// the penetration of an open one; negative where the condition holds.
-fn excesses(bodies: &impl PressedBodies, state: &ContactState, is_pressed: &[bool]) -> Vec<f64> {
+fn excesses(bodies: &ContactSystem<'_>, state: &ContactState, is_pressed: &[bool]) -> Vec<f64> {
     let pushed = &bodies.pressing().pushed;
     let excess = |i: usize| match is_pressed[i] {
         true => -state.normal_forces[i],
@@ -176,7 +156,7 @@ fn bound(state: &ContactState) -> f64 {
 /// The friction coefficient up to which the set at `inside` holds on the way to `outside`, which may be smaller: the root of the largest
 /// violation, unless it is known; `outside` where it holds all the way.
 fn end_between(
-    bodies: &mut impl PressedBodies,
+    bodies: &mut ContactSystem<'_>,
     set: &[bool],
     [inside, outside]: [f64; 2],
 ) -> Result<f64> {

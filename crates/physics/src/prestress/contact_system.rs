@@ -170,6 +170,16 @@ impl<'a> ContactSystem<'a> {
         })
     }
 
+    /// What presses the bodies together.
+    pub fn pressing(&self) -> &'a Pressing<'a> {
+        self.points.pressing
+    }
+
+    /// Stiffness against the penetration of a point, N/m.
+    pub fn stiffness_at(&self, point: usize) -> f64 {
+        self.even[point]
+    }
+
     /// Factorizes `P` of other pressed points where the last solution took long, or holds its columns.
     fn follow(&mut self, is_pressed: &[bool]) -> Result<()> {
         let own = &self.points.along_normals;
@@ -278,14 +288,6 @@ impl<'a> ContactSystem<'a> {
 }
 
 impl PressedBodies for ContactSystem<'_> {
-    fn pressing(&self) -> &Pressing<'_> {
-        self.points.pressing
-    }
-
-    fn stiffness_at(&self, point: usize) -> f64 {
-        self.even[point]
-    }
-
     fn usual_points(&self, [lower, upper]: [f64; 2]) -> ([f64; 2], usize) {
         if self.springs.contains(&f64::INFINITY) {
             return ([0.0, upper.max(LEAST_RANGE)], NODES[2]);

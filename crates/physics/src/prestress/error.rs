@@ -47,9 +47,9 @@ pub enum PrestressError {
     /// The complementarity problem has no solution that could be found.
     #[error(
         "there is no state of steady sliding at friction {friction_coefficient}: every choice of \
-         pressed and open contact nodes pulls one or lets one penetrate. Friction this large has \
-         no such state, or several. Lower contact.friction_coefficient, or the largest of \
-         cea.friction_coefficients"
+         pressed and open nodes tried pulls one or lets one penetrate. Lower \
+         contact.friction_coefficient, or the largest of cea.friction_coefficients. A contact \
+         stiffness far above that of the bodies may hide a state: lower it, too"
     )]
     NoState {
         /// Friction coefficient.

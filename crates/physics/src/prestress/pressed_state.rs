@@ -123,14 +123,8 @@ impl PressedState {
     }
 }
 
-/// Bodies that answer to their contact points.
+/// Bodies whose state of one set of pressed points becomes a polynomial.
 pub(super) trait PressedBodies {
-    /// What presses them together.
-    fn pressing(&self) -> &Pressing<'_>;
-
-    /// Stiffness against the penetration of a point, N/m.
-    fn stiffness_at(&self, point: usize) -> f64;
-
     /// Friction coefficients through which the polynomial of a state that holds in `range` goes, where they are enough: their
     /// interval and number.
     fn usual_points(&self, range: [f64; 2]) -> ([f64; 2], usize);
@@ -307,14 +301,6 @@ mod tests {
     }
 
     impl PressedBodies for Jamming {
-        fn pressing(&self) -> &Pressing<'_> {
-            unreachable!("the polynomial of a state asks for its forces alone")
-        }
-
-        fn stiffness_at(&self, _: usize) -> f64 {
-            1.0
-        }
-
         fn usual_points(&self, [_, upper]: [f64; 2]) -> ([f64; 2], usize) {
             ([0.0, upper], 7)
         }
