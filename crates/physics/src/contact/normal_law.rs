@@ -37,35 +37,6 @@ impl NormalLaw {
         Self::Cubic { stiffness, cubic_stiffness: 0.0 }
     }
 
-    /// The approach up to which the stiffness stays within a few times that at rest, m; without bound where it does not change.
-    pub fn soft_approach(self) -> f64 {
-        match self {
-            Self::Cubic { stiffness, cubic_stiffness } => (stiffness / cubic_stiffness).sqrt(),
-            Self::Exponential { height, .. } => height,
-        }
-    }
-
-    /// The approach of the force that the tangent at `from` has at `to`, m: Newton's iteration in the force, of which the approach
-    /// is a concave function, so that no step runs away. `to` itself where the tangent pulls.
-    pub fn newton_approach(self, from: f64, to: f64) -> f64 {
-        let closed = from.max(0.0);
-        match self.pressure(closed) + self.stiffness(closed) * (to - closed) {
-            pressure if pressure > 0.0 => self.approach(pressure),
-            _ => to,
-        }
-    }
-
-    /// `p(g) / g`, Pa/m, of an approach of zero or more.
-    pub fn secant(self, approach: f64) -> f64 {
-        match self {
-            Self::Cubic { stiffness, cubic_stiffness } => {
-                stiffness + cubic_stiffness * approach * approach
-            }
-            Self::Exponential { .. } if approach == 0.0 => self.stiffness(0.0),
-            Self::Exponential { .. } => self.pressure(approach) / approach,
-        }
-    }
-
     /// `p(g)`, Pa.
     pub fn pressure(self, approach: f64) -> f64 {
         match self {
@@ -175,12 +146,6 @@ mod tests {
                 assert!((found * (b - a) - change).abs() < 1e-14 * scale);
             }
             assert_eq!(law.mean_pressure(2e-6, 2e-6), law.pressure(2e-6));
-            for approach in [0.0, 1e-13, 2e-6] {
-                let secant = law.secant(approach);
-                assert!(
-                    (secant * approach - law.pressure(approach)).abs() <= 1e-6 * secant * approach
-                );
-            }
         }
     }
 

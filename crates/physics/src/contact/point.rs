@@ -52,6 +52,15 @@ pub struct Point {
     pub friction: SteadyFriction,
 }
 
+impl Point {
+    /// With rows over the first `size` dofs, of which all others are copies.
+    pub(crate) fn folded(&self, size: usize) -> Self {
+        let [normal, slip] = [&self.normal, &self.slip]
+            .map(|row| summed(row.iter().map(|&(dof, value)| (dof % size, value))));
+        Self { normal, slip, ..self.clone() }
+    }
+}
+
 /// `direction . u` at a point of a face, over all dofs.
 pub fn row_along(mesh: &Mesh, nodes: &[(u32, f64)], direction: [f64; 3], sign: f64) -> Row {
     let direction = Vector3::from(direction);

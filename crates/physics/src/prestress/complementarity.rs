@@ -13,7 +13,7 @@ const MAX_SETS: usize = 200;
 const SHORTEST_RANGE: f64 = 1e-3;
 
 /// Share of the largest force up to which a violated condition is round-off.
-const ROUND_OFF: f64 = 1e-12;
+pub(super) const ROUND_OFF: f64 = 1e-12;
 
 /// States at every one of `friction_coefficients`, each from the state at friction 0, of which there is one: it is the same whatever other
 /// values are asked for.

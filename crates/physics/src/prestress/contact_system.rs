@@ -1,13 +1,13 @@
 //! Bodies on their contact points: sparse, for many thousands of points.
 
-use super::joined_points::JoinedPoints;
+use super::joined_points::{Inverse, JoinedPoints};
 use super::pressed_state::{
     ContactState, LEAST_RANGE, PressedBodies, Pressing, SHORT_RANGE, widened,
 };
 use super::{PrestressError, Result};
 use crate::contact::Row;
 use crate::linalg::dense::{add, difference, norm};
-use crate::linalg::{LinearFamily, Mat, SparseLu};
+use crate::linalg::{LinearFamily, Mat};
 
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
 const OPEN_SHARE: f64 = 1e-6;
@@ -77,7 +77,7 @@ pub(super) struct ContactSystem<'a> {
     even: Vec<f64>,
     pushed: Vec<f64>,
     /// `P`, and `r_i k_i` in it, N/m.
-    solver: SparseLu,
+    solver: Inverse,
     held: Vec<f64>,
     /// Columns of `P^-1` at the contact, once those solved for alone, `asked`, are many.
     columns: Option<Mat<f64>>,
@@ -106,7 +106,7 @@ fn even(spring: f64, bodies: f64) -> f64 {
 struct Equations<'a> {
     points: &'a JoinedPoints<'a>,
     /// `P`, and columns of its inverse.
-    inverse: (&'a SparseLu, Option<&'a Mat<f64>>),
+    inverse: (&'a Inverse, Option<&'a Mat<f64>>),
     /// `s k`, `(s - e r) k`, `s p` and `e`.
     own: Vec<f64>,
     normal: Vec<f64>,

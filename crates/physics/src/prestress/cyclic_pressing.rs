@@ -6,7 +6,7 @@ use super::contact_system::ContactSystem;
 use super::elimination::Elimination;
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
-use crate::contact::{Point, Row, summed};
+use crate::contact::Row;
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
 
@@ -33,14 +33,10 @@ impl Pressing<'_> {
         let stiffness = Triplets { entries: entries.collect() };
         let unknowns = self.elimination.unknowns().unknown_of;
         let held = (0..size).filter(|&dof| unknowns[dof].is_none());
-        let folded = |row: &Row| summed(row.iter().map(|&(dof, value)| (dof % size, value)));
 
         // One point of those that are copies of each other.
         let firsts = (0..first_of.len()).filter(|&i| first_of[i] == i);
-        let points = firsts.clone().map(|i| {
-            let Point { normal, slip, .. } = &self.points[i];
-            Point { normal: folded(normal), slip: folded(slip), ..self.points[i].clone() }
-        });
+        let points = firsts.clone().map(|i| self.points[i].folded(size));
         let own = Pressing {
             stiffness: &stiffness,
             load: self.load[..size].to_vec(),

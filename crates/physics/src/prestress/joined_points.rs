@@ -28,6 +28,33 @@ pub(super) struct JoinedPoints<'a> {
     pub touched: DofMap,
 }
 
+/// `P^-1`.
+pub(super) struct Inverse {
+    solver: SparseLu,
+    /// `P` of few unknowns, numbered by dof, and these: what round-off leaves is solved for, too, as slender bodies multiply it.
+    refined_by: Option<(Triplets, DofMap)>,
+}
+
+impl Inverse {
+    /// Solves `P x = b` for each column of `block`, in place.
+    fn solve_in_place(&self, block: &mut Mat<f64>) {
+        let right = self.refined_by.is_some().then(|| block.clone());
+        self.solver.solve_in_place(block.as_mut());
+        if let (Some((matrix, unknowns)), Some(mut left)) = (&self.refined_by, right) {
+            for j in 0..left.ncols() {
+                let [b, x] = [&left, &*block].map(|own| unknowns.expand(column(own.as_ref(), j)));
+                let residual = unknowns.restrict(&matrix.residual(&b, &x));
+                column_mut(&mut left, j).copy_from_slice(&residual);
+            }
+            self.solver.solve_in_place(left.as_mut());
+            *block += left;
+        }
+    }
+}
+
+/// Unknowns up to which solutions are refined.
+const REFINED: usize = 4000;
+
 /// Columns that are solved for together.
 const BLOCK: usize = 32;
 
@@ -64,14 +91,16 @@ impl<'a> JoinedPoints<'a> {
     ///
     /// # Errors
     /// [`super::PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn factorize(&self, springs: &[f64]) -> Result<SparseLu> {
+    pub fn factorize(&self, springs: &[f64]) -> Result<Inverse> {
         let mut held = self.stiffness.clone(); // K + sum_i r_i n_i n_i^T.
         for (row, spring) in self.normals.iter().zip(springs) {
             let row = row.iter().map(|&(unknown, along)| (self.unknowns.dofs[unknown], along));
             let row: Row = row.collect();
             held.push_product(*spring, &row, &row);
         }
-        factorized(&held, &self.unknowns)
+        let solver = factorized(&held, &self.unknowns)?;
+        let is_refined = self.unknowns.len() <= REFINED;
+        Ok(Inverse { solver, refined_by: is_refined.then(|| (held, self.unknowns.clone())) })
     }
 
     /// About `1 / n_i . K^-1 n_i`, by the diagonal of `K`, N/m: the softer of two sides counts.
@@ -87,13 +116,13 @@ impl<'a> JoinedPoints<'a> {
     }
 
     /// `P^-1` times each of some `rows`, at the unknowns that contact touches.
-    pub fn columns(&self, solver: &SparseLu, rows: &[Row]) -> Mat<f64> {
+    pub fn columns(&self, solver: &Inverse, rows: &[Row]) -> Mat<f64> {
         let solved: Vec<Mat<f64>> = crate::parallel::map(rows.chunks(BLOCK), |rows| {
             let mut block = Mat::zeros(self.unknowns.len(), rows.len());
             for (j, row) in rows.iter().enumerate() {
                 row.iter().for_each(|&(unknown, along)| block[(unknown, j)] += along);
             }
-            solver.solve_in_place(block.as_mut());
+            solver.solve_in_place(&mut block);
             picked(&block, &self.touched)
         });
         Mat::from_fn(self.touched.len(), rows.len(), |i, j| solved[j / BLOCK][(i, j % BLOCK)])
@@ -103,7 +132,7 @@ impl<'a> JoinedPoints<'a> {
     /// of these unknowns, where they are known.
     pub fn moved_under(
         &self,
-        (solver, columns): (&SparseLu, Option<&Mat<f64>>),
+        (solver, columns): (&Inverse, Option<&Mat<f64>>),
         along: &[Vec<[f64; 2]>],
     ) -> Vec<Vec<f64>> {
         let mut block = Mat::zeros(self.unknowns.len(), along.len());
@@ -111,7 +140,7 @@ impl<'a> JoinedPoints<'a> {
         let moved = match columns {
             Some(columns) => columns.transpose() * picked(&block, &self.touched), // P^-1 is symmetric.
             None => {
-                solver.solve_in_place(block.as_mut());
+                solver.solve_in_place(&mut block);
                 picked(&block, &self.along_normals)
             }
         };
@@ -119,11 +148,13 @@ impl<'a> JoinedPoints<'a> {
     }
 
     /// `P^-1` times the load and forces along the normals and drags of the points.
-    pub fn respond(&self, solver: &SparseLu, along: &[[f64; 2]]) -> Vec<f64> {
+    pub fn respond(&self, solver: &Inverse, along: &[[f64; 2]]) -> Vec<f64> {
         let Pressing { elimination, load, .. } = self.pressing;
-        let mut load = self.unknowns.restrict(&elimination.transposed_forces(load)); // T^T f.
-        self.push(&mut load, along); // f + sum_i F_i n_i + G_i drag_i t_i.
-        solver.solve(load)
+        let load = self.unknowns.restrict(&elimination.transposed_forces(load)); // T^T f.
+        let mut block = Mat::from_fn(load.len(), 1, |i, _| load[i]);
+        self.push(column_mut(&mut block, 0), along); // f + sum_i F_i n_i + G_i drag_i t_i.
+        solver.solve_in_place(&mut block);
+        column(block.as_ref(), 0).to_vec()
     }
 
     /// Adds forces along the normals and drags of the points.
@@ -145,7 +176,7 @@ impl<'a> JoinedPoints<'a> {
     /// Displacement of every dof from the state of the points, with `P` of these springs.
     pub fn displacement(
         &self,
-        (solver, springs): (&SparseLu, &[f64]),
+        (solver, springs): (&Inverse, &[f64]),
         friction_coefficient: f64,
         state: &ContactState,
     ) -> Vec<f64> {

@@ -145,7 +145,7 @@ pub(super) fn open_note(solid: &SolidState) -> Option<String> {
     let word = if is_edge { "height" } else { "radius" };
     match pressed.as_slice() {
         _ if open == 0 => None,
-        [only] if base.law.is_none() => Some(format!(
+        [only] if base.springs.is_none() => Some(format!(
             "the contact has shrunk to the ring of nodes at {word} {:.6} m, a line. Its pressure is spread over the \
              width of the mesh, {:.2e} m2 in all, and contact.normal_stiffness acts on that alone. With \
              contact.base_state = \"compliant\" the stiffness of the interface gives the contact a width of its own",
