@@ -269,6 +269,24 @@ fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
     }
 }
 
+/// Independent check: a finer mesh. On stiff springs corners and middles of sides give way by very different parts of a small approach,
+/// and each has the friction of its own.
+#[test]
+fn points_of_stiff_springs_have_the_force_of_their_own_approach() {
+    let growth = |sectors: usize| {
+        let sectors = format!("mesh.circumferential_elements={sectors}");
+        let springs = "contact.base_state=compliant ; contact.normal_stiffness=1e14";
+        let few = "cea.mass=consistent ; mesh.element=quad8 ; mesh.radial_elements=8 ; \
+                   cea.modes=6 ; cea.shapes_at=[] ; cea.friction_coefficients=[0.4]";
+        let text = include_str!("../../cases/ring-on-layer.toml");
+        let found = solution(&case_beside("ring-on-layer", &[], text, &[springs, few, &sectors])).1;
+        let mut modes = found.sweep.points.last().unwrap().modes.iter();
+        modes.find(|mode| (mode.frequency_hz() - 7571.0).abs() < 4.0).unwrap().growth_rate()
+    };
+    let error = growth(24) / growth(72) - 1.0;
+    assert!(error.abs() < 3e-3, "{error}");
+}
+
 /// A disc on a cylinder that turns, without friction, with some changes.
 fn on_a_cylinder(name: &str, change: &str, method: &str) -> Solution {
     let still = "cea.friction_coefficients=[0.0] ; contact.friction_coefficient=0.0";

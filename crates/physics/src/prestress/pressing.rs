@@ -41,7 +41,7 @@ impl SolidSliding {
         let (points, state) = if law.is_some() { face.on_springs() } else { face.on_rings() }?;
 
         // What the rings have.
-        let approaches = face.approaches(&state.displacements[0]);
+        let approaches = face.approaches(&points, &state.displacements[0]);
         let forces = face.node_forces(&points, &state.normal_forces[0]);
         let ring_forces = rings.iter().map(|ring| -> f64 {
             forces.iter().filter(|own| ring.nodes.contains(&own.0)).map(|own| own.1).sum()
@@ -105,22 +105,17 @@ impl Face<'_> {
         points: &[Point],
         pressed: impl FnOnce(&mut ContactSystem<'_>) -> Result<Vec<bool>>,
     ) -> Result<PressedState> {
-        let (strip, (sign, component)) = (&self.sector.strip, self.normal());
+        let strip = &self.sector.strip;
         let size = strip.dof_count();
         // Neighbours move as this sector does.
         let points: Vec<Point> = points.iter().map(|own| own.folded(size)).collect();
-        let pushed = points.iter().map(|point| {
-            // The rotor moves by delta along the normals of the nodes.
-            let along = point.normal.iter().filter(|own| own.0 % 3 == component);
-            self.contact.interference * sign * along.map(|own| own.1).sum::<f64>()
-        });
         let own = points.iter().map(|own| Some(own.weight * self.law?.stiffness(0.0)));
         let pressing = Pressing {
             stiffness: self.elastic,
             load: strip.pressure_load(),
             elimination: Elimination::holding(size, strip.held_dofs()),
             contacts: Vec::new(),
-            pushed: pushed.collect(),
+            pushed: vec![self.contact.interference; points.len()],
             stiffnesses: own.collect(),
             laws: vec![self.law; points.len()],
             points: &points,
@@ -138,33 +133,34 @@ impl Face<'_> {
         Ok(state)
     }
 
-    /// `delta - u_n` at each ring, the mean over its nodes, m.
-    fn approaches(&self, displacement: &[f64]) -> Vec<f64> {
+    /// `delta - u_n` at each ring, the mean over its nodes, m: of linear elements what their points see of it, less than all on a cylinder.
+    fn approaches(&self, points: &[Point], displacement: &[f64]) -> Vec<f64> {
         let (sign, component) = self.normal();
+        // sum_a N_a n_a . n, one at nodes and on a plane.
+        let seen = points.first().map_or(sign, |own| self.on_normals(own).map(|own| own.1).sum());
         let mean = |nodes: &[usize]| {
             let normals = nodes.iter().map(|node| displacement[3 * node + component]);
-            sign * normals.sum::<f64>() / nodes.len() as f64
+            seen * normals.sum::<f64>() / nodes.len() as f64
         };
         let rings = self.sector.rings.iter();
         rings.map(|ring| self.contact.interference - mean(&ring.nodes)).collect()
     }
 
-    /// The nodes that points push, those that something else holds along the normal, too, in the order of the points, and their forces, N.
+    /// Nodes of the sector with what the normal of a point has along theirs.
+    fn on_normals(&self, point: &Point) -> impl Iterator<Item = (usize, f64)> {
+        let (component, count) = (self.normal().1, self.sector.node_count());
+        let along = point.normal.iter().filter(move |own| own.0 % 3 == component);
+        along.map(move |(dof, along)| (dof / 3 % count, *along))
+    }
+
+    /// The nodes that points push, those that something else holds along the normal, too, and their forces, N.
     fn node_forces(&self, points: &[Point], forces: &[f64]) -> Vec<(usize, f64)> {
-        let (sign, component) = self.normal();
-        let mut on_nodes: Vec<(usize, f64)> = Vec::new();
+        let mut on_nodes = vec![0.0; self.sector.node_count()];
         for (point, force) in points.iter().zip(forces) {
-            for (dof, along) in point.normal.iter().filter(|own| own.0 % 3 == component) {
-                let node = dof / 3 % self.sector.node_count();
-                let at = on_nodes.iter().position(|own| own.0 == node).unwrap_or_else(|| {
-                    on_nodes.push((node, 0.0));
-                    on_nodes.len() - 1
-                });
-                on_nodes[at].1 += sign * along * force;
-            }
+            self.on_normals(point).for_each(|(node, along)| on_nodes[node] += along * force);
         }
-        on_nodes.retain(|own| own.1 != 0.0);
-        on_nodes
+        let signed = on_nodes.into_iter().map(|force| self.normal().0 * force).enumerate();
+        signed.filter(|own| own.1 != 0.0).collect()
     }
 
     /// Signorini's conditions ring by ring, `N >= 0` of its nodes together and `u_n = delta` of each where it is pressed.
@@ -220,7 +216,7 @@ impl Face<'_> {
                 }
             }
             let state = self.state(&points, |_| Ok(vec![true; points.len()]))?;
-            let found = self.approaches(&state.displacements[0]);
+            let found = self.approaches(&points, &state.displacements[0]);
             let change = found.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let scale = found.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             if change <= SETTLED * scale {
