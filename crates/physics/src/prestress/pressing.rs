@@ -8,6 +8,7 @@ use super::solid::{FaceRule, OverRings, face_points, node_point};
 use super::{PrestressError, Result, SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::{MassKind, Triplets};
+use crate::linalg::dense::{difference, norm};
 use crate::mesh::SolidSector;
 
 /// Choices of what is pressed that are tried before the search is given up.
@@ -32,11 +33,9 @@ impl SolidSliding {
         mass: MassKind,
     ) -> Result<Self> {
         let (rings, law) = (&sector.rings, stiffness.base_law());
-        let is_integrated = law.is_some() && mass == MassKind::Consistent;
-        let rule = match sector.is_quadratic() || is_integrated {
-            true => FaceRule::Integrated,
-            false => FaceRule::Nodal,
-        };
+        let is_consistent = law.is_some() && mass == MassKind::Consistent;
+        let is_integrated = sector.is_quadratic() || is_consistent;
+        let rule = if is_integrated { FaceRule::Integrated } else { FaceRule::Nodal };
         let face = Face { sector, elastic, contact, law, rule };
         let (points, state) = if law.is_some() { face.on_springs() } else { face.on_rings() }?;
 
@@ -133,11 +132,14 @@ impl Face<'_> {
         Ok(state)
     }
 
-    /// `delta - u_n` at each ring, the mean over its nodes, m: of linear elements what their points see of it, less than all on a cylinder.
+    /// `delta - u_n` at each ring, the mean over its nodes, m: what the points see of it, less than all on a cylinder.
     fn approaches(&self, points: &[Point], displacement: &[f64]) -> Vec<f64> {
         let (sign, component) = self.normal();
-        // sum_a N_a n_a . n, one at nodes and on a plane.
-        let seen = points.first().map_or(sign, |own| self.on_normals(own).map(|own| own.1).sum());
+        // The mean of sum_a N_a n_a . n, which is one at nodes and on a plane.
+        let along = |own: &Point| self.on_normals(own).map(|own| own.1).sum::<f64>();
+        let all = points.iter().map(|own| [own.weight * along(own), own.weight]);
+        let [sum, area] = all.fold([0.0; 2], |[a, b], own| [a + own[0], b + own[1]]);
+        let seen = if area > 0.0 { sum / area } else { sign };
         let mean = |nodes: &[usize]| {
             let normals = nodes.iter().map(|node| displacement[3 * node + component]);
             seen * normals.sum::<f64>() / nodes.len() as f64
@@ -217,9 +219,7 @@ impl Face<'_> {
             }
             let state = self.state(&points, |_| Ok(vec![true; points.len()]))?;
             let found = self.approaches(&points, &state.displacements[0]);
-            let change = found.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let scale = found.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            if change <= SETTLED * scale {
+            if norm(&difference(&found, &values)) <= SETTLED * norm(&found) {
                 return Ok((points, state));
             }
             values = found;
