@@ -105,6 +105,16 @@ macro_rules! refuse {
     ($($fault:tt)+) => { return Err(fault!($($fault)+)) };
 }
 
+/// Returns it where a condition does not hold: `ensure!(is_right; deck, place; "...")`.
+macro_rules! ensure {
+    ($holds:expr; $($fault:tt)+) => { if !$holds { refuse!($($fault)+) } };
+}
+
+/// What an option holds; returns the error of an empty one: `found!(option; deck, place; "...")`.
+macro_rules! found {
+    ($option:expr; $($fault:tt)+) => { match $option { Some(value) => value, None => refuse!($($fault)+) } };
+}
+
 /// A number as programs in Fortran write it, `1.0D+3` included; finite.
 pub(super) fn real(text: &str) -> Option<f64> {
     let text = text.trim();
