@@ -130,28 +130,20 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
         return;
     }
     let first = place.iter().position(Option::is_none).unwrap_or(0);
-    file.model.remarks.push(format!(
-        "{} no element and {} not used (the first is node {})",
-        match unused {
-            1 => "1 node belongs to".to_owned(),
-            _ => format!("{unused} nodes belong to"),
-        },
-        if unused == 1 { "is" } else { "are" },
-        file.labels[first]
-    ));
-    let is_used = |node: usize| place[node].is_some(); // Nodes, and all that names them by number.
-    let mut node = 0..;
-    file.points.retain(|_| node.next().is_some_and(is_used));
-    let mut node = 0..;
-    file.labels.retain(|_| node.next().is_some_and(is_used));
+    let (nodes, are) = match unused {
+        1 => ("1 node belongs".to_owned(), "is"),
+        _ => (format!("{unused} nodes belong"), "are"),
+    };
+    let label = file.labels[first];
+    let remark = format!("{nodes} to no element and {are} not used (the first is node {label})");
+    file.model.remarks.push(remark);
+    let mut used = [&place, &place].map(|place| place.iter().map(Option::is_some));
+    file.points.retain(|_| used[0].next() == Some(true)); // Nodes, and all that names them by number.
+    file.labels.retain(|_| used[1].next() == Some(true));
     let moved = |node: &u32| place[*node as usize];
-    for element in elements {
-        element.nodes = element.nodes.iter().filter_map(moved).collect();
-    }
-    for (_, nodes) in file.surfaces.values_mut().flatten() {
-        *nodes = nodes.iter().filter_map(moved).collect();
-    }
-    for nodes in file.node_sets.values_mut() {
+    let of_elements = elements.iter_mut().map(|element| &mut element.nodes);
+    let of_faces = file.surfaces.values_mut().flatten().map(|face| &mut face.1);
+    for nodes in of_elements.chain(of_faces).chain(file.node_sets.values_mut()) {
         *nodes = nodes.iter().filter_map(moved).collect();
     }
     for term in file.equations.iter_mut().flatten() {
