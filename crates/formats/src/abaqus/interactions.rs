@@ -24,6 +24,7 @@ impl Reader<'_, '_> {
                 ties.push(FileTie { name, surface, counter, place });
             }
         }
+        // Contact pairs have the friction and the stiffness of their interaction.
         for block in self.blocks_of("CONTACT PAIR") {
             let name = block.required("INTERACTION")?;
             let interaction = interactions.get(&name.to_uppercase());

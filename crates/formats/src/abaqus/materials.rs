@@ -102,15 +102,12 @@ impl Reader<'_, '_> {
         let mut found = BTreeMap::new();
         for block in self.blocks_of("ORIENTATION") {
             let name = block.required("NAME")?;
-            let wrong = |message: &str| fault!(block; "*ORIENTATION {name}: {message}");
             let definition = block.parameter("DEFINITION").unwrap_or("COORDINATES");
-            if !definition.eq_ignore_ascii_case("COORDINATES") {
-                return Err(wrong("only DEFINITION=COORDINATES is supported"));
-            }
+            ensure!(definition.eq_ignore_ascii_case("COORDINATES"); block;
+                "*ORIENTATION {name}: only DEFINITION=COORDINATES is supported");
             let numbers = block.numbers(1)?; // Two points a and b; a third, the origin, is zero where it is not given.
-            let Some(&[a, b, c, d, e, f]) = numbers.first_chunk() else {
-                return Err(wrong("six numbers expected: two points"));
-            };
+            let &[a, b, c, d, e, f] = found!(numbers.first_chunk(); block;
+                "*ORIENTATION {name}: six numbers expected: two points");
             let [p, q] = [Vector3::new(a, b, c), Vector3::new(d, e, f)];
             let system = block.parameter("SYSTEM").unwrap_or("RECTANGULAR").to_uppercase();
             // The second line turns about one of the axes.
@@ -124,18 +121,17 @@ impl Reader<'_, '_> {
             };
             // Axes turn with the instance.
             let axes = match system.as_str() {
-                "RECTANGULAR" | "R" => MaterialAxes::Vectors(
-                    turned_axes(p, q, &extra)
-                        .ok_or_else(|| wrong("its points lie on one line"))?
-                        .map(turned),
-                ),
+                "RECTANGULAR" | "R" => {
+                    let axes = found!(turned_axes(p, q, &extra); block;
+                        "*ORIENTATION {name}: its points lie on one line");
+                    MaterialAxes::Vectors(axes.map(turned))
+                }
                 "CYLINDRICAL" | "C" if extra.get(1).is_none_or(|angle| *angle == 0.0) => {
-                    if p == q {
-                        return Err(wrong("the two points of its axis are one"));
-                    }
+                    ensure!(p != q; block; "*ORIENTATION {name}: the two points of its axis are one");
                     MaterialAxes::Cylindrical([p, q].map(|point| scope.place(point.into())))
                 }
-                _ => return Err(wrong("only rectangular and cylindrical systems are supported")),
+                _ => refuse!(block;
+                    "*ORIENTATION {name}: only rectangular and cylindrical systems are supported"),
             };
             found.insert((block.scope, name.to_uppercase()), axes);
         }
