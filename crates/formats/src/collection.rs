@@ -31,6 +31,11 @@ impl CollectedElement {
     }
 }
 
+/// The edge of a curve that a line of two or three nodes is.
+pub(super) fn edge_of(nodes: &[u32]) -> CurveEdge {
+    (nodes[0], nodes[1], nodes.get(2).copied())
+}
+
 /// Nodes in ascending order.
 pub(super) fn sorted(nodes: &[u32]) -> Vec<u32> {
     let mut sorted = nodes.to_vec();
@@ -97,7 +102,9 @@ pub(super) fn finished(mut file: FileMesh, mut elements: Vec<CollectedElement>) 
     file.is_used = vec![true; file.points.len()];
     file.dimension = dimension(&elements);
     if file.dimension == 2 {
-        file.curves = std::mem::take(&mut file.surfaces).into_iter().map(curve).collect();
+        let edges = |faces: Vec<SurfaceFace>| faces.iter().map(|face| edge_of(&face.1)).collect();
+        let surfaces = std::mem::take(&mut file.surfaces).into_iter();
+        file.curves = surfaces.map(|(name, faces)| (name, edges(faces))).collect();
         file.equations.clear();
     }
     let mut regions: BTreeMap<Arc<str>, i64> = BTreeMap::new();
@@ -149,11 +156,4 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
     for term in file.equations.iter_mut().flatten() {
         term.0 = moved(&term.0).unwrap_or(term.0);
     }
-}
-
-/// Edges of a plane body as a physical curve.
-fn curve((name, faces): (String, Vec<SurfaceFace>)) -> (String, Vec<CurveEdge>) {
-    let edges = faces.into_iter();
-    let edges = edges.map(|(_, nodes)| (nodes[0], nodes[1], nodes.get(2).copied()));
-    (name, edges.collect())
 }

@@ -43,6 +43,7 @@ struct Set<T> {
 type Key = (usize, String);
 
 /// Nodes or elements by scope and number, and their sets.
+#[derive(Default)]
 struct Numbered<T> {
     /// What one of them is called.
     what: &'static str,
@@ -53,11 +54,6 @@ struct Numbered<T> {
 }
 
 impl<T: Copy + Eq + Hash> Numbered<T> {
-    fn new(what: &'static str) -> Self {
-        let (known, skipped, sets) = (HashMap::new(), HashSet::new(), BTreeMap::new());
-        Self { what, known, skipped, sets }
-    }
-
     /// Adds members to a set under its key and its full name, if they have one.
     fn add(&mut self, named: Option<(Key, String)>, items: Vec<T>, is_internal: bool) {
         let Some((key, name)) = named else { return };
@@ -136,8 +132,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
         scopes,
         file: FileMesh::default(),
         collected: Vec::new(),
-        nodes: Numbered::new("node"),
-        elements: Numbered::new("element"),
+        nodes: Numbered { what: "node", ..Numbered::default() },
+        elements: Numbered { what: "element", ..Numbered::default() },
         surfaces: BTreeMap::new(),
     };
     for (name, place) in unused_parts {

@@ -6,6 +6,7 @@ mod cursor;
 mod versions;
 
 use super::ElementKind;
+use super::collection::edge_of;
 use super::file_mesh::{FileElement, FileMesh, MeshFileError, Result, SurfaceFace};
 use cursor::Cursor;
 use std::collections::BTreeMap;
@@ -74,19 +75,20 @@ fn foreign(bytes: &[u8]) -> String {
                           field_data, then mesh.write(\"part.msh\", file_format=\"gmsh22\", binary=False)";
     const GMSH: &str = "save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)";
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
-    let (what, remedy) = if bytes.is_empty() {
-        ("the file is empty", GMSH)
-    } else if start.contains("VTK") || start.contains("vtk") {
-        ("this looks like a VTK file", MESHIO)
-    } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
-        ("this is a geometry, not a mesh", GMSH)
-    } else if start.contains("Point(") || start.contains("//") || start.contains("SetFactory") {
-        ("this looks like a Gmsh geometry (.geo), not a mesh", "run gmsh -2 on it")
-    } else {
-        (
+    let has = |words: &[&str]| words.iter().any(|word| start.contains(word));
+    let (what, remedy) = match start.as_str() {
+        "" => ("the file is empty", GMSH),
+        _ if has(&["VTK", "vtk"]) => ("this looks like a VTK file", MESHIO),
+        _ if start.starts_with("solid") || start.starts_with("ISO-10303") => {
+            ("this is a geometry, not a mesh", GMSH)
+        }
+        _ if has(&["Point(", "//", "SetFactory"]) => {
+            ("this looks like a Gmsh geometry (.geo), not a mesh", "run gmsh -2 on it")
+        }
+        _ => (
             "this is no Gmsh mesh, which begins with $MeshFormat, nor does its name end in .inp, .bdf or .unv",
             GMSH,
-        )
+        ),
     };
     format!("{what}; {remedy}")
 }
@@ -191,10 +193,7 @@ impl Reader<'_> {
         for &tag in if dimension < 3 { groups } else { &[] } {
             let name = self.name(dimension, tag).to_string();
             match dimension {
-                1 => {
-                    let edge = (nodes[0], nodes[1], nodes.get(2).copied());
-                    self.file.curves.entry(name).or_default().push(edge);
-                }
+                1 => self.file.curves.entry(name).or_default().push(edge_of(&nodes)),
                 _ => self.surfaces.entry(name).or_default().push((kind, nodes.clone())),
             }
         }

@@ -41,33 +41,23 @@ impl Reader<'_, '_> {
             };
             let material = found!(self.cards.iter().find(is_meant); card;
                 "PSOLID {property} names material {number}, which is no MAT1 or MAT9 of the file");
-            let material = match material.name.as_str() {
-                "MAT1" => self.material(material, region, isotropic(material)?, [4, 7])?,
-                _ => self.material(material, region, anisotropic(material, axes)?, [22, 30])?,
+            // Density and structural damping stand in fields of their own.
+            let (elasticity, [density, damping]) = match material.name.as_str() {
+                "MAT1" => (isotropic(material)?, [4, 7]),
+                _ => (anisotropic(material, axes)?, [22, 30]),
             };
-            self.file.model.materials.push(material);
+            let damping = material.optional_real(damping)?;
+            self.file.model.materials.push(FileMaterial {
+                region,
+                name: format!("{}_{}", material.name, material.field(0)),
+                elasticity: Some(elasticity),
+                density: material.optional_real(density)?,
+                loss_factor: damping.filter(|&damping| damping != 0.0),
+                place: self.deck.name(material.place),
+                ..FileMaterial::default()
+            });
         }
         Ok(())
-    }
-
-    /// A material whose density and structural damping stand in the given fields.
-    fn material(
-        &self,
-        card: &Card<'_>,
-        region: String,
-        elasticity: FileElasticity,
-        [density, damping]: [usize; 2],
-    ) -> Result<FileMaterial> {
-        let damping = card.optional_real(damping)?;
-        Ok(FileMaterial {
-            region,
-            name: format!("{}_{}", card.name, card.field(0)),
-            elasticity: Some(elasticity),
-            density: card.optional_real(density)?,
-            loss_factor: damping.filter(|&damping| damping != 0.0),
-            place: self.deck.name(card.place),
-            ..FileMaterial::default()
-        })
     }
 }
 
