@@ -105,7 +105,12 @@ macro_rules! ensure {
 
 /// What an option holds; returns the error of an empty one: `found!(option; deck, place; "...")`.
 macro_rules! found {
-    ($option:expr; $($fault:tt)+) => { match $option { Some(value) => value, None => refuse!($($fault)+) } };
+    ($option:expr; $($fault:tt)+) => {
+        match $option {
+            Some(value) => value,
+            None => refuse!($($fault)+),
+        }
+    };
 }
 
 /// A number as programs in Fortran write it, `1.0D+3` included; finite.

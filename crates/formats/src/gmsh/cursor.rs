@@ -76,8 +76,8 @@ impl<'a> Cursor<'a> {
     /// Passes over a section that is not read.
     pub fn skip_section(&mut self, name: &str) -> Result<()> {
         let (rest, end) = (&self.bytes[self.at..], format!("$End{name}"));
-        let offset = found!(rest.windows(end.len()).position(|window| window == end.as_bytes()); self;
-            "section ${name} has no {end}: the file is truncated");
+        let found = rest.windows(end.len()).position(|window| window == end.as_bytes());
+        let offset = found!(found; self; "section ${name} has no {end}: the file is truncated");
         self.line += rest[..offset].iter().filter(|&&b| b == b'\n').count();
         self.at += offset;
         self.text_line();

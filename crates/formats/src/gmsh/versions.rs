@@ -24,8 +24,8 @@ impl Reader<'_> {
             let kind = self.cursor.int("element type")?;
             let group = if is_binary { self.cursor.int("number of elements")? } else { 1 };
             let tags = self.cursor.int("number of tags")?;
-            ensure!((1..=(count - read) as i64).contains(&group) && (0..=64).contains(&tags); self.cursor;
-                "a group of {group} elements with {tags} tags is not valid here");
+            let is_right = (1..=(count - read) as i64).contains(&group) && (0..=64).contains(&tags);
+            ensure!(is_right; self.cursor; "a group of {group} elements with {tags} tags is not valid here");
             for _ in 0..group {
                 let label = match label {
                     Some(label) => label,
