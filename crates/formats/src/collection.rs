@@ -31,6 +31,11 @@ impl CollectedElement {
     }
 }
 
+/// The edge of a curve that a line of two or three nodes is.
+pub(super) fn edge_of(nodes: &[u32]) -> CurveEdge {
+    (nodes[0], nodes[1], nodes.get(2).copied())
+}
+
 /// Nodes in ascending order.
 pub(super) fn sorted(nodes: &[u32]) -> Vec<u32> {
     let mut sorted = nodes.to_vec();
@@ -97,7 +102,9 @@ pub(super) fn finished(mut file: FileMesh, mut elements: Vec<CollectedElement>) 
     file.is_used = vec![true; file.points.len()];
     file.dimension = dimension(&elements);
     if file.dimension == 2 {
-        file.curves = std::mem::take(&mut file.surfaces).into_iter().map(curve).collect();
+        let edges = |faces: Vec<SurfaceFace>| faces.iter().map(|face| edge_of(&face.1)).collect();
+        let surfaces = std::mem::take(&mut file.surfaces).into_iter();
+        file.curves = surfaces.map(|(name, faces)| (name, edges(faces))).collect();
         file.equations.clear();
     }
     let mut regions: BTreeMap<Arc<str>, i64> = BTreeMap::new();
@@ -130,38 +137,23 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
         return;
     }
     let first = place.iter().position(Option::is_none).unwrap_or(0);
-    file.model.remarks.push(format!(
-        "{} no element and {} not used (the first is node {})",
-        match unused {
-            1 => "1 node belongs to".to_owned(),
-            _ => format!("{unused} nodes belong to"),
-        },
-        if unused == 1 { "is" } else { "are" },
-        file.labels[first]
-    ));
-    let is_used = |node: usize| place[node].is_some(); // Nodes, and all that names them by number.
-    let mut node = 0..;
-    file.points.retain(|_| node.next().is_some_and(is_used));
-    let mut node = 0..;
-    file.labels.retain(|_| node.next().is_some_and(is_used));
+    let (nodes, are) = match unused {
+        1 => ("1 node belongs".to_owned(), "is"),
+        _ => (format!("{unused} nodes belong"), "are"),
+    };
+    let label = file.labels[first];
+    let remark = format!("{nodes} to no element and {are} not used (the first is node {label})");
+    file.model.remarks.push(remark);
+    let mut used = [&place, &place].map(|place| place.iter().map(Option::is_some));
+    file.points.retain(|_| used[0].next() == Some(true)); // Nodes, and all that names them by number.
+    file.labels.retain(|_| used[1].next() == Some(true));
     let moved = |node: &u32| place[*node as usize];
-    for element in elements {
-        element.nodes = element.nodes.iter().filter_map(moved).collect();
-    }
-    for (_, nodes) in file.surfaces.values_mut().flatten() {
-        *nodes = nodes.iter().filter_map(moved).collect();
-    }
-    for nodes in file.node_sets.values_mut() {
+    let of_elements = elements.iter_mut().map(|element| &mut element.nodes);
+    let of_faces = file.surfaces.values_mut().flatten().map(|face| &mut face.1);
+    for nodes in of_elements.chain(of_faces).chain(file.node_sets.values_mut()) {
         *nodes = nodes.iter().filter_map(moved).collect();
     }
     for term in file.equations.iter_mut().flatten() {
         term.0 = moved(&term.0).unwrap_or(term.0);
     }
-}
-
-/// Edges of a plane body as a physical curve.
-fn curve((name, faces): (String, Vec<SurfaceFace>)) -> (String, Vec<CurveEdge>) {
-    let edges = faces.into_iter();
-    let edges = edges.map(|(_, nodes)| (nodes[0], nodes[1], nodes.get(2).copied()));
-    (name, edges.collect())
 }

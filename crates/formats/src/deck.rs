@@ -48,24 +48,20 @@ impl<'a> Deck<'a> {
         let mut stack = Vec::new();
         let mut place = Place { file: 0, line: 0 };
         for line in text.lines() {
-            let mark = line.strip_prefix(comment);
-            match (mark.and_then(|mark| mark.strip_prefix(BEGIN)), mark) {
-                (Some(name), _) => {
-                    place.line += 1;
-                    stack.push(place);
-                    let file = deck.names.len() as u32;
-                    deck.names.push(name);
-                    place = Place { file, line: 0 };
-                }
-                (None, Some(mark)) if mark == END && !stack.is_empty() => {
-                    place = stack.pop().unwrap_or_default();
-                }
-                _ => {
-                    place.line += 1;
-                    if is_kept(&line) {
-                        deck.lines.push((place, line));
-                    }
-                }
+            let mark = line.strip_prefix(comment).unwrap_or_default();
+            if mark == END
+                && let Some(outer) = stack.pop()
+            {
+                place = outer;
+                continue;
+            }
+            place.line += 1;
+            if let Some(name) = mark.strip_prefix(BEGIN) {
+                stack.push(place);
+                place = Place { file: deck.names.len() as u32, line: 0 };
+                deck.names.push(name);
+            } else if is_kept(&line) {
+                deck.lines.push((place, line));
             }
         }
         Ok(deck)
@@ -73,12 +69,9 @@ impl<'a> Deck<'a> {
 
     /// A place in words.
     pub fn name(&self, place: Place) -> String {
-        match self.names.get(place.file as usize) {
-            Some(&name) if !name.is_empty() => {
-                format!("{}, line {}", shortened(name, MESSAGE), place.line)
-            }
-            _ => format!("line {}", place.line),
-        }
+        let file = self.names.get(place.file as usize).copied().unwrap_or_default();
+        let comma = if file.is_empty() { "" } else { ", " };
+        format!("{}{comma}line {}", shortened(file, MESSAGE), place.line)
     }
 
     /// An error at a place.
@@ -103,6 +96,21 @@ macro_rules! fault {
 /// Returns such an error.
 macro_rules! refuse {
     ($($fault:tt)+) => { return Err(fault!($($fault)+)) };
+}
+
+/// Returns it where a condition does not hold: `ensure!(is_right; deck, place; "...")`.
+macro_rules! ensure {
+    ($holds:expr; $($fault:tt)+) => { if !$holds { refuse!($($fault)+) } };
+}
+
+/// What an option holds; returns the error of an empty one: `found!(option; deck, place; "...")`.
+macro_rules! found {
+    ($option:expr; $($fault:tt)+) => {
+        match $option {
+            Some(value) => value,
+            None => refuse!($($fault)+),
+        }
+    };
 }
 
 /// A number as programs in Fortran write it, `1.0D+3` included; finite.

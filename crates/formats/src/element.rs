@@ -2,19 +2,27 @@
 //!
 //! Whatever depends on the kind of an element is said in the [`table`], for plane and solid elements alike.
 
-mod face;
-mod listing;
 mod rule;
 mod shapes;
 mod table;
 
 use nalgebra::{Matrix3, Vector3};
 
-pub use face::FacePoint;
 pub use rule::QuadraturePoint;
 pub use shapes::Shape;
 pub use table::ElementKind;
 use table::{FACES, Row};
+
+/// A point of a face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FacePoint {
+    /// Shape functions of the face's nodes.
+    pub values: Vec<f64>,
+    /// Where it is, m.
+    pub position: [f64; 3],
+    /// Outward normal times the area that belongs to the point, m2; of a line times its length, m.
+    pub area: [f64; 3],
+}
 
 impl ElementKind {
     /// Shapes of the solid kinds, as messages name them.
@@ -68,8 +76,7 @@ impl ElementKind {
     /// Nodes of one element.
     #[inline]
     pub fn node_count(self) -> usize {
-        let row = self.row();
-        row.corners.len() + if row.is_quadratic { row.edges.len() } else { 0 }
+        self.corner_count() + if self.is_quadratic() { self.edges().len() } else { 0 }
     }
 
     /// Corners at the ends of each edge.
@@ -119,6 +126,30 @@ impl ElementKind {
         jacobian
     }
 
+    /// The point of a face with nodes at `points` that stands at a quadrature point: of a line in the plane, of a triangle or a
+    /// quadrilateral of a solid.
+    pub fn at(self, points: &[[f64; 3]], (place, weight): QuadraturePoint) -> FacePoint {
+        let shapes = self.shape_functions(place);
+        let mut position = [0.0; 3];
+        let mut tangents = [[0.0; 3]; 2];
+        for ((value, slopes), point) in shapes.iter().zip(points) {
+            for axis in 0..3 {
+                position[axis] += value * point[axis];
+                tangents[0][axis] += slopes[0] * point[axis];
+                tangents[1][axis] += slopes[1] * point[axis];
+            }
+        }
+        // The second tangent of a line points along z: its normal is a quarter turn behind its direction.
+        if self.dimension() == 1 {
+            tangents[1] = [0.0, 0.0, 1.0];
+        }
+        let [a, b] = tangents;
+        let area =
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let values = shapes.into_iter().map(|shape| shape.0).collect();
+        FacePoint { values, position, area: area.map(|x| weight * x) }
+    }
+
     /// Quadrature of the mass: full, exact for the mass of an undistorted element: 3 points for Tri3, 6 (degree 4, Dunavant 1985) for Tri6,
     /// 2 x 2 Gauss points for Quad4, 3 x 3 for Quad8; 4 for Tet4, 14 (degree 5, Walkington 2000) for Tet10; Gauss points on
     /// bricks, reduced ones for Hex20R, triangle times line on wedges, square times line to the apex on pyramids.
@@ -156,11 +187,8 @@ impl ElementKind {
 
     /// Parent coordinates of each node.
     pub fn node_places(self) -> Vec<[f64; 3]> {
-        let corners = self.row().corners;
-        let middle = |(_, [start, end]): (usize, [usize; 2])| {
-            [0, 1, 2].map(|axis| 0.5 * (corners[start][axis] + corners[end][axis]))
-        };
-        corners.iter().copied().chain(self.middles().map(middle)).collect()
+        let row = self.row();
+        shapes::with_middles(row.corners, if row.is_quadratic { row.edges } else { &[] }).collect()
     }
 }
 

@@ -32,30 +32,26 @@ impl MeshFormat {
     /// The format of a file: its first lines decide where they can, else its name.
     pub fn of(name: &str, bytes: &[u8]) -> Self {
         let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).to_uppercase();
-        let lines = start.lines().map(str::trim).filter(|line| !line.is_empty());
         let is_comment = |line: &str| line.starts_with('$') && !line.starts_with("$MESHFORMAT");
-        let mut lines = lines.filter(|line| !is_comment(line));
-        let first = lines.next().unwrap_or_default();
+        let mut lines = start.lines().map(str::trim);
+        let first = lines.find(|line| !line.is_empty() && !is_comment(line)).unwrap_or_default();
         let is_keyword = |line: &str| {
             let rest = line.strip_prefix('*');
             rest.is_some_and(|rest| rest.starts_with(|c: char| c == '*' || c.is_ascii_alphabetic()))
         };
         let nastran = ["SOL ", "SOL,", "CEND", "BEGIN BULK", "GRID", "ID ", "INIT MASTER", "CORD2"];
-        if first.starts_with("$MESHFORMAT") {
-            return Self::Gmsh;
+        match first {
+            "-1" => Self::Universal,
+            _ if first.starts_with("$MESHFORMAT") => Self::Gmsh,
+            _ if is_keyword(first) => Self::Abaqus,
+            _ if nastran.iter().any(|begin| first.starts_with(begin)) => Self::Nastran,
+            _ => {
+                let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+                let extension = extension.to_lowercase();
+                let known = EXTENSIONS.iter().find(|known| known.0 == extension);
+                known.map_or(Self::Gmsh, |known| known.1)
+            }
         }
-        if is_keyword(first) {
-            return Self::Abaqus;
-        }
-        if first == "-1" {
-            return Self::Universal;
-        }
-        if nastran.iter().any(|begin| first.starts_with(begin)) {
-            return Self::Nastran;
-        }
-        let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension).to_lowercase();
-        let known = EXTENSIONS.iter().find(|known| known.0 == extension);
-        known.map_or(Self::Gmsh, |known| known.1)
     }
 
     /// What begins a comment of the format, if it is one that includes other files.

@@ -27,37 +27,53 @@ enum Symmetry {
     Skew,
 }
 
+const SYMMETRIES: [(&str, Symmetry); 3] = [
+    ("general", Symmetry::General),
+    ("symmetric", Symmetry::Symmetric),
+    ("skew-symmetric", Symmetry::Skew),
+];
+
+/// What comes of reading a matrix.
+type Result<T, E = MatrixMarketError> = std::result::Result<T, E>;
+
+/// A line of the text, counted from 1.
+#[derive(Clone, Copy)]
+struct Line<'a>(usize, &'a str);
+
+impl Line<'_> {
+    fn error(self, message: impl std::fmt::Display) -> MatrixMarketError {
+        MatrixMarketError(format!("line {}: {message}", self.0))
+    }
+
+    fn finite(self, word: &str) -> Result<f64> {
+        let value =
+            found!(word.parse::<f64>().ok(); self; "\"{}\" should be a number", begin_of(word));
+        ensure!(value.is_finite(); self; "{word} is not finite");
+        Ok(value)
+    }
+}
+
 impl MarketMatrix {
     /// Reads `coordinate` and `array` matrices of real or integer entries, general, symmetric or skew-symmetric, of at most so
     /// many rows and columns.
     ///
     /// # Errors
     /// [`MatrixMarketError`] with the line.
-    pub fn read(text: &str, most: usize) -> Result<Self, MatrixMarketError> {
-        let banner = text.lines().next().unwrap_or_default();
-        let (is_coordinate, symmetry) = read_banner(banner)?;
-        let mut lines = text
-            .lines()
-            .enumerate()
-            .skip(1)
-            .map(|(k, line)| (k + 1, line.trim()))
-            .filter(|(_, line)| !line.is_empty() && !line.starts_with('%'));
+    pub fn read(text: &str, most: usize) -> Result<Self> {
+        let (is_coordinate, symmetry) = read_banner(text.lines().next().unwrap_or_default())?;
+        let lines = (1..).zip(text.lines()).skip(1).map(|(k, line)| Line(k, line.trim()));
+        let mut lines = lines.filter(|line| !line.1.is_empty() && !line.1.starts_with('%'));
         let expected = match is_coordinate {
             true => "rows, columns and number of entries",
             false => "rows and columns",
         };
-        let (at, size) = lines.next().unwrap_or((text.lines().count(), ""));
-        let whole: Option<Vec<usize>> = size.split_whitespace().map(|n| n.parse().ok()).collect();
+        let size = lines.next().unwrap_or(Line(text.lines().count(), ""));
+        let whole: Option<Vec<usize>> = size.1.split_whitespace().map(|n| n.parse().ok()).collect();
         let whole = whole.filter(|n| n.len() == 2 + usize::from(is_coordinate));
-        let Some(whole) = whole else {
-            return Err(wrong_line(at, size, expected));
-        };
+        let whole = found!(whole; size; "\"{}\" should be {expected}", begin_of(size.1));
         let (rows, columns) = (whole[0], whole[1]);
-        if rows.max(columns) > most {
-            return Err(MatrixMarketError(format!(
-                "line {at}: a matrix of {rows} x {columns} is larger than {most} x {most}"
-            )));
-        }
+        ensure!(rows.max(columns) <= most; size;
+            "a matrix of {rows} x {columns} is larger than {most} x {most}");
         let mut matrix = Self { rows, columns, entries: Vec::new() };
         match is_coordinate {
             true => matrix.read_coordinates(lines, symmetry, whole[2])?,
@@ -68,39 +84,34 @@ impl MarketMatrix {
 
     fn read_coordinates<'a>(
         &mut self,
-        lines: impl Iterator<Item = (usize, &'a str)>,
+        lines: impl Iterator<Item = Line<'a>>,
         symmetry: Symmetry,
         promised: usize,
-    ) -> Result<(), MatrixMarketError> {
+    ) -> Result<()> {
         let mut found = 0;
-        for (line, text) in lines {
-            let words: Vec<&str> = text.split_whitespace().collect();
-            let expected = "a row, a column and a value";
-            let [row, column, value] = words[..] else {
-                return Err(wrong_line(line, text, expected));
+        for line in lines {
+            let words: Vec<&str> = line.1.split_whitespace().collect();
+            let entry = match words[..] {
+                [row, column, value] => row.parse().ok().zip(column.parse().ok()).zip(Some(value)),
+                _ => None,
             };
-            let (Ok(row), Ok(column)) = (row.parse::<usize>(), column.parse::<usize>()) else {
-                return Err(wrong_line(line, text, expected));
-            };
-            let value = finite(line, value)?;
-            if row == 0 || column == 0 || row > self.rows || column > self.columns {
-                return Err(MatrixMarketError(format!(
-                    "line {line}: entry ({row}, {column}) lies outside a matrix of {} x {}",
-                    self.rows, self.columns
-                )));
-            }
+            let ((row, column), value) = found!(entry; line;
+                "\"{}\" should be a row, a column and a value", begin_of(line.1));
+            let value = line.finite(value)?;
+            ensure!((1..=self.rows).contains(&row) && (1..=self.columns).contains(&column); line;
+                "entry ({row}, {column}) lies outside a matrix of {} x {}", self.rows, self.columns);
             self.add((row - 1, column - 1), value, symmetry);
             found += 1;
         }
-        if found == promised { Ok(()) } else { Err(wrong_count(promised, found)) }
+        has_count(promised, found)
     }
 
     /// Column by column; of a symmetric matrix the lower triangle alone.
     fn read_array<'a>(
         &mut self,
-        lines: impl Iterator<Item = (usize, &'a str)>,
+        lines: impl Iterator<Item = Line<'a>>,
         symmetry: Symmetry,
-    ) -> Result<(), MatrixMarketError> {
+    ) -> Result<()> {
         let first = |column: usize| match symmetry {
             Symmetry::General => 0,
             Symmetry::Symmetric => column,
@@ -109,21 +120,18 @@ impl MarketMatrix {
         let (rows, columns) = (self.rows, self.columns);
         let mut places =
             (0..columns).flat_map(|column| (first(column)..rows).map(move |row| (row, column)));
+        let promised = (0..columns).map(|column| rows.saturating_sub(first(column))).sum();
         let mut found = 0;
-        for (line, text) in lines {
-            for word in text.split_whitespace() {
-                let value = finite(line, word)?;
+        for line in lines {
+            for word in line.1.split_whitespace() {
+                let value = line.finite(word)?;
                 if let Some(place) = places.next() {
                     self.add(place, value, symmetry);
                 }
                 found += 1;
             }
         }
-        let promised = (0..columns).map(|column| rows.saturating_sub(first(column))).sum();
-        match found == promised && places.next().is_none() {
-            true => Ok(()),
-            false => Err(wrong_count(promised, found)),
-        }
+        has_count(promised, found)
     }
 
     fn add(&mut self, (row, column): (usize, usize), value: f64, symmetry: Symmetry) {
@@ -168,53 +176,38 @@ impl MarketMatrix {
     }
 }
 
-fn read_banner(banner: &str) -> Result<(bool, Symmetry), MatrixMarketError> {
-    let words: Vec<String> = banner.split_whitespace().map(str::to_lowercase).collect();
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let wrong = || {
-        let found: String = banner.chars().take(80).collect();
+fn read_banner(banner: &str) -> Result<(bool, Symmetry)> {
+    let lower = banner.to_lowercase();
+    let words: Vec<&str> = lower.split_whitespace().collect();
+    let symmetry = match words[..] {
+        [
+            "%%matrixmarket",
+            "matrix",
+            "coordinate" | "array",
+            "real" | "double" | "integer",
+            own,
+        ] => SYMMETRIES.iter().find(|known| known.0 == own),
+        _ => None,
+    };
+    let known = symmetry.map(|symmetry| (words[2] == "coordinate", symmetry.1));
+    known.ok_or_else(|| {
         MatrixMarketError(format!(
-            "line 1 is no Matrix Market banner of a real matrix: \"{found}\"; expected \
+            "line 1 is no Matrix Market banner of a real matrix: \"{}\"; expected \
              \"%%MatrixMarket matrix coordinate real general\" (or array, integer, symmetric, \
-             skew-symmetric)"
+             skew-symmetric)",
+            begin_of(banner)
         ))
-    };
-    let ["%%matrixmarket", "matrix", format, field, symmetry] = words[..] else {
-        return Err(wrong());
-    };
-    let is_coordinate = match format {
-        "coordinate" => true,
-        "array" => false,
-        _ => return Err(wrong()),
-    };
-    let symmetry = match symmetry {
-        "general" => Symmetry::General,
-        "symmetric" => Symmetry::Symmetric,
-        "skew-symmetric" => Symmetry::Skew,
-        _ => return Err(wrong()),
-    };
-    match field {
-        "real" | "double" | "integer" => Ok((is_coordinate, symmetry)),
-        _ => Err(wrong()),
-    }
+    })
 }
 
-fn wrong_line(line: usize, found: &str, expected: &'static str) -> MatrixMarketError {
-    let found: String = found.chars().take(80).collect();
-    MatrixMarketError(format!("line {line}: \"{found}\" should be {expected}"))
+/// What messages show of a text.
+fn begin_of(text: &str) -> String {
+    text.chars().take(80).collect()
 }
 
-fn wrong_count(promised: usize, found: usize) -> MatrixMarketError {
-    let text = format!("the size line promises {promised} entries, the file has {found}");
-    MatrixMarketError(text)
-}
-
-fn finite(line: usize, word: &str) -> Result<f64, MatrixMarketError> {
-    match word.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(MatrixMarketError(format!("line {line}: {word} is not finite"))),
-        Err(_) => Err(wrong_line(line, word, "a number")),
-    }
+fn has_count(promised: usize, found: usize) -> Result<()> {
+    let text = || format!("the size line promises {promised} entries, the file has {found}");
+    if found == promised { Ok(()) } else { Err(MatrixMarketError(text())) }
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@
 use frictionsim_bounds::shortened;
 use nalgebra::Matrix3;
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 
 /// Everything beside the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -194,23 +193,19 @@ impl ModelData {
     pub(super) fn leave_out(
         &mut self,
         keyword: &str,
-        place: impl Fn() -> String,
+        place: impl FnOnce() -> String,
         (reason, is_part): (&str, bool),
     ) {
-        let keyword = shortened(keyword, LONGEST_KEYWORD);
-        let known = self.listed.entry((keyword.clone(), reason.to_owned()));
-        match known {
-            Entry::Occupied(known) => {
-                let known = &mut self.left_out[*known.get()];
-                known.count += 1;
-                known.is_part |= is_part;
-            }
-            Entry::Vacant(free) => {
-                free.insert(self.left_out.len());
-                let (place, reason) = (place(), reason.to_owned());
-                self.left_out.push(LeftOut { keyword, place, count: 1, reason, is_part });
-            }
+        let key = (shortened(keyword, LONGEST_KEYWORD), reason.to_owned());
+        let next = self.left_out.len();
+        let at = *self.listed.entry(key.clone()).or_insert(next);
+        if at == next {
+            let (keyword, reason) = key;
+            let (place, count, is_part) = (place(), 0, false);
+            self.left_out.push(LeftOut { keyword, place, count, reason, is_part });
         }
+        self.left_out[at].count += 1;
+        self.left_out[at].is_part |= is_part;
     }
 }
 
@@ -242,10 +237,7 @@ impl std::fmt::Display for LeftOut {
         if self.count > 1 {
             write!(f, ", {} times", self.count)?;
         }
-        write!(f, ")")?;
-        if !self.reason.is_empty() {
-            write!(f, ": {}", self.reason)?;
-        }
-        Ok(())
+        let colon = if self.reason.is_empty() { "" } else { ": " };
+        write!(f, "){colon}{}", self.reason)
     }
 }

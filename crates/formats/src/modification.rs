@@ -6,8 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 impl FileMesh {
     /// Mean of an element's corners, in the unit of the file.
     pub fn element_middle(&self, element: &FileElement) -> [f64; 3] {
-        let corners = element.nodes[..element.kind.corner_count()].iter();
-        middle(corners.map(|&node| self.points[node as usize]))
+        let corners = &element.nodes[..element.kind.corner_count()];
+        let points = corners.iter().map(|&node| self.points[node as usize]);
+        let sum = points.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k]));
+        sum.map(|x| x / corners.len() as f64)
     }
 
     /// The file without some elements, and without the edges and faces of its curves and surfaces that bounded these alone.
@@ -74,12 +76,6 @@ fn kept<T: Clone>(
         (name.clone(), own)
     });
     named.filter(|(_, own)| !own.is_empty()).collect()
-}
-
-/// Mean of some points.
-fn middle(points: impl ExactSizeIterator<Item = [f64; 3]>) -> [f64; 3] {
-    let count = points.len() as f64;
-    points.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k])).map(|x| x / count)
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {

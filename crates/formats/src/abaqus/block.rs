@@ -2,6 +2,7 @@
 
 use crate::deck::{Deck, Place, quoted, real};
 use crate::file_mesh::{MeshFileError, Result};
+use std::ops::Deref;
 
 /// A keyword with its parameters and its data.
 pub(super) struct Block<'a> {
@@ -14,7 +15,7 @@ pub(super) struct Block<'a> {
     pub place: Place,
 }
 
-impl Block<'_> {
+impl<'a> Block<'a> {
     /// The value of a parameter.
     pub fn parameter(&self, name: &str) -> Option<&str> {
         self.parameters.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
@@ -37,29 +38,94 @@ impl Block<'_> {
 
     /// The value of a parameter that must be there.
     pub fn required(&self, name: &str) -> Result<&str> {
-        let found = self.parameter(name).filter(|value| !value.is_empty());
-        found.ok_or_else(|| fault!(self; "*{} needs {name}=", self.keyword))
+        let value = self.parameter(name).filter(|value| !value.is_empty());
+        Ok(found!(value; self; "*{} needs {name}=", self.keyword))
+    }
+
+    /// Its data lines.
+    pub fn lines(&self, scope: usize) -> impl Iterator<Item = Row<'a>> + use<'_, 'a> {
+        let deck = self.deck;
+        self.data.iter().map(move |&(place, line)| Row { deck, scope, place, line })
     }
 
     /// The numbers of the first data lines, at most so many; empty fields are 0.
     pub fn numbers(&self, lines: usize) -> Result<Vec<f64>> {
-        let lines = self.data.iter().take(lines);
-        let all = lines.flat_map(|&(place, line)| fields(line).map(move |field| (place, field)));
-        let numbers = all.map(|(place, field)| match field {
-            "" => Ok(0.0),
-            field => real(field).ok_or_else(|| {
-                let found = quoted(field);
-                fault!(self.deck, place; "a number of *{} expected, found {found}", self.keyword)
-            }),
-        });
-        numbers.collect()
+        let what = format!("a number of *{}", self.keyword);
+        let entries = self.lines(0).take(lines).flat_map(Row::entries);
+        entries.map(|(row, field)| row.number(field, &what)).collect()
     }
 }
 
-/// Fields of a data line; a comma at its end begins none.
-pub(super) fn fields(line: &str) -> impl Iterator<Item = &str> {
-    let line = line.trim_end();
-    line.strip_suffix(',').unwrap_or(line).split(',').map(str::trim)
+/// A block as a scope has it.
+#[derive(Clone, Copy)]
+pub(super) struct Scoped<'b, 'a> {
+    pub scope: usize,
+    pub block: &'b Block<'a>,
+}
+
+impl<'a> Deref for Scoped<'_, 'a> {
+    type Target = Block<'a>;
+
+    fn deref(&self) -> &Block<'a> {
+        self.block
+    }
+}
+
+impl<'b, 'a> Scoped<'b, 'a> {
+    /// Its data lines.
+    pub fn rows(self) -> impl Iterator<Item = Row<'a>> + use<'b, 'a> {
+        self.block.lines(self.scope)
+    }
+}
+
+/// A data line as a scope has it.
+#[derive(Clone, Copy)]
+pub(super) struct Row<'a> {
+    pub deck: &'a Deck<'a>,
+    pub scope: usize,
+    pub place: Place,
+    pub line: &'a str,
+}
+
+impl<'a> Row<'a> {
+    /// An error there.
+    pub fn error(self, message: impl Into<String>) -> MeshFileError {
+        self.deck.error(self.place, message)
+    }
+
+    /// Its fields; a comma at the end begins none.
+    pub fn fields(self) -> impl Iterator<Item = &'a str> {
+        let line = self.line.trim_end();
+        line.strip_suffix(',').unwrap_or(line).split(',').map(str::trim)
+    }
+
+    /// A field, empty where the line ends before it.
+    pub fn field(self, number: usize) -> &'a str {
+        self.fields().nth(number).unwrap_or_default()
+    }
+
+    /// Its fields, each with the line.
+    pub fn entries(self) -> impl Iterator<Item = (Self, &'a str)> {
+        self.fields().map(move |field| (self, field))
+    }
+
+    /// The fields from one on, if they are so many numbers.
+    pub fn all_numbers<const N: usize>(self, first: usize) -> Option<[f64; N]> {
+        let numbers: Option<Vec<f64>> = self.fields().skip(first).map(real).collect();
+        numbers?.try_into().ok()
+    }
+
+    /// The number of a field, 0 of an empty one.
+    pub fn number(self, field: &str, what: &str) -> Result<f64> {
+        let number = if field.is_empty() { Some(0.0) } else { real(field) };
+        Ok(found!(number; self; "{what} expected, found {}", quoted(field)))
+    }
+
+    /// The number of a node or an element in a field.
+    pub fn label(self, field: &str, what: &str) -> Result<usize> {
+        let label = field.trim().parse::<usize>().ok().filter(|&number| number > 0);
+        Ok(found!(label; self; "{what} expected, found {}", quoted(field)))
+    }
 }
 
 /// Splits a keyword line at commas outside quotes.
@@ -80,10 +146,8 @@ pub(super) fn blocks<'a>(deck: &'a Deck<'a>) -> Result<Vec<Block<'a>>> {
     let mut lines = lines.filter(|(_, line)| !is_comment(line) && !line.trim().is_empty());
     while let Some(&(place, line)) = lines.next() {
         let Some(head) = line.trim().strip_prefix('*') else {
-            let Some(block) = blocks.last_mut() else {
-                let found = quoted(line);
-                refuse!(deck, place; "a keyword such as *NODE expected, found {found}");
-            };
+            let block = found!(blocks.last_mut(); deck, place;
+                "a keyword such as *NODE expected, found {}", quoted(line));
             block.data.push((place, line));
             continue;
         };

@@ -1,7 +1,7 @@
 //! `*BOUNDARY`, `*DLOAD`, `*DSLOAD` and `*MOTION`, as the last step leaves them.
 
 use super::Reader;
-use super::block::{Block, fields};
+use super::block::{Row, Scoped};
 use super::interactions::unique;
 use crate::collection::{dimension, used_nodes};
 use crate::deck::{Place, quoted, real};
@@ -37,12 +37,13 @@ impl Reader<'_, '_> {
         let (mut held, mut pressures) = (Held::new(), Pressures::new());
         let transformed = self.transformed()?;
         let mut step = 0;
-        for &(scope, block) in self.blocks {
+        for &block in self.blocks {
+            let is_new = block.is("OP", "NEW");
             match block.keyword.as_str() {
                 "STEP" => step += 1,
                 // What holds: displacements of zero, of no other kind.
                 "BOUNDARY" => {
-                    if block.is("OP", "NEW") {
+                    if is_new {
                         held.clear();
                     }
                     let own = block.parameter("TYPE").unwrap_or("DISPLACEMENT").to_uppercase();
@@ -50,16 +51,16 @@ impl Reader<'_, '_> {
                         self.lose_part(&format!("*BOUNDARY, TYPE={own}"), block.place, "");
                         continue;
                     }
-                    self.boundary(scope, block, &mut held)?;
+                    self.boundary(block, &mut held)?;
                 }
                 // What loads: pressures on faces or surfaces.
-                keyword @ ("DLOAD" | "DSLOAD") => {
-                    if block.is("OP", "NEW") {
+                "DLOAD" | "DSLOAD" => {
+                    if is_new {
                         pressures.clear();
                     }
-                    self.load(scope, block, keyword, &mut pressures)?;
+                    self.load(block, &mut pressures)?;
                 }
-                "MOTION" => self.motion(scope, block)?,
+                "MOTION" => self.motion(block)?,
                 _ => {}
             }
         }
@@ -73,85 +74,74 @@ impl Reader<'_, '_> {
         let referred = self.read_equations(&held)?;
         self.take_held(held, &transformed, &referred);
         for (boundary, (pressure, place)) in pressures {
-            let place = self.deck.name(place);
-            let kind = FileConditionKind::Pressure(pressure);
-            self.file.model.conditions.push(FileCondition { boundary, kind, place });
+            self.bear(boundary, FileConditionKind::Pressure(pressure), place);
         }
         Ok(())
+    }
+
+    fn bear(&mut self, boundary: String, kind: FileConditionKind, place: Place) {
+        let place = self.deck.name(place);
+        self.file.model.conditions.push(FileCondition { boundary, kind, place });
     }
 
     /// Nodes whose degrees of freedom are along axes of their own.
     fn transformed(&mut self) -> Result<BTreeSet<u32>> {
         let mut nodes = BTreeSet::new();
-        for (scope, block) in self.blocks_of("TRANSFORM") {
+        for block in self.blocks_of("TRANSFORM") {
             let name = block.required("NSET")?;
-            let Some(set) = self.nodes.sets.get(&self.key(scope, name)) else {
-                return Err(self.unknown(block.place, "node set", name));
-            };
+            let set = self.nodes.sets.get(&self.key(block.scope, name));
+            let set = set.ok_or_else(|| self.unknown(block.place, "node set", name))?;
             nodes.extend(set.items.iter().copied());
         }
         Ok(nodes)
     }
 
-    fn boundary(&mut self, scope: usize, block: &Block<'_>, held: &mut Held) -> Result<()> {
-        for &(place, line) in &block.data {
-            let entry: Vec<&str> = fields(line).collect();
-            let (target, what) = (entry[0], entry.get(1).copied().unwrap_or_default());
+    fn boundary(&mut self, block: Scoped<'_, '_>, held: &mut Held) -> Result<()> {
+        for row in block.rows() {
+            let what = row.field(1);
             let word = WORDS.iter().find(|(word, _)| word.eq_ignore_ascii_case(what));
-            let axes = match word {
-                Some((_, axes)) => *axes,
-                None => {
-                    let number = |i: usize| {
-                        entry.get(i).filter(|f| !f.is_empty()).map(|f| f.parse::<usize>())
-                    };
-                    let (Some(Ok(first)), last) = (number(1), number(2)) else {
-                        refuse!(self.deck, place;
-                            "a direction 1 to 6 or a word such as ENCASTRE expected, found {}",
-                            quoted(what));
-                    };
-                    let Ok(last) = last.unwrap_or(Ok(first)) else {
-                        refuse!(self.deck, place;
-                            "a last direction expected, found {}", quoted(entry[2]));
-                    };
-                    let value = entry.get(3).and_then(|value| real(value)).unwrap_or(0.0);
-                    if value != 0.0 && !block.has("FIXED") {
-                        let reason =
-                            "only displacements of zero are taken: these directions stay free";
-                        self.lose_part("*BOUNDARY with a displacement", place, reason);
-                        continue;
+            let axes = if let Some((_, axes)) = word {
+                *axes
+            } else {
+                let first = found!(what.parse::<usize>().ok(); row;
+                    "a direction 1 to 6 or a word such as ENCASTRE expected, found {}", quoted(what));
+                let last = match row.field(2) {
+                    "" => first,
+                    last => {
+                        found!(last.parse().ok(); row; "a last direction expected, found {}", quoted(last))
                     }
-                    [1, 2, 3].map(|axis| (first..=last).contains(&axis))
+                };
+                if real(row.field(3)).unwrap_or(0.0) != 0.0 && !block.has("FIXED") {
+                    let reason = "only displacements of zero are taken: these directions stay free";
+                    self.lose_part("*BOUNDARY with a displacement", row.place, reason);
+                    continue;
                 }
+                [1, 2, 3].map(|axis| (first..=last).contains(&axis))
             };
-            let key = self.target(scope, place, target, axes)?;
-            let known = held.entry(key).or_insert(([false; 3], place));
+            let key = self.target(row, axes)?;
+            let known = held.entry(key).or_insert(([false; 3], row.place));
             (0..3).for_each(|axis| known.0[axis] |= axes[axis]);
         }
         Ok(())
     }
 
     /// The node set that a line of `*BOUNDARY` is about; nodes by their numbers are gathered by the directions held.
-    fn target(
-        &mut self,
-        scope: usize,
-        place: Place,
-        target: &str,
-        axes: [bool; 3],
-    ) -> Result<(usize, String)> {
-        let key = self.key(scope, target);
+    fn target(&mut self, row: Row<'_>, axes: [bool; 3]) -> Result<(usize, String)> {
+        let target = row.field(0);
+        let key = self.key(row.scope, target);
         if self.nodes.sets.contains_key(&key) {
             return Ok(key);
         }
-        let (there, name) = self.resolved(scope, target);
+        let (scope, name) = self.resolved(row.scope, target);
         if name.parse::<usize>().is_err() {
-            return Err(self.unknown(place, "node set", target));
+            return Err(self.unknown(row.place, "node set", target));
         }
-        let nodes = self.entry(&self.nodes, there, place, name)?.unwrap_or_default();
+        let nodes = self.items(&self.nodes, Row { scope, ..row }, name)?;
         let letters = ["_1", "_2", "_3"].into_iter().zip(axes);
         let letters: String = letters.filter(|(_, is_held)| *is_held).map(|l| l.0).collect();
-        let single = format!("{SINGLE_NODES}{letters}");
-        self.nodes.add(Some(self.named(0, &single)), nodes, false);
-        Ok((0, single.to_uppercase()))
+        let (key, single) = self.named(0, &format!("{SINGLE_NODES}{letters}"));
+        self.nodes.add(Some((key.clone(), single)), nodes, false);
+        Ok(key)
     }
 
     /// Conditions of the sets that are held; what has no meaning here is left out.
@@ -187,93 +177,75 @@ impl Reader<'_, '_> {
                     false => set.name.clone(),
                 };
                 self.file.node_sets.insert(boundary.clone(), nodes);
-                let place = self.deck.name(place);
-                let kind = FileConditionKind::Fixed(axes);
-                self.file.model.conditions.push(FileCondition { boundary, kind, place });
+                self.bear(boundary, FileConditionKind::Fixed(axes), place);
             }
         }
     }
 
     /// Pressures on surfaces and on faces of elements.
-    fn load(
-        &mut self,
-        scope: usize,
-        block: &Block<'_>,
-        keyword: &str,
-        pressures: &mut Pressures,
-    ) -> Result<()> {
-        for &(place, line) in &block.data {
-            let entry: Vec<&str> = fields(line).collect();
-            let kind = entry.get(1).copied().unwrap_or_default().to_uppercase();
-            if keyword == "DLOAD" && kind == "CENTRIF" {
-                self.centrifugal(scope, place, line)?;
-                continue;
-            }
-            let is_surface = keyword == "DSLOAD" && kind == "P";
-            let is_face = keyword == "DLOAD"
-                && kind.strip_prefix('P').is_some_and(|n| n.parse::<usize>().is_ok());
-            if !is_surface && !is_face {
-                let reason = "pressures on surfaces and faces are taken, other loads are not";
-                self.lose_part(&format!("*{keyword}, {kind}"), place, reason);
-                continue;
-            }
-            let value = entry.get(2).and_then(|value| real(value)).ok_or_else(|| {
-                fault!(self.deck, place; "*{keyword}: a pressure expected, found {}", quoted(line))
-            })?;
+    fn load(&mut self, block: Scoped<'_, '_>, pressures: &mut Pressures) -> Result<()> {
+        let keyword = block.keyword.as_str();
+        for row in block.rows() {
+            let kind = row.field(1).to_uppercase();
+            let face = kind.strip_prefix('P').and_then(|number| number.parse::<usize>().ok());
+            let is_surface = match (keyword, kind.as_str()) {
+                ("DSLOAD", "P") => true,
+                ("DLOAD", "CENTRIF") => {
+                    self.centrifugal(row)?;
+                    continue;
+                }
+                ("DLOAD", _) if face.is_some() => false,
+                _ => {
+                    let reason = "pressures on surfaces and faces are taken, other loads are not";
+                    self.lose_part(&format!("*{keyword}, {kind}"), row.place, reason);
+                    continue;
+                }
+            };
+            let value = found!(real(row.field(2)); row;
+                "*{keyword}: a pressure expected, found {}", quoted(row.line));
+            let target = row.field(0);
             let surface = match is_surface {
                 true => self
-                    .surface_name(scope, entry[0])
-                    .ok_or_else(|| self.unknown(place, "surface", entry[0]))?,
-                false => self.loaded_faces(scope, place, entry[0], &kind)?,
+                    .surface_name(row, target)
+                    .ok_or_else(|| self.unknown(row.place, "surface", target))?,
+                false => self.loaded_faces(row, &kind)?,
             };
-            pressures.insert(surface, (value, place));
+            pressures.insert(surface, (value, row.place));
         }
         Ok(())
     }
 
     /// The surface of face `P<number>` of an element or of a set of them.
-    fn loaded_faces(
-        &mut self,
-        scope: usize,
-        place: Place,
-        set: &str,
-        side: &str,
-    ) -> Result<String> {
-        let elements = self.items(&self.elements, scope, place, set)?;
-        let (there, name) = self.resolved(scope, set);
-        let full = match self.elements.sets.get(&self.key(scope, set)) {
+    fn loaded_faces(&mut self, row: Row<'_>, side: &str) -> Result<String> {
+        let set = row.field(0);
+        let elements = self.items(&self.elements, row, set)?;
+        let (there, name) = self.resolved(row.scope, set);
+        let full = match self.elements.sets.get(&self.key(row.scope, set)) {
             Some(known) => format!("{}_{side}", known.name),
             None => format!("{}_{side}", self.scopes[there].full_name(&format!("element_{name}"))),
         };
-        let faces: Result<Vec<_>, _> =
-            elements.iter().map(|&e| self.side(e, side, place)).collect();
-        self.file.surfaces.insert(full.clone(), faces?);
+        let faces = elements.iter().map(|&e| self.side(e, side, row)).collect::<Result<_>>()?;
+        self.file.surfaces.insert(full.clone(), faces);
         Ok(full)
     }
 
     /// `*MOTION, ROTATION`: the speed at which nodes pass, of the regions that it covers.
-    fn motion(&mut self, scope: usize, block: &Block<'_>) -> Result<()> {
+    fn motion(&mut self, block: Scoped<'_, '_>) -> Result<()> {
         if !block.has("ROTATION") {
             self.leave_out("*MOTION without ROTATION", block.place, "");
             return Ok(());
         }
-        for &(place, line) in &block.data {
-            let mut entry = fields(line);
-            let target = entry.next().unwrap_or_default();
-            let numbers: Option<Vec<f64>> = entry.map(real).collect();
-            let Some(&[speed, a, b, c, d, e, f]) = numbers.as_deref() else {
-                refuse!(self.deck, place;
-                    "a speed and two points of the axis (3 + 3 numbers) expected");
-            };
-            let nodes = self.items(&self.nodes, scope, place, target)?;
+        for row in block.rows() {
+            let [speed, a, b, c, d, e, f] = found!(row.all_numbers(1); row;
+                "a speed and two points of the axis (3 + 3 numbers) expected");
+            let nodes = self.items(&self.nodes, row, row.field(0))?;
             let nodes: BTreeSet<u32> = nodes.into_iter().collect();
             let elements = self.collected.iter();
             let is_inside = elements.map(|e| e.nodes.iter().all(|node| nodes.contains(node)));
             let is_inside: Vec<bool> = is_inside.collect();
-            let axis = [[a, b, c], [d, e, f]];
-            if !self.turn_regions(&is_inside, place, (axis, speed, false)) {
+            if !self.turn_regions(&is_inside, row, ([[a, b, c], [d, e, f]], speed, false)) {
                 let reason = "its nodes are not those of whole regions";
-                self.leave_out("*MOTION, ROTATION", place, reason);
+                self.leave_out("*MOTION, ROTATION", row.place, reason);
             }
         }
         Ok(())
@@ -284,7 +256,7 @@ impl Reader<'_, '_> {
     fn turn_regions(
         &mut self,
         is_inside: &[bool],
-        place: Place,
+        row: Row<'_>,
         (axis, angular_velocity, is_load): ([[f64; 3]; 2], f64, bool),
     ) -> bool {
         let mut covers: BTreeMap<Option<Arc<str>>, bool> = BTreeMap::new();
@@ -296,31 +268,25 @@ impl Reader<'_, '_> {
         for region in &regions {
             let motions = &mut self.file.model.motions;
             motions.retain(|motion| *motion.region != **region);
-            let (region, place) = (region.to_string(), self.deck.name(place));
+            let (region, place) = (region.to_string(), self.deck.name(row.place));
             motions.push(FileMotion { region, axis, angular_velocity, is_load, place });
         }
         !regions.is_empty()
     }
 
     /// `*DLOAD`, `CENTRIF`: the squared speed at which elements turn, a point of the axis and its direction.
-    fn centrifugal(&mut self, scope: usize, place: Place, line: &str) -> Result<()> {
-        let mut entry = fields(line);
-        let target = entry.next().unwrap_or_default();
-        let numbers: Option<Vec<f64>> = entry.skip(1).map(real).collect();
-        let Some(&[square, a, b, c, d, e, f]) = numbers.as_deref() else {
-            refuse!(self.deck, place;
-                "CENTRIF: the square of a speed, a point of the axis and its direction (1 + 3 + 3 \
-                 numbers) expected");
-        };
-        if square < 0.0 {
-            refuse!(self.deck, place; "CENTRIF: the square of a speed is not negative");
-        }
-        let elements = self.items(&self.elements, scope, place, target)?;
+    fn centrifugal(&mut self, row: Row<'_>) -> Result<()> {
+        let [square, a, b, c, d, e, f] = found!(row.all_numbers(2); row;
+            "CENTRIF: the square of a speed, a point of the axis and its direction (1 + 3 + 3 numbers) expected");
+        ensure!(square >= 0.0; row; "CENTRIF: the square of a speed is not negative");
         let mut is_inside = vec![false; self.collected.len()];
-        elements.into_iter().for_each(|e| is_inside[e] = true);
+        for element in self.items(&self.elements, row, row.field(0))? {
+            is_inside[element] = true;
+        }
         let axis = [[a, b, c], [a + d, b + e, c + f]];
-        if !self.turn_regions(&is_inside, place, (axis, square.sqrt(), true)) {
-            self.lose_part("*DLOAD, CENTRIF", place, "its elements are not those of whole regions");
+        if !self.turn_regions(&is_inside, row, (axis, square.sqrt(), true)) {
+            let reason = "its elements are not those of whole regions";
+            self.lose_part("*DLOAD, CENTRIF", row.place, reason);
         }
         Ok(())
     }

@@ -1,10 +1,10 @@
 //! `*EQUATION`: sums of displacements that vanish.
 
 use super::Reader;
-use super::block::{Block, fields};
+use super::block::{Row, Scoped};
 use super::conditions::Held;
 use crate::collection::{dimension, used_nodes};
-use crate::deck::{Place, real};
+use crate::deck::real;
 use crate::file_mesh::Result;
 use std::collections::BTreeSet;
 
@@ -21,14 +21,12 @@ impl Reader<'_, '_> {
             sets.any(|(key, _)| reader.nodes.sets[key].items.contains(&node))
         };
         let mut referred = BTreeSet::new();
-        for (scope, block) in self.blocks_of("EQUATION") {
-            for (place, terms) in self.equation_terms(scope, block)? {
+        for block in self.blocks_of("EQUATION") {
+            for (row, terms) in self.equation_terms(block)? {
                 // Sets of as many nodes stand for as many equations; a single node is part of each.
                 let count = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
-                if terms.iter().any(|term| ![1, count].contains(&term.0.len())) {
-                    refuse!(self.deck, place;
-                        "*EQUATION: node sets of one equation have as many nodes each");
-                }
+                ensure!(terms.iter().all(|term| [1, count].contains(&term.0.len())); row;
+                    "*EQUATION: node sets of one equation have as many nodes each");
                 for i in 0..count {
                     let all = terms.iter().map(|(nodes, axis, factor)| {
                         let node = nodes[if nodes.len() == 1 { 0 } else { i }];
@@ -37,13 +35,10 @@ impl Reader<'_, '_> {
                     let (own, beside): (Vec<_>, Vec<_>) = all.partition(|t| used.contains(&t.0));
                     // Nodes without elements vanish from it if they are held.
                     for (node, axis, _) in beside {
-                        if !is_held(self, node, axis) {
-                            let label = self.file.labels[node as usize];
-                            refuse!(self.deck, place;
-                                "*EQUATION: node {label} belongs to no element, and nothing holds \
-                                 it along {}: a node that moves others freely is not supported",
-                                ["x", "y", "z"][axis]);
-                        }
+                        ensure!(is_held(self, node, axis); row;
+                            "*EQUATION: node {} belongs to no element, and nothing holds it along {}: a node that \
+                             moves others freely is not supported",
+                            self.file.labels[node as usize], ["x", "y", "z"][axis]);
                         referred.insert(node);
                     }
                     self.file.equations.push(own);
@@ -53,51 +48,45 @@ impl Reader<'_, '_> {
         // A plane body has no use for them.
         if dimension(&self.collected) == 2 && !self.file.equations.is_empty() {
             self.file.equations.clear();
-            let first = self.blocks_of("EQUATION").next();
-            let place = first.map_or_else(|| self.deck.end(), |(_, block)| block.place);
+            let place =
+                self.blocks_of("EQUATION").next().map_or(self.deck.end(), |block| block.place);
             self.lose_part("*EQUATION", place, "plane bodies have no equations of nodes");
         }
         Ok(referred)
     }
 
     /// The equations of a block: the number of terms, then node or set, axis and coefficient of each, over any lines.
-    fn equation_terms(&self, scope: usize, block: &Block<'_>) -> Result<Vec<(Place, Vec<Term>)>> {
+    fn equation_terms<'a>(&self, block: Scoped<'_, 'a>) -> Result<Vec<(Row<'a>, Vec<Term>)>> {
         let mut equations = Vec::new();
-        let mut lines = block.data.iter();
-        while let Some(&(place, line)) = lines.next() {
-            let count = line.trim().trim_end_matches(',').parse::<usize>().ok();
+        let mut rows = block.rows();
+        while let Some(head) = rows.next() {
+            let count = head.line.trim().trim_end_matches(',').parse::<usize>().ok();
             let count = count.filter(|count| (1..=1_000_000).contains(count));
-            let count = count.ok_or_else(
-                || fault!(self.deck, place; "*EQUATION: the number of terms expected"),
-            )?;
+            let count = found!(count; head; "*EQUATION: the number of terms expected");
             let mut terms: Vec<Term> = Vec::new();
             while terms.len() < count {
-                let Some(&(place, line)) = lines.next() else {
-                    refuse!(self.deck, place;
-                        "*EQUATION: {count} terms expected, found {}", terms.len());
-                };
-                let entry: Vec<&str> = fields(line).collect();
+                let row = found!(rows.next(); head;
+                    "*EQUATION: {count} terms expected, found {}", terms.len());
+                let entry: Vec<&str> = row.fields().collect();
                 for term in entry.chunks(3) {
-                    terms.push(self.equation_term(scope, place, term)?);
+                    terms.push(self.equation_term(row, term)?);
                 }
             }
-            equations.push((place, terms));
+            equations.push((head, terms));
         }
         Ok(equations)
     }
 
-    fn equation_term(&self, scope: usize, place: Place, term: &[&str]) -> Result<Term> {
-        let wrong = || {
-            fault!(self.deck, place;
-            "*EQUATION: a node or node set, a direction 1 to 3 and a coefficient expected")
+    fn equation_term(&self, row: Row<'_>, term: &[&str]) -> Result<Term> {
+        let parsed = match term {
+            &[target, axis, factor] => {
+                let axis = axis.parse::<usize>().ok().filter(|axis| (1..=3).contains(axis));
+                axis.zip(real(factor)).map(|(axis, factor)| (target, axis, factor))
+            }
+            _ => None,
         };
-        let &[target, axis, factor] = term else {
-            return Err(wrong());
-        };
-        let axis = axis.parse::<usize>().ok().filter(|axis| (1..=3).contains(axis));
-        let (Some(axis), Some(factor)) = (axis, real(factor)) else {
-            return Err(wrong());
-        };
-        Ok((self.items(&self.nodes, scope, place, target)?, axis - 1, factor))
+        let (target, axis, factor) = found!(parsed; row;
+            "*EQUATION: a node or node set, a direction 1 to 3 and a coefficient expected");
+        Ok((self.items(&self.nodes, row, target)?, axis - 1, factor))
     }
 }

@@ -1,8 +1,8 @@
 //! `*TIE`, `*CONTACT PAIR` and the friction of `*SURFACE INTERACTION`.
 
 use super::Reader;
-use super::block::{Block, fields};
-use crate::deck::{Place, quoted};
+use super::block::{Block, Row, Scoped};
+use crate::deck::quoted;
 use crate::file_mesh::Result;
 use crate::model_data::{FileContact, FileTie};
 use std::collections::BTreeMap;
@@ -11,90 +11,78 @@ impl Reader<'_, '_> {
     /// Reads ties and contact pairs.
     pub(super) fn read_interactions(&mut self) -> Result<()> {
         let interactions = self.interactions()?;
-        for (scope, block) in self.blocks_of("TIE") {
+        for block in self.blocks_of("TIE") {
             let name = block.parameter("NAME").filter(|name| !name.is_empty());
-            if block.parameter("ADJUST").is_some_and(|value| !value.eq_ignore_ascii_case("NO")) {
+            if !block.parameter("ADJUST").unwrap_or("NO").eq_ignore_ascii_case("NO") {
                 let reason = "nodes stay where the file has them; a tie bridges a small gap";
                 self.leave_out("*TIE, ADJUST", block.place, reason);
             }
-            for (place, [surface, counter]) in self.pairs(scope, block)? {
-                let wanted = name.map_or_else(|| surface.clone(), str::to_owned);
-                let (ties, place) = (&mut self.file.model.ties, self.deck.name(place));
-                let name = unique(&wanted, |name| ties.iter().any(|tie| tie.name == name));
+            for (row, [surface, counter]) in self.pairs(block)? {
+                let (ties, place) = (&mut self.file.model.ties, self.deck.name(row.place));
+                let is_taken = |name: &str| ties.iter().any(|tie| tie.name == name);
+                let name = unique(name.unwrap_or(&surface), is_taken);
                 ties.push(FileTie { name, surface, counter, place });
             }
         }
-        self.read_pairs(&interactions)
-    }
-
-    /// Contact pairs.
-    fn read_pairs(&mut self, interactions: &BTreeMap<String, FileContact>) -> Result<()> {
-        for (scope, block) in self.blocks_of("CONTACT PAIR") {
+        // Contact pairs have the friction and the stiffness of their interaction.
+        for block in self.blocks_of("CONTACT PAIR") {
             let name = block.required("INTERACTION")?;
-            let Some(interaction) = interactions.get(&name.to_uppercase()) else {
-                return Err(self.unknown(block.place, "surface interaction", name));
-            };
+            let interaction = interactions.get(&name.to_uppercase());
+            let interaction = interaction
+                .ok_or_else(|| self.unknown(block.place, "surface interaction", name))?;
             for parameter in ["ADJUST", "TIED", "TRACKING", "EXTENSION ZONE", "CPSET"] {
-                if block.has(parameter) {
-                    let keyword = format!("*CONTACT PAIR, {parameter}");
-                    match parameter {
-                        "TIED" => {
-                            self.lose_part(&keyword, block.place, "glue the surfaces by *TIE")
-                        }
-                        _ => self.leave_out(&keyword, block.place, ""),
-                    }
+                let keyword = format!("*CONTACT PAIR, {parameter}");
+                match parameter {
+                    _ if !block.has(parameter) => {}
+                    "TIED" => self.lose_part(&keyword, block.place, "glue the surfaces by *TIE"),
+                    _ => self.leave_out(&keyword, block.place, ""),
                 }
             }
-            for (place, [surface, counter]) in self.pairs(scope, block)? {
-                let contacts = &self.file.model.contacts;
+            for (row, [surface, counter]) in self.pairs(block)? {
+                let (contacts, place) = (&mut self.file.model.contacts, self.deck.name(row.place));
                 let is_known = |c: &FileContact| c.surface == surface && c.counter == counter;
-                if contacts.iter().any(is_known) {
-                    continue;
+                if !contacts.iter().any(is_known) {
+                    let name = unique(&surface, |name| contacts.iter().any(|c| c.name == name));
+                    let pair = FileContact { name, surface, counter, place, ..interaction.clone() };
+                    contacts.push(pair);
                 }
-                let name = unique(&surface, |name| contacts.iter().any(|c| c.name == name));
-                let place = self.deck.name(place);
-                let pair = FileContact { name, surface, counter, place, ..interaction.clone() };
-                self.file.model.contacts.push(pair);
             }
         }
         Ok(())
     }
 
     /// Pairs of surfaces of all data lines; those of which one was left out are left out too.
-    fn pairs(&mut self, scope: usize, block: &Block<'_>) -> Result<Vec<(Place, [String; 2])>> {
+    fn pairs<'a>(&mut self, block: Scoped<'_, 'a>) -> Result<Vec<(Row<'a>, [String; 2])>> {
         let mut pairs = Vec::new();
-        for &(place, line) in &block.data {
-            let names: Vec<&str> = fields(line).filter(|name| !name.is_empty()).collect();
+        for row in block.rows() {
+            let names: Vec<&str> = row.fields().filter(|name| !name.is_empty()).collect();
             let &[first, second, ..] = names.as_slice() else {
-                refuse!(self.deck, place;
-                    "*{}: two surfaces expected, found {}", block.keyword, quoted(line));
+                refuse!(row; "*{}: two surfaces expected, found {}", block.keyword, quoted(row.line));
             };
-            let found = [first, second].map(|name| self.surface_name(scope, name));
-            match found {
-                [Some(first), Some(second)] => pairs.push((place, [first, second])),
-                _ => {
-                    let missing = if found[0].is_none() { first } else { second };
-                    let is_left_out = self.file.model.left_out.iter().any(|left_out| {
-                        let named = left_out.keyword.strip_prefix("*SURFACE, NAME=");
-                        named.is_some_and(|named| {
-                            let named = named.split(',').next().unwrap_or_default();
-                            named.eq_ignore_ascii_case(missing)
-                        })
-                    });
-                    if !is_left_out {
-                        return Err(self.unknown(place, "surface", missing));
-                    }
-                    let keyword = format!("*{} of {missing}", block.keyword);
-                    self.lose_part(&keyword, place, "that surface is not used");
+            let missing = match [first, second].map(|name| self.surface_name(row, name)) {
+                [Some(first), Some(second)] => {
+                    pairs.push((row, [first, second]));
+                    continue;
                 }
+                [None, _] => first,
+                _ => second,
+            };
+            let is_left_out = self.file.model.left_out.iter().any(|left_out| {
+                let named = left_out.keyword.strip_prefix("*SURFACE, NAME=").unwrap_or_default();
+                named.split(',').next().is_some_and(|named| named.eq_ignore_ascii_case(missing))
+            });
+            if !is_left_out {
+                return Err(self.unknown(row.place, "surface", missing));
             }
+            let keyword = format!("*{} of {missing}", block.keyword);
+            self.lose_part(&keyword, row.place, "that surface is not used");
         }
         Ok(pairs)
     }
 
     /// The name among all surfaces of one that is named in a scope; a node or element set may stand for a surface.
-    pub(super) fn surface_name(&mut self, scope: usize, name: &str) -> Option<String> {
-        let key = self.key(scope, name);
+    pub(super) fn surface_name(&mut self, row: Row<'_>, name: &str) -> Option<String> {
+        let key = self.key(row.scope, name);
         if let Some(found) = self.surfaces.get(&key) {
             return Some(found.clone());
         }
@@ -108,7 +96,7 @@ impl Reader<'_, '_> {
     fn interactions(&mut self) -> Result<BTreeMap<String, FileContact>> {
         let mut found: BTreeMap<String, FileContact> = BTreeMap::new();
         let mut current = None;
-        for &(_, block) in self.blocks {
+        for block in self.blocks {
             match block.keyword.as_str() {
                 "SURFACE INTERACTION" => {
                     let name = block.required("NAME")?.to_uppercase();
@@ -120,9 +108,8 @@ impl Reader<'_, '_> {
                 }
                 keyword @ ("FRICTION" | "SURFACE BEHAVIOR") => {
                     let known = current.as_ref().and_then(|name| found.get_mut(name));
-                    let Some(interaction) = known else {
-                        refuse!(block; "*{keyword} stands behind no *SURFACE INTERACTION");
-                    };
+                    let interaction =
+                        found!(known; block; "*{keyword} stands behind no *SURFACE INTERACTION");
                     match keyword {
                         "FRICTION" => self.friction(block, interaction)?,
                         _ => self.behavior(block, interaction)?,

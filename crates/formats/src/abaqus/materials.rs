@@ -1,7 +1,7 @@
 //! `*MATERIAL`, `*SOLID SECTION` and `*ORIENTATION`: the material of each region.
 
 use super::Reader;
-use super::block::{Block, fields};
+use super::block::Block;
 use crate::deck::real;
 use crate::file_mesh::Result;
 use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
@@ -15,20 +15,16 @@ impl Reader<'_, '_> {
         let definitions = self.definitions()?;
         let orientations = self.orientations()?;
         let mut is_sectioned = vec![false; self.collected.len()];
-        for (scope, block) in self.blocks_of("SOLID SECTION") {
+        for block in self.blocks_of("SOLID SECTION") {
             let name = block.required("ELSET")?;
-            let Some(set) = self.elements.sets.get(&self.key(scope, name)).cloned() else {
-                return Err(self.unknown(block.place, "element set", name));
-            };
+            let set = self.elements.sets.get(&self.key(block.scope, name)).cloned();
+            let set = set.ok_or_else(|| self.unknown(block.place, "element set", name))?;
             // The set is the region of its elements, each of which has one section.
             let region: Arc<str> = set.name.as_str().into();
             for &element in &set.items.iter().copied().collect::<BTreeSet<usize>>() {
                 let known = &mut self.collected[element];
-                if std::mem::replace(&mut is_sectioned[element], true) {
-                    let label = known.label;
-                    refuse!(block;
-                        "element {label} has two sections, the second by element set {name}");
-                }
+                ensure!(!std::mem::replace(&mut is_sectioned[element], true); block;
+                    "element {} has two sections, the second by element set {name}", known.label);
                 known.region = Some(Arc::clone(&region));
             }
             // Its material by name, in any case of letters.
@@ -36,14 +32,14 @@ impl Reader<'_, '_> {
                 self.leave_out("*SOLID SECTION without MATERIAL", block.place, "");
                 continue;
             };
-            let Some(definition) = definitions.get(&material.to_uppercase()) else {
-                return Err(self.unknown(block.place, "material", material));
-            };
+            let definition = definitions.get(&material.to_uppercase());
+            let definition =
+                definition.ok_or_else(|| self.unknown(block.place, "material", material))?;
             // Without an orientation the axes are the global ones, which an instance does not turn.
             let axes = match block.parameter("ORIENTATION").filter(|name| !name.is_empty()) {
                 None => MaterialAxes::Global,
                 Some(name) => {
-                    let own = orientations.get(&self.key(scope, name));
+                    let own = orientations.get(&self.key(block.scope, name));
                     let found = own.or_else(|| orientations.get(&(0, name.to_uppercase())));
                     *found.ok_or_else(|| self.unknown(block.place, "orientation", name))?
                 }
@@ -69,28 +65,23 @@ impl Reader<'_, '_> {
     fn definitions(&mut self) -> Result<BTreeMap<String, FileMaterial>> {
         let mut definitions: BTreeMap<String, FileMaterial> = BTreeMap::new();
         let mut current: Option<String> = None;
-        for &(_, block) in self.blocks {
+        for block in self.blocks {
             let keyword = block.keyword.as_str();
             if keyword == "MATERIAL" {
-                let name = block.required("NAME")?;
-                let definition = FileMaterial {
-                    name: name.to_owned(),
-                    place: self.deck.name(block.place),
-                    ..FileMaterial::default()
-                };
-                if definitions.insert(name.to_uppercase(), definition).is_some() {
-                    refuse!(block; "material {name} is defined twice");
-                }
-                current = Some(name.to_uppercase());
+                let name = block.required("NAME")?.to_owned();
+                let key = name.to_uppercase();
+                let place = self.deck.name(block.place);
+                ensure!(!definitions.contains_key(&key); block; "material {name} is defined twice");
+                let definition = FileMaterial { name, place, ..FileMaterial::default() };
+                definitions.insert(key.clone(), definition);
+                current = Some(key);
                 continue;
             }
             if !matches!(keyword, "ELASTIC" | "DENSITY" | "DAMPING") {
                 continue;
             }
             let known = current.as_ref().and_then(|name| definitions.get_mut(name));
-            let Some(definition) = known else {
-                refuse!(block; "*{keyword} stands behind no *MATERIAL");
-            };
+            let definition = found!(known; block; "*{keyword} stands behind no *MATERIAL");
             match keyword {
                 "ELASTIC" => {
                     let is_table = elastic(block, definition)?;
@@ -109,50 +100,40 @@ impl Reader<'_, '_> {
     /// `*ORIENTATION` by scope and name.
     fn orientations(&mut self) -> Result<BTreeMap<(usize, String), MaterialAxes>> {
         let mut found = BTreeMap::new();
-        for (scope, block) in self.blocks_of("ORIENTATION") {
+        for block in self.blocks_of("ORIENTATION") {
             let name = block.required("NAME")?;
-            let wrong = |message: &str| fault!(block; "*ORIENTATION {name}: {message}");
-            if block.parameter("DEFINITION").is_some_and(|d| !d.eq_ignore_ascii_case("COORDINATES"))
-            {
-                return Err(wrong("only DEFINITION=COORDINATES is supported"));
-            }
+            let definition = block.parameter("DEFINITION").unwrap_or("COORDINATES");
+            ensure!(definition.eq_ignore_ascii_case("COORDINATES"); block;
+                "*ORIENTATION {name}: only DEFINITION=COORDINATES is supported");
             let numbers = block.numbers(1)?; // Two points a and b; a third, the origin, is zero where it is not given.
-            let Some(&[a, b, c, d, e, f]) = numbers.get(..6).and_then(|n| n.first_chunk::<6>())
-            else {
-                return Err(wrong("six numbers expected: two points"));
-            };
+            let &[a, b, c, d, e, f] = found!(numbers.first_chunk(); block;
+                "*ORIENTATION {name}: six numbers expected: two points");
             let [p, q] = [Vector3::new(a, b, c), Vector3::new(d, e, f)];
             let system = block.parameter("SYSTEM").unwrap_or("RECTANGULAR").to_uppercase();
             // The second line turns about one of the axes.
-            let extra = match block.data.get(1) {
-                Some(&(_, line)) => fields(line).filter_map(real).collect(),
-                None => Vec::new(),
-            };
-            let scope_of = &self.scopes[scope];
+            let extra = block.rows().nth(1).into_iter();
+            let extra: Vec<f64> = extra.flat_map(|row| row.fields().filter_map(real)).collect();
+            let scope = &self.scopes[block.scope];
             let turned = |v: Vector3<f64>| -> [f64; 3] {
                 let [from, to] =
-                    [[0.0; 3], v.into()].map(|point| Vector3::from(scope_of.place(point)));
+                    [[0.0; 3], v.into()].map(|point| Vector3::from(scope.place(point)));
                 (to - from).into()
             };
             // Axes turn with the instance.
             let axes = match system.as_str() {
                 "RECTANGULAR" | "R" => {
-                    let Some([first, second]) = turned_axes(p, q, &extra) else {
-                        return Err(wrong("its points lie on one line"));
-                    };
-                    MaterialAxes::Vectors([turned(first), turned(second)])
+                    let axes = found!(turned_axes(p, q, &extra); block;
+                        "*ORIENTATION {name}: its points lie on one line");
+                    MaterialAxes::Vectors(axes.map(turned))
                 }
                 "CYLINDRICAL" | "C" if extra.get(1).is_none_or(|angle| *angle == 0.0) => {
-                    if p == q {
-                        return Err(wrong("the two points of its axis are one"));
-                    }
-                    MaterialAxes::Cylindrical([p, q].map(|point| scope_of.place(point.into())))
+                    ensure!(p != q; block; "*ORIENTATION {name}: the two points of its axis are one");
+                    MaterialAxes::Cylindrical([p, q].map(|point| scope.place(point.into())))
                 }
-                _ => {
-                    return Err(wrong("only rectangular and cylindrical systems are supported"));
-                }
+                _ => refuse!(block;
+                    "*ORIENTATION {name}: only rectangular and cylindrical systems are supported"),
             };
-            found.insert((scope, name.to_uppercase()), axes);
+            found.insert((block.scope, name.to_uppercase()), axes);
         }
         Ok(found)
     }
@@ -210,19 +191,15 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
                 return Err(few(9));
             };
             let normal = Matrix3::new(d11, d12, d13, d12, d22, d23, d13, d23, d33);
+            let shear_moduli = [g12, g13, g23];
             let constants =
-                FileElasticity::of_stiffness(normal, [g12, g13, g23], MaterialAxes::Global);
-            let constants = constants.ok_or_else(|| {
-                fault!(block;
-                "*ELASTIC, TYPE={kind} of material {name} is no stiffness: it is singular")
-            })?;
+                FileElasticity::of_stiffness(normal, shear_moduli, MaterialAxes::Global);
+            let constants = found!(constants; block;
+                "*ELASTIC, TYPE={kind} of material {name} is no stiffness: it is singular");
             (constants, 2)
         }
-        _ => {
-            refuse!(block;
-                "*ELASTIC, TYPE={kind} of material {name} is not supported: give ENGINEERING \
-                 CONSTANTS");
-        }
+        _ => refuse!(block;
+            "*ELASTIC, TYPE={kind} of material {name} is not supported: give ENGINEERING CONSTANTS"),
     };
     definition.elasticity = Some(elasticity); // Further lines are of other temperatures.
     Ok(block.data.len() > lines)
@@ -231,19 +208,15 @@ fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
 /// `*DAMPING`, its values parameters.
 fn damping(block: &Block<'_>, definition: &mut FileMaterial) -> Result<()> {
     for (name, value) in &block.parameters {
-        let number = real(value);
         let slot = match name.as_str() {
             "ALPHA" => &mut definition.mass_coefficient,
             "BETA" => &mut definition.stiffness_coefficient,
             "STRUCTURAL" => &mut definition.loss_factor,
             _ => {
-                refuse!(block; "*DAMPING, {name} is not supported: ALPHA, BETA and STRUCTURAL are");
+                refuse!(block; "*DAMPING, {name} is not supported: ALPHA, BETA and STRUCTURAL are")
             }
         };
-        if number.is_none() {
-            refuse!(block; "*DAMPING, {name}= needs a number");
-        }
-        *slot = number;
+        *slot = Some(found!(real(value); block; "*DAMPING, {name}= needs a number"));
     }
     Ok(())
 }

@@ -11,7 +11,6 @@
 
 mod block;
 mod conditions;
-mod element;
 mod equations;
 mod interactions;
 mod materials;
@@ -23,9 +22,10 @@ mod surfaces;
 use super::collection::{CollectedElement, finished};
 use super::deck::{Deck, Place};
 use super::file_mesh::{FileMesh, MeshFileError, Result};
-use block::{Block, blocks};
+use block::{Scoped, blocks};
 use frictionsim_bounds::Budget;
 use scope::{Layout, Scope, layout};
+use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hash;
 
@@ -39,18 +39,11 @@ struct Set<T> {
     known: HashSet<T>,
 }
 
-impl<T: Copy + Eq + Hash> Set<T> {
-    /// Adds those that are not members yet.
-    fn add(&mut self, items: Vec<T>) {
-        let known = &mut self.known;
-        self.items.extend(items.into_iter().filter(|&item| known.insert(item)));
-    }
-}
-
 /// Key of a name: its scope, and its capitals.
 type Key = (usize, String);
 
 /// Nodes or elements by scope and number, and their sets.
+#[derive(Default)]
 struct Numbered<T> {
     /// What one of them is called.
     what: &'static str,
@@ -61,17 +54,12 @@ struct Numbered<T> {
 }
 
 impl<T: Copy + Eq + Hash> Numbered<T> {
-    fn new(what: &'static str) -> Self {
-        let (known, skipped, sets) = (HashMap::new(), HashSet::new(), BTreeMap::new());
-        Self { what, known, skipped, sets }
-    }
-
     /// Adds members to a set under its key and its full name, if they have one.
     fn add(&mut self, named: Option<(Key, String)>, items: Vec<T>, is_internal: bool) {
         let Some((key, name)) = named else { return };
         let new = || Set { name, items: Vec::new(), is_internal: false, known: HashSet::new() };
         let set = self.sets.entry(key).or_insert_with(new);
-        set.add(items);
+        set.items.extend(items.into_iter().filter(|&item| set.known.insert(item)));
         set.is_internal |= is_internal;
     }
 }
@@ -79,9 +67,9 @@ impl<T: Copy + Eq + Hash> Numbered<T> {
 /// What is read so far. Names are keyed by scope and capitals.
 struct Reader<'d, 'a> {
     deck: &'d Deck<'a>,
-    /// Each with the scope that it belongs to.
-    blocks: &'d [(usize, &'d Block<'a>)],
-    budget: Budget,
+    blocks: &'d [Scoped<'d, 'a>],
+    /// What sets may take yet.
+    budget: RefCell<Budget>,
     scopes: Vec<Scope>,
     file: FileMesh,
     collected: Vec<CollectedElement>,
@@ -140,12 +128,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     let mut reader = Reader {
         deck: &deck,
         blocks: &blocks,
-        budget: deck.budget.clone(),
+        budget: RefCell::new(deck.budget.clone()),
         scopes,
         file: FileMesh::default(),
         collected: Vec::new(),
-        nodes: Numbered::new("node"),
-        elements: Numbered::new("element"),
+        nodes: Numbered { what: "node", ..Numbered::default() },
+        elements: Numbered { what: "element", ..Numbered::default() },
         surfaces: BTreeMap::new(),
     };
     for (name, place) in unused_parts {
@@ -160,21 +148,19 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     reader.read_materials()?;
     reader.read_interactions()?;
     reader.read_conditions()?;
-    if reader.collected.is_empty() {
-        refuse!(deck, deck.end();
-            "the file has no solid or plane elements (*ELEMENT, TYPE=C3D10, C3D8, CPE4, ...)");
-    }
+    ensure!(!reader.collected.is_empty(); deck, deck.end();
+        "the file has no solid or plane elements (*ELEMENT, TYPE=C3D10, C3D8, CPE4, ...)");
     reader.keep_node_sets();
     Ok(finished(reader.file, reader.collected))
 }
 
 impl<'d, 'a> Reader<'d, 'a> {
-    /// Blocks of a keyword, each with its scope.
+    /// Blocks of a keyword.
     fn blocks_of(
         &self,
         keyword: &'static str,
-    ) -> impl Iterator<Item = (usize, &'d Block<'a>)> + use<'d, 'a> {
-        self.blocks.iter().copied().filter(move |(_, block)| block.keyword == keyword)
+    ) -> impl Iterator<Item = Scoped<'d, 'a>> + use<'d, 'a> {
+        self.blocks.iter().copied().filter(move |block| block.keyword == keyword)
     }
 
     fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
@@ -188,16 +174,11 @@ impl<'d, 'a> Reader<'d, 'a> {
 
     /// Refuses what would change the mesh, and lists the keywords that are not used.
     fn refuse_and_list(&mut self) -> Result<()> {
-        for (_, block) in self.blocks {
+        for block in self.blocks {
             let keyword = block.keyword.as_str();
-            if GENERATORS.contains(&keyword) {
-                refuse!(block;
-                    "*{keyword} is not supported: have the program write the mesh out with every \
-                     node and element");
-            }
-            if keyword == "INCLUDE" {
-                refuse!(block; "*INCLUDE needs INPUT= and a file beside this one");
-            }
+            ensure!(!GENERATORS.contains(&keyword); block;
+                "*{keyword} is not supported: have the program write the mesh out with every node and element");
+            ensure!(keyword != "INCLUDE"; block; "*INCLUDE needs INPUT= and a file beside this one");
             let is_part = match keyword {
                 // Temperatures load what expands.
                 "TEMPERATURE" => self.blocks_of("EXPANSION").next().is_some(),
@@ -216,8 +197,8 @@ impl<'d, 'a> Reader<'d, 'a> {
             };
             self.leave_out(&format!("*{keyword}"), block.place, reason);
         }
-        let title = self.blocks_of("HEADING").next().and_then(|(_, block)| block.data.first());
-        self.file.model.title = title.map(|(_, line)| line.trim().to_owned());
+        let title = self.blocks_of("HEADING").next().and_then(|block| block.rows().next());
+        self.file.model.title = title.map(|row| row.line.trim().to_owned());
         Ok(())
     }
 
@@ -247,17 +228,16 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     /// Those of the set that a parameter of a block names, if it does.
-    fn named_by(&self, scope: usize, block: &Block<'_>, parameter: &str) -> Option<(Key, String)> {
-        block.parameter(parameter).map(|name| self.named(scope, name))
+    fn named_by(&self, block: Scoped<'_, '_>, parameter: &str) -> Option<(Key, String)> {
+        block.parameter(parameter).map(|name| self.named(block.scope, name))
     }
 
     /// The scope of a block of sets: that of the parameter `INSTANCE`, or its own.
-    fn scope_of(&self, scope: usize, block: &Block<'_>) -> Result<usize> {
-        let Some(name) = block.parameter("INSTANCE") else {
-            return Ok(scope);
-        };
-        self.instance(name)
-            .ok_or_else(|| fault!(block; "*{}: no instance is called \"{name}\"", block.keyword))
+    fn scope_of(&self, block: Scoped<'_, '_>) -> Result<usize> {
+        let Some(name) = block.parameter("INSTANCE") else { return Ok(block.scope) };
+        Ok(
+            found!(self.instance(name); block; "*{}: no instance is called \"{name}\"", block.keyword),
+        )
     }
 
     /// An error that a name is not defined.

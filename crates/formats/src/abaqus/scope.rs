@@ -1,7 +1,7 @@
 //! Parts, their instances, and the blocks that belong to each.
 
-use super::block::{Block, fields};
-use crate::deck::{Deck, Place, quoted, real};
+use super::block::{Block, Row, Scoped};
+use crate::deck::{Deck, Place, quoted};
 use crate::file_mesh::Result;
 use nalgebra::{Rotation3, Unit, Vector3};
 use std::collections::BTreeMap;
@@ -40,7 +40,7 @@ impl Scope {
 /// Scopes, and blocks each with the scope that it belongs to; blocks of a part stand once for each of its instances.
 pub(super) struct Layout<'b, 'a> {
     pub scopes: Vec<Scope>,
-    pub blocks: Vec<(usize, &'b Block<'a>)>,
+    pub blocks: Vec<Scoped<'b, 'a>>,
     /// Parts without an instance, with their places.
     pub unused_parts: Vec<(String, Place)>,
 }
@@ -53,15 +53,13 @@ pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result
         Layout { scopes: vec![Scope::default()], blocks: Vec::new(), unused_parts: Vec::new() };
     let mut parts: Parts<'b, 'a> = BTreeMap::new();
     let mut part: Option<(String, Place)> = None;
-    let mut instance: Option<usize> = None;
+    let mut instance = 0;
     for block in blocks {
         match block.keyword.as_str() {
             // Parts keep their blocks until an instance asks for them.
             "PART" => {
                 let name = block.required("NAME")?.to_uppercase();
-                if parts.contains_key(&name) {
-                    refuse!(block; "part {} is defined twice", quoted(&name));
-                }
+                ensure!(!parts.contains_key(&name); block; "part {} is defined twice", quoted(&name));
                 parts.insert(name.clone(), (block.place, false, Vec::new()));
                 part = Some((name, block.place));
             }
@@ -69,30 +67,21 @@ pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result
             // An instance has a scope of its own, with all blocks of its part.
             "INSTANCE" => {
                 let name = block.required("PART")?;
-                let found = parts.get_mut(&name.to_uppercase());
-                let Some((_, is_used, own)) = found else {
-                    refuse!(block; "*INSTANCE: no part is called {}", quoted(name));
-                };
+                let (_, is_used, own) = found!(parts.get_mut(&name.to_uppercase()); block;
+                    "*INSTANCE: no part is called {}", quoted(name));
                 *is_used = true;
                 let scope = layout.scopes.len();
-                if scope > MOST_INSTANCES {
-                    refuse!(block; "more than {MOST_INSTANCES} instances");
-                }
-                layout.blocks.extend(own.iter().map(|&block| (scope, block)));
+                ensure!(scope <= MOST_INSTANCES; block; "more than {MOST_INSTANCES} instances");
+                layout.blocks.extend(own.iter().map(|&block| Scoped { scope, block }));
                 layout.scopes.push(placed(block)?);
-                instance = Some(scope);
+                instance = scope;
             }
-            "END INSTANCE" => instance = None,
+            "END INSTANCE" => instance = 0,
             "ASSEMBLY" | "END ASSEMBLY" => {}
             // All else belongs to where it stands: 0 is the assembly and what is outside.
-            _ => match (&part, instance) {
-                (Some((name, _)), _) => {
-                    if let Some((_, _, own)) = parts.get_mut(name) {
-                        own.push(block);
-                    }
-                }
-                (None, Some(scope)) => layout.blocks.push((scope, block)),
-                (None, None) => layout.blocks.push((0, block)),
+            _ => match part.as_ref().and_then(|(name, _)| parts.get_mut(name)) {
+                Some((_, _, own)) => own.push(block),
+                None => layout.blocks.push(Scoped { scope: instance, block }),
             },
         }
     }
@@ -107,27 +96,22 @@ pub(super) fn layout<'b, 'a>(deck: &Deck<'_>, blocks: &'b [Block<'a>]) -> Result
 /// The scope of an instance: its data lines say how it is moved, first by a vector, then about the line through two points.
 fn placed(block: &Block<'_>) -> Result<Scope> {
     let name = block.required("NAME")?.to_owned();
-    let mut rows = Vec::new();
-    for &(place, line) in &block.data {
-        let row: Option<Vec<f64>> = fields(line).map(real).collect();
-        let is_right = |row: &Vec<f64>| row.len() == if rows.is_empty() { 3 } else { 7 };
-        let Some(row) = row.filter(is_right) else {
-            refuse!(block.deck, place;
-                "*INSTANCE {name}: a translation of 3 numbers, then a rotation of 7 (two points of \
-                 the axis, an angle in degrees) expected, found {}", quoted(line));
-        };
-        rows.push(row);
-    }
-    let translation = rows.first().map_or(Vector3::zeros(), |t| Vector3::new(t[0], t[1], t[2]));
-    let rotation = match rows.get(1) {
+    let wrong = |row: Row<'_>| {
+        fault!(row;
+            "*INSTANCE {name}: a translation of 3 numbers, then a rotation of 7 (two points of the axis, an angle in \
+             degrees) expected, found {}", quoted(row.line))
+    };
+    let mut rows = block.lines(0);
+    let translation = rows.next().map(|row| row.all_numbers::<3>(0).ok_or_else(|| wrong(row)));
+    let translation = Vector3::from(translation.transpose()?.unwrap_or_default());
+    let turns = rows.map(|row| row.all_numbers(0).ok_or_else(|| wrong(row)));
+    let rotation = match turns.collect::<Result<Vec<[f64; 7]>>>()?.first() {
         None => None,
-        Some(r) => {
-            let (from, to) = (Vector3::new(r[0], r[1], r[2]), Vector3::new(r[3], r[4], r[5]));
-            let Some(axis) = Unit::try_new(to - from, 0.0) else {
-                refuse!(block.deck, block.data[1].0;
-                    "*INSTANCE {name}: the axis of its rotation is a point");
-            };
-            Some((from, Rotation3::from_axis_angle(&axis, r[6].to_radians())))
+        Some(&[a, b, c, d, e, f, angle]) => {
+            let (from, to) = (Vector3::new(a, b, c), Vector3::new(d, e, f));
+            let axis = found!(Unit::try_new(to - from, 0.0); block.deck, block.data[1].0;
+                "*INSTANCE {name}: the axis of its rotation is a point");
+            Some((from, Rotation3::from_axis_angle(&axis, angle.to_radians())))
         }
     };
     Ok(Scope { name, rotation, translation })

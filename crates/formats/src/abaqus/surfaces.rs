@@ -1,37 +1,33 @@
 //! `*SURFACE`, and node sets as boundaries.
 
 use super::Reader;
-use super::block::{Block, fields};
+use super::block::{Row, Scoped};
 use crate::SurfaceFace;
 use crate::collection::free_faces;
-use crate::deck::{Place, quoted};
+use crate::deck::quoted;
 use crate::file_mesh::Result;
 
 impl Reader<'_, '_> {
     /// Reads all surfaces: faces of elements, and sets of nodes.
     pub(super) fn read_surfaces(&mut self) -> Result<()> {
-        for (scope, block) in self.blocks_of("SURFACE") {
-            let name = block.required("NAME")?.to_owned();
-            let key = self.key(scope, &name);
-            let full = self.scopes[key.0].full_name(&name);
+        for block in self.blocks_of("SURFACE") {
+            let name = block.required("NAME")?;
+            let (key, full) = self.named(block.scope, name);
             let kind = block.parameter("TYPE").unwrap_or("ELEMENT").to_uppercase();
             match kind.as_str() {
                 "ELEMENT" => {
-                    if block.has("COMBINE") || block.has("CROP") {
-                        refuse!(block;
-                            "*SURFACE with COMBINE or CROP is not supported: list its faces");
-                    }
-                    let faces = self.element_faces(scope, block)?;
+                    ensure!(!block.has("COMBINE") && !block.has("CROP"); block;
+                        "*SURFACE with COMBINE or CROP is not supported: list its faces");
+                    let faces = self.element_faces(block)?;
                     if faces.is_empty() {
-                        let keyword = format!("*SURFACE, NAME={name}");
                         let reason = "it has no face of a solid (plane) element";
-                        self.leave_out(&keyword, block.place, reason);
+                        self.leave_out(&format!("*SURFACE, NAME={name}"), block.place, reason);
                         continue;
                     }
                     self.file.surfaces.entry(full.clone()).or_default().extend(faces);
                 }
                 "NODE" => {
-                    let nodes = self.surface_nodes(scope, block)?;
+                    let nodes = self.surface_nodes(block)?;
                     self.file.node_sets.entry(full.clone()).or_default().extend(nodes);
                 }
                 _ => {
@@ -46,32 +42,24 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn surface_nodes(&self, scope: usize, block: &Block<'_>) -> Result<Vec<u32>> {
-        let mut nodes = Vec::new();
-        for &(place, line) in &block.data {
-            let field = fields(line).next().unwrap_or_default();
-            nodes.extend(self.items(&self.nodes, scope, place, field)?);
-        }
-        Ok(nodes)
+    fn surface_nodes(&self, block: Scoped<'_, '_>) -> Result<Vec<u32>> {
+        let nodes = block.rows().map(|row| self.items(&self.nodes, row, row.field(0)));
+        Ok(nodes.collect::<Result<Vec<_>>>()?.concat())
     }
 
-    fn element_faces(&mut self, scope: usize, block: &Block<'_>) -> Result<Vec<SurfaceFace>> {
+    fn element_faces(&self, block: Scoped<'_, '_>) -> Result<Vec<SurfaceFace>> {
         let mut faces = Vec::new();
-        for &(place, line) in &block.data {
-            let mut entry = fields(line);
-            let set = entry.next().unwrap_or_default();
-            let side = entry.next().unwrap_or_default().to_uppercase();
-            let elements = match set {
+        for row in block.rows() {
+            let elements = match row.field(0) {
                 "" => (0..self.collected.len()).collect(),
-                _ => self.items(&self.elements, scope, place, set)?,
+                set => self.items(&self.elements, row, set)?,
             };
-            match side.as_str() {
-                "" if elements.is_empty() => {}
+            match row.field(1).to_uppercase().as_str() {
+                "" | "SPOS" | "SNEG" if elements.is_empty() => {}
                 "" => faces.extend(free_faces(&self.collected, &elements)),
-                "SPOS" | "SNEG" if elements.is_empty() => {}
-                _ => {
+                side => {
                     for &element in &elements {
-                        faces.push(self.side(element, &side, place)?);
+                        faces.push(self.side(element, side, row)?);
                     }
                 }
             }
@@ -80,14 +68,12 @@ impl Reader<'_, '_> {
     }
 
     /// Face `S<number>` of an element (`P<number>` in loads).
-    pub(super) fn side(&self, element: usize, side: &str, place: Place) -> Result<SurfaceFace> {
+    pub(super) fn side(&self, element: usize, side: &str, row: Row<'_>) -> Result<SurfaceFace> {
         let element = &self.collected[element];
         let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse::<usize>().ok());
         let face = number.and_then(|number| element.faces().nth(number.checked_sub(1)?));
-        face.ok_or_else(|| {
-            fault!(self.deck, place;
-            "element {} ({}) has no face {}", element.label, element.kind.name(), quoted(side))
-        })
+        Ok(found!(face; row;
+            "element {} ({}) has no face {}", element.label, element.kind.name(), quoted(side)))
     }
 
     /// Keeps sets of nodes that the user named as boundaries, where no surface has their name.

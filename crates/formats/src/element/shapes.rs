@@ -91,10 +91,18 @@ pub(super) fn tensor(
         let gradient = |k: usize| scale * sign[k] * (others[k] * s + product);
         (scale * product * s, [0, 1, 2].map(gradient))
     };
+    with_middles(corners, edges).map(shape).collect()
+}
+
+/// Corners, then the middles of the edges.
+pub(super) fn with_middles(
+    corners: &[[f64; 3]],
+    edges: &[[usize; 2]],
+) -> impl Iterator<Item = [f64; 3]> {
     let middle = |&[start, end]: &[usize; 2]| {
         [0, 1, 2].map(|axis| 0.5 * (corners[start][axis] + corners[end][axis]))
     };
-    corners.iter().copied().chain(edges.iter().map(middle)).map(shape).collect()
+    corners.iter().copied().chain(edges.iter().map(middle))
 }
 
 /// Linear functions of a wedge, `L_I (1 -+ zeta) / 2`.

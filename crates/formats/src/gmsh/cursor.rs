@@ -23,10 +23,9 @@ impl<'a> Cursor<'a> {
 
     /// An error here.
     pub fn error(&self, message: impl Into<String>) -> MeshFileError {
-        let place = if self.is_binary {
-            format!("byte {}", self.at)
-        } else {
-            format!("line {}", self.line)
+        let place = match self.is_binary {
+            true => format!("byte {}", self.at),
+            false => format!("line {}", self.line),
         };
         MeshFileError { place, message: shortened(&message.into(), MESSAGE) }
     }
@@ -38,24 +37,18 @@ impl<'a> Cursor<'a> {
 
     /// Refuses a file that ends here.
     pub fn refuse_end(&self) -> Result<()> {
-        match self.bytes[self.at..].iter().all(u8::is_ascii_whitespace) {
-            false => Ok(()),
-            true => Err(self.error(
-                "the file ends here: it is truncated. meshio leaves such files when it cannot write MSH 4.1 for want of \
-                 entities: use file_format=\"gmsh22\"",
-            )),
-        }
+        ensure!(!self.bytes[self.at..].iter().all(u8::is_ascii_whitespace); self;
+            "the file ends here: it is truncated. meshio leaves such files when it cannot write MSH 4.1 for want of \
+             entities: use file_format=\"gmsh22\"");
+        Ok(())
     }
 
     /// A count of things that take at least `smallest` bytes each: more than the file can hold is an error, so
     /// that nothing is reserved for what is not there.
     pub fn count(&mut self, what: &str, smallest: usize) -> Result<usize> {
         let count = self.size(what)?;
-        if count > self.remaining() / smallest.max(1) {
-            refuse!(self;
-                "{count} {what} are announced, which the rest of the file cannot hold: the file is \
-                 truncated or damaged");
-        }
+        ensure!(count <= self.remaining() / smallest; self;
+            "{count} {what} are announced, which the rest of the file cannot hold: the file is truncated or damaged");
         Ok(count)
     }
 
@@ -82,13 +75,10 @@ impl<'a> Cursor<'a> {
 
     /// Passes over a section that is not read.
     pub fn skip_section(&mut self, name: &str) -> Result<()> {
-        let end = format!("$End{name}");
-        let found =
-            self.bytes[self.at..].windows(end.len()).position(|window| window == end.as_bytes());
-        let Some(offset) = found else {
-            refuse!(self; "section ${name} has no $End{name}: the file is truncated");
-        };
-        self.line += self.bytes[self.at..self.at + offset].iter().filter(|&&b| b == b'\n').count();
+        let (rest, end) = (&self.bytes[self.at..], format!("$End{name}"));
+        let found = rest.windows(end.len()).position(|window| window == end.as_bytes());
+        let offset = found!(found; self; "section ${name} has no {end}: the file is truncated");
+        self.line += rest[..offset].iter().filter(|&&b| b == b'\n').count();
         self.at += offset;
         self.text_line();
         Ok(())
@@ -98,15 +88,12 @@ impl<'a> Cursor<'a> {
     pub fn end(&mut self, name: &str) -> Result<()> {
         let expected = format!("$End{name}");
         loop {
-            let Some(line) = self.text_line() else {
-                refuse!(self; "{expected} is missing: the file is truncated");
-            };
+            let line =
+                found!(self.text_line(); self; "{expected} is missing: the file is truncated");
             if line == expected {
                 return Ok(());
             }
-            if !line.is_empty() {
-                refuse!(self; "{expected} expected, found {}", quoted(&line));
-            }
+            ensure!(line.is_empty(); self; "{expected} expected, found {}", quoted(&line));
         }
     }
 
@@ -118,26 +105,20 @@ impl<'a> Cursor<'a> {
         let rest = &self.bytes[self.at..];
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         let word = std::str::from_utf8(&rest[..length]).ok().filter(|word| !word.is_empty());
-        let Some(word) = word else {
-            refuse!(self; "{what} expected: the file is truncated or damaged");
-        };
-        if word.starts_with('$') {
-            refuse!(self; "{what} expected, found {word}: the section is too short");
-        }
+        let word = found!(word; self; "{what} expected: the file is truncated or damaged");
+        ensure!(!word.starts_with('$'); self; "{what} expected, found {word}: the section is too short");
         self.at += length;
         Ok(word)
     }
 
     fn parsed<T: std::str::FromStr>(&mut self, what: &str) -> Result<T> {
         let word = self.word(what)?;
-        word.parse().map_err(|_| fault!(self; "{what} expected, found {}", quoted(word)))
+        Ok(found!(word.parse().ok(); self; "{what} expected, found {}", quoted(word)))
     }
 
     fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N]> {
-        let found = self.bytes.get(self.at..self.at + N).and_then(|b| b.try_into().ok());
-        let Some(mut bytes): Option<[u8; N]> = found else {
-            refuse!(self; "{what} expected: the file is truncated");
-        };
+        let found = self.bytes.get(self.at..).and_then(|rest| rest.first_chunk().copied());
+        let mut bytes: [u8; N] = found!(found; self; "{what} expected: the file is truncated");
         self.at += N;
         if self.is_swapped {
             bytes.reverse();
@@ -147,20 +128,29 @@ impl<'a> Cursor<'a> {
 
     /// An integer of 32 bits.
     pub fn int(&mut self, what: &str) -> Result<i64> {
-        if self.is_binary {
-            return Ok(i64::from(i32::from_le_bytes(self.raw(what)?)));
+        match self.is_binary {
+            true => Ok(i64::from(i32::from_le_bytes(self.raw(what)?))),
+            false => self.parsed(what),
         }
-        self.parsed(what)
+    }
+
+    /// So many of them.
+    pub fn ints(&mut self, count: usize, what: &str) -> Result<Vec<i64>> {
+        (0..count).map(|_| self.int(what)).collect()
     }
 
     /// A count or a tag of 64 bits.
     pub fn size(&mut self, what: &str) -> Result<usize> {
-        if self.is_binary {
-            let value = u64::from_le_bytes(self.raw(what)?);
-            return usize::try_from(value)
-                .map_err(|_| self.error(format!("{what} {value} is too large")));
+        if !self.is_binary {
+            return self.parsed(what);
         }
-        self.parsed(what)
+        let value = u64::from_le_bytes(self.raw(what)?);
+        Ok(found!(usize::try_from(value).ok(); self; "{what} {value} is too large"))
+    }
+
+    /// So many of them.
+    pub fn sizes(&mut self, count: usize, what: &str) -> Result<Vec<usize>> {
+        (0..count).map(|_| self.size(what)).collect()
     }
 
     /// A count that MSH 2.2 writes as text even in binary files.
@@ -176,11 +166,11 @@ impl<'a> Cursor<'a> {
 
     /// A finite coordinate.
     pub fn number(&mut self, what: &str) -> Result<f64> {
-        let value =
-            if self.is_binary { f64::from_le_bytes(self.raw(what)?) } else { self.parsed(what)? };
-        if !value.is_finite() {
-            refuse!(self; "{what} {value} is not finite");
-        }
+        let value = match self.is_binary {
+            true => f64::from_le_bytes(self.raw(what)?),
+            false => self.parsed(what)?,
+        };
+        ensure!(value.is_finite(); self; "{what} {value} is not finite");
         Ok(value)
     }
 }

@@ -3,10 +3,10 @@
 //! Source: Gmsh reference manual, chapter "File formats".
 
 mod cursor;
-mod version2;
-mod version4;
+mod versions;
 
 use super::ElementKind;
+use super::collection::edge_of;
 use super::file_mesh::{FileElement, FileMesh, MeshFileError, Result, SurfaceFace};
 use cursor::Cursor;
 use std::collections::BTreeMap;
@@ -21,30 +21,25 @@ impl FileMesh {
     /// [`MeshFileError`] with the line, or the byte of a binary file.
     pub fn read(bytes: &[u8]) -> Result<Self, MeshFileError> {
         let mut cursor = Cursor::new(bytes);
-        if !bytes.starts_with(b"$MeshFormat") {
-            return Err(cursor.error(foreign(bytes)));
-        }
+        ensure!(bytes.starts_with(b"$MeshFormat"); cursor; "{}", foreign(bytes));
         // The format: version, binary or not, size of a number; of a binary file the order of bytes.
         cursor.text_line();
         let version = cursor.text_line().unwrap_or_default();
         let words: Vec<&str> = version.split_whitespace().collect();
         let is_binary = match words[..] {
             ["2.2" | "2" | "4.1", kind @ ("0" | "1"), "8"] => kind == "1",
-            [number, ..] if !["2.2", "2", "4.1"].contains(&number) => {
-                refuse!(cursor;
-                    "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 \
-                     (Mesh.MshFileVersion)");
+            [] | ["2.2" | "2" | "4.1", ..] => {
+                refuse!(cursor; "format line expected, such as \"4.1 0 8\"")
             }
-            _ => return Err(cursor.error("format line expected, such as \"4.1 0 8\"")),
+            [number, ..] => refuse!(cursor;
+                "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"),
         };
         if is_binary {
             cursor.is_binary = true;
             cursor.is_swapped = match cursor.int("byte order")? {
                 1 => false,
                 0x0100_0000 => true,
-                _ => {
-                    refuse!(cursor; "the number 1, which gives the byte order, was expected");
-                }
+                _ => refuse!(cursor; "the number 1, which gives the byte order, was expected"),
             };
         }
         cursor.end("MeshFormat")?;
@@ -68,9 +63,7 @@ impl FileMesh {
             reader.cursor.end(&section)?;
         }
         // A file of names alone has nothing to compute with.
-        if reader.file.points.is_empty() {
-            refuse!(reader.cursor; "the file has no $Nodes");
-        }
+        ensure!(!reader.file.points.is_empty(); reader.cursor; "the file has no $Nodes");
         reader.finished()
     }
 }
@@ -82,19 +75,20 @@ fn foreign(bytes: &[u8]) -> String {
                           field_data, then mesh.write(\"part.msh\", file_format=\"gmsh22\", binary=False)";
     const GMSH: &str = "save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)";
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
-    let (what, remedy) = if bytes.is_empty() {
-        ("the file is empty", GMSH)
-    } else if start.contains("VTK") || start.contains("vtk") {
-        ("this looks like a VTK file", MESHIO)
-    } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
-        ("this is a geometry, not a mesh", GMSH)
-    } else if start.contains("Point(") || start.contains("//") || start.contains("SetFactory") {
-        ("this looks like a Gmsh geometry (.geo), not a mesh", "run gmsh -2 on it")
-    } else {
-        (
+    let has = |words: &[&str]| words.iter().any(|word| start.contains(word));
+    let (what, remedy) = match start.as_str() {
+        "" => ("the file is empty", GMSH),
+        _ if has(&["VTK", "vtk"]) => ("this looks like a VTK file", MESHIO),
+        _ if start.starts_with("solid") || start.starts_with("ISO-10303") => {
+            ("this is a geometry, not a mesh", GMSH)
+        }
+        _ if has(&["Point(", "//", "SetFactory"]) => {
+            ("this looks like a Gmsh geometry (.geo), not a mesh", "run gmsh -2 on it")
+        }
+        _ => (
             "this is no Gmsh mesh, which begins with $MeshFormat, nor does its name end in .inp, .bdf or .unv",
             GMSH,
-        )
+        ),
     };
     format!("{what}; {remedy}")
 }
@@ -129,11 +123,9 @@ impl Reader<'_> {
         if dimension == 3 {
             file.surfaces = self.surfaces;
         }
-        if file.elements.is_empty() {
-            refuse!(self.cursor;
-                "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put \
-                 them in a physical group if the file has any");
-        }
+        ensure!(!file.elements.is_empty(); self.cursor;
+            "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put them in a physical \
+             group if the file has any");
         Ok(FileMesh { dimension, ..file })
     }
 
@@ -146,17 +138,13 @@ impl Reader<'_> {
             let line = self.cursor.text_line().unwrap_or_default();
             let mut parts = line.splitn(3, char::is_whitespace);
             let mut number = || parts.next().and_then(|word| word.parse::<i64>().ok());
-            let (dimension, tag) = (number(), number());
-            let name = parts.next().map(|name| name.trim().trim_matches('"').to_owned());
-            let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
-                refuse!(self.cursor; "dimension, tag and \"name\" of a physical group expected");
-            };
-            if name.len() > LONGEST_NAME {
-                refuse!(self.cursor;
-                    "the name of a physical group has {} bytes, more than {LONGEST_NAME}",
-                    name.len());
-            }
-            self.names.insert((dimension, tag), name.into());
+            let tag = number().zip(number());
+            let (tag, name) = found!(tag.zip(parts.next()); self.cursor;
+                "dimension, tag and \"name\" of a physical group expected");
+            let name = name.trim().trim_matches('"');
+            ensure!(name.len() <= LONGEST_NAME; self.cursor;
+                "the name of a physical group has {} bytes, more than {LONGEST_NAME}", name.len());
+            self.names.insert(tag, name.into());
         }
         self.cursor.is_binary = is_binary;
         Ok(())
@@ -165,10 +153,8 @@ impl Reader<'_> {
     fn node(&mut self, label: usize) -> Result<()> {
         let [x, y, z] = [0; 3].map(|_| self.cursor.number("coordinate"));
         let point = [x?, y?, z?];
-        let index = self.file.points.len() as u32;
-        if self.index_of.insert(label, index).is_some() {
-            refuse!(self.cursor; "node {label} is given twice");
-        }
+        let known = self.index_of.insert(label, self.file.points.len() as u32);
+        ensure!(known.is_none(); self.cursor; "node {label} is given twice");
         self.file.labels.push(label);
         self.file.points.push(point);
         self.file.is_used.push(false);
@@ -196,9 +182,8 @@ impl Reader<'_> {
     ) -> Result<()> {
         let mut nodes = Vec::with_capacity(labels.len());
         for node in labels {
-            let Some(&index) = self.index_of.get(node) else {
-                refuse!(self.cursor; "element {label} names node {node}, which the file does not have");
-            };
+            let &index = found!(self.index_of.get(node); self.cursor;
+                "element {label} names node {node}, which the file does not have");
             self.file.is_used[index as usize] = true;
             nodes.push(index);
         }
@@ -208,10 +193,7 @@ impl Reader<'_> {
         for &tag in if dimension < 3 { groups } else { &[] } {
             let name = self.name(dimension, tag).to_string();
             match dimension {
-                1 => {
-                    let edge = (nodes[0], nodes[1], nodes.get(2).copied());
-                    self.file.curves.entry(name).or_default().push(edge);
-                }
+                1 => self.file.curves.entry(name).or_default().push(edge_of(&nodes)),
                 _ => self.surfaces.entry(name).or_default().push((kind, nodes.clone())),
             }
         }
@@ -225,27 +207,21 @@ impl Reader<'_> {
 
     /// Node count and, for all but points, the kind of an element type that can be used.
     fn shape_of(&self, number: i64, label: usize) -> Result<(usize, Option<ElementKind>)> {
-        let known =
-            ElementKind::listed(|row| row.gmsh.names.iter().any(|&kind| i64::from(kind) == number));
-        if let Some(kind) = known {
+        let is_meant = |&kind: &u32| i64::from(kind) == number;
+        if let Some(kind) = ElementKind::listed(|row| row.gmsh.names.iter().any(is_meant)) {
             return Ok((kind.node_count(), Some(kind)));
         }
         match number {
             15 => Ok((1, None)),
-            10 => Err(self.cursor.error(format!(
+            10 => refuse!(self.cursor;
                 "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
-                 Mesh.SecondOrderIncomplete = 1 for eight"
-            ))),
-            12..=14 => Err(self.cursor.error(format!(
-                "element {label} has nodes inside its faces (type {number}), which is not supported. \
-                 Set Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 \
-                 nodes"
-            ))),
-            _ => Err(self.cursor.error(format!(
-                "element {label} has type {number}, which is not supported: triangles, quadrilaterals, {} of first and second \
-                 order are",
-                ElementKind::SOLID_SHAPES
-            ))),
+                 Mesh.SecondOrderIncomplete = 1 for eight"),
+            12..=14 => refuse!(self.cursor;
+                "element {label} has nodes inside its faces (type {number}), which is not supported. Set \
+                 Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 nodes"),
+            _ => refuse!(self.cursor;
+                "element {label} has type {number}, which is not supported: triangles, quadrilaterals, {} of first and \
+                 second order are", ElementKind::SOLID_SHAPES),
         }
     }
 }

@@ -12,6 +12,9 @@ pub(super) struct Card<'a> {
     pub place: Place,
 }
 
+/// What is read of a field that may be empty.
+type Field<T> = Result<Option<T>>;
+
 /// What stands before and around the bulk data.
 #[derive(Debug, Default)]
 pub(super) struct Control {
@@ -35,42 +38,44 @@ impl<'a> Card<'a> {
     }
 
     /// What a field is; none where it is empty.
-    fn optional<T>(
-        &self,
-        number: usize,
-        what: &str,
-        parsed: impl Fn(&str) -> Option<T>,
-    ) -> Result<Option<T>> {
-        match self.field(number) {
-            "" => Ok(None),
-            field => parsed(field).map(Some).ok_or_else(|| {
-                let (name, found) = (&self.name, quoted(field));
-                fault!(self; "{name}: {what} expected in field {}, found {found}", number + 2)
-            }),
-        }
+    fn optional<T>(&self, number: usize, what: &str, parsed: fn(&str) -> Option<T>) -> Field<T> {
+        let field = self.field(number);
+        let value = parsed(field);
+        ensure!(value.is_some() || field.is_empty(); self;
+            "{}: {what} expected in field {}, found {}", self.name, number + 2, quoted(field));
+        Ok(value)
     }
 
     /// A whole number; none where the field is empty.
-    pub fn optional_int(&self, number: usize) -> Result<Option<i64>> {
+    pub fn optional_int(&self, number: usize) -> Field<i64> {
         self.optional(number, "a whole number", |field| field.parse().ok())
     }
 
     /// The number of something, above 0.
     pub fn number(&self, field: usize) -> Result<usize> {
         let value = self.optional_int(field)?.and_then(|value| usize::try_from(value).ok());
-        value.filter(|&value| value > 0).ok_or_else(
-            || fault!(self; "{}: a number above 0 expected in field {}", self.name, field + 2),
-        )
+        let value = value.filter(|&value| value > 0);
+        Ok(found!(value; self; "{}: a number above 0 expected in field {}", self.name, field + 2))
+    }
+
+    /// The number of a coordinate system, 0 where the field is empty.
+    pub fn optional_system(&self, number: usize) -> Field<usize> {
+        Ok(self.optional_int(number)?.map(|system| usize::try_from(system).unwrap_or(0)))
     }
 
     /// A real number; none where the field is empty.
-    pub fn optional_real(&self, number: usize) -> Result<Option<f64>> {
+    pub fn optional_real(&self, number: usize) -> Field<f64> {
         self.optional(number, "a number", short_real)
     }
 
     /// A real number, 0 where the field is empty.
     pub fn real(&self, number: usize) -> Result<f64> {
         Ok(self.optional_real(number)?.unwrap_or(0.0))
+    }
+
+    /// Three coordinates, from a field on.
+    pub fn point(&self, first: usize) -> Result<[f64; 3]> {
+        Ok([self.real(first)?, self.real(first + 1)?, self.real(first + 2)?])
     }
 }
 
@@ -106,8 +111,8 @@ fn fields_of(line: &str) -> (&str, Vec<&str>) {
 /// The cards of a file and its case control.
 pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control)> {
     let is_bulk = |line: &str| {
-        let line = line.trim_start();
-        line.get(..10).is_some_and(|start| start.eq_ignore_ascii_case("BEGIN BULK"))
+        let start = line.trim_start().get(..10);
+        start.is_some_and(|start| start.eq_ignore_ascii_case("BEGIN BULK"))
     };
     let begin = deck.lines.iter().position(|(_, line)| is_bulk(line));
     let mut control = Control::default();
@@ -120,9 +125,7 @@ pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control)> 
             continue;
         }
         let line = line.split('$').next().unwrap_or_default().trim_end();
-        if line.contains('\t') {
-            refuse!(deck, place; "a tab stop: replace tabs by blanks or write free fields");
-        }
+        ensure!(!line.contains('\t'); deck, place; "a tab stop: replace tabs by blanks or write free fields");
         if line.is_empty() {
             continue;
         }
@@ -131,16 +134,14 @@ pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control)> 
             break;
         }
         if head.is_empty() || head.starts_with(['+', '*']) {
-            let Some(card) = cards.last_mut() else {
-                refuse!(deck, place; "this line continues no card");
-            };
-            card.fields.extend(fields);
+            found!(cards.last_mut(); deck, place; "this line continues no card")
+                .fields
+                .extend(fields);
             continue;
         }
         let name = head.trim_end_matches('*').to_uppercase();
-        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            refuse!(deck, place; "the name of a card expected, found {}", quoted(head));
-        }
+        ensure!(name.starts_with(|c: char| c.is_ascii_alphabetic()); deck, place;
+            "the name of a card expected, found {}", quoted(head));
         cards.push(Card { deck, name, fields, place });
     }
     Ok((cards, control))
@@ -149,12 +150,10 @@ pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control)> 
 impl Control {
     /// A line of the case control.
     fn line(&mut self, line: &str) {
-        let Some((name, value)) = line.split_once('=') else {
-            return;
-        };
-        let (name, value) = (name.trim().to_uppercase(), value.trim());
+        let Some((name, value)) = line.split_once('=') else { return };
+        let value = value.trim();
         let number = value.parse::<usize>().ok();
-        match name.as_str() {
+        match name.trim().to_uppercase().as_str() {
             "TITLE" => self.title = Some(value.to_owned()),
             "SPC" => self.spc.extend(number),
             "LOAD" => self.load.extend(number),
@@ -167,14 +166,13 @@ impl Control {
         let named = if let Some(rest) = comment.strip_prefix("HMNAME PROP") {
             let mut parts = rest.splitn(3, '"');
             parts.next().zip(parts.next())
-        } else if let Some(rest) = comment.strip_prefix("ANSA_NAME_COMMENT;") {
+        } else {
+            let rest = comment.strip_prefix("ANSA_NAME_COMMENT;").unwrap_or_default();
             let mut parts = rest.split(';');
             match (parts.next(), parts.next(), parts.next()) {
                 (Some(number), Some("PSOLID" | "PSHELL"), Some(name)) => Some((number, name)),
                 _ => None,
             }
-        } else {
-            None
         };
         let Some((number, name)) = named else { return };
         if let (Ok(number), false) = (number.trim().parse(), name.trim().is_empty()) {

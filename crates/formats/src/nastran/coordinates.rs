@@ -72,34 +72,27 @@ impl<'d, 'a> Coordinates<'d, 'a> {
     pub fn new(deck: &'d Deck<'a>, cards: &[Card<'_>]) -> Result<Self> {
         let mut definitions = BTreeMap::new();
         for card in cards {
-            let Some(rest) = card.name.strip_prefix("CORD") else {
-                continue;
-            };
+            let Some(rest) = card.name.strip_prefix("CORD") else { continue };
             let kind = match rest.get(1..) {
                 Some("R") => Kind::Rectangular,
                 Some("C") => Kind::Cylindrical,
                 Some("S") => Kind::Spherical,
                 _ => continue,
             };
-            let starts: &[usize] = if rest.starts_with('1') { &[0, 4] } else { &[0] };
-            for &start in starts.iter().filter(|&&start| !card.field(start).is_empty()) {
+            let has_nodes = rest.starts_with('1');
+            // A card has room for two systems of three nodes, or for one of three points.
+            let starts = [0, 4].into_iter().take(if has_nodes { 2 } else { 1 });
+            for start in starts.filter(|&start| !card.field(start).is_empty()) {
                 let number = card.number(start)?;
-                let definition = if rest.starts_with('1') {
-                    let node = |i: usize| card.number(start + 1 + i);
-                    Definition::Nodes([node(0)?, node(1)?, node(2)?])
+                let definition = if has_nodes {
+                    let node = |i: usize| card.number(start + i);
+                    Definition::Nodes([node(1)?, node(2)?, node(3)?])
                 } else {
-                    let reference = card.optional_int(1)?.unwrap_or(0);
-                    let mut points = [[0.0; 3]; 3];
-                    for (i, point) in points.iter_mut().enumerate() {
-                        for (axis, value) in point.iter_mut().enumerate() {
-                            *value = card.real(2 + 3 * i + axis)?;
-                        }
-                    }
-                    Definition::Points(usize::try_from(reference).unwrap_or(0), points)
+                    let reference = card.optional_system(1)?.unwrap_or(0);
+                    Definition::Points(reference, [card.point(2)?, card.point(5)?, card.point(8)?])
                 };
-                if definitions.insert(number, (kind, definition, card.place)).is_some() {
-                    refuse!(card; "coordinate system {number} is defined twice");
-                }
+                let known = definitions.insert(number, (kind, definition, card.place));
+                ensure!(known.is_none(); card; "coordinate system {number} is defined twice");
             }
         }
         Ok(Self { deck, definitions, grids: BTreeMap::new(), known: BTreeMap::new() })
@@ -122,17 +115,14 @@ impl<'d, 'a> Coordinates<'d, 'a> {
                 let missing =
                     points.iter().find(|point| point.0 != 0 && !self.known.contains_key(&point.0));
                 if let Some(&(other, _, there)) = missing {
-                    if !is_open.insert(other) {
-                        refuse!(self.deck, defined;
-                            "coordinate system {other} is defined by itself");
-                    }
+                    ensure!(is_open.insert(other); self.deck, defined;
+                        "coordinate system {other} is defined by itself");
                     open.push((other, there));
                     continue;
                 }
-                let basic = points.map(|(system, own, _)| match self.known.get(&system) {
-                    Some(known) => known.place(own),
-                    None => own,
-                });
+                let known = |system| self.known.get(&system);
+                let basic =
+                    points.map(|(system, own, _)| known(system).map_or(own, |k| k.place(own)));
                 let system = self.placed(number, basic)?;
                 self.known.insert(number, system);
             }
@@ -144,19 +134,15 @@ impl<'d, 'a> Coordinates<'d, 'a> {
 
     /// The three points of a system, each with the system that it is given in and the place that gives it.
     fn defining_points(&self, number: usize, place: Place) -> Result<(Place, [Given; 3])> {
-        let Some(&(_, definition, defined)) = self.definitions.get(&number) else {
-            refuse!(self.deck, place; "no coordinate system has the number {number}");
-        };
+        let &(_, definition, defined) = found!(self.definitions.get(&number); self.deck, place;
+            "no coordinate system has the number {number}");
         let points = match definition {
             Definition::Points(reference, given) => given.map(|own| (reference, own, defined)),
             Definition::Nodes(nodes) => {
                 let mut points = [(0, [0.0; 3], defined); 3];
                 for (point, node) in points.iter_mut().zip(nodes) {
-                    *point = *self.grids.get(&node).ok_or_else(|| {
-                        fault!(self.deck, defined;
-                        "coordinate system {number} names node {node}, which the file does not \
-                         have")
-                    })?;
+                    *point = *found!(self.grids.get(&node); self.deck, defined;
+                        "coordinate system {number} names node {node}, which the file does not have");
                 }
                 points
             }
@@ -170,10 +156,8 @@ impl<'d, 'a> Coordinates<'d, 'a> {
         let [origin, on_axis, in_plane] = points.map(Vector3::from);
         let third = (on_axis - origin).try_normalize(0.0);
         let second = third.and_then(|z| z.cross(&(in_plane - origin)).try_normalize(0.0));
-        let (Some(z), Some(y)) = (third, second) else {
-            refuse!(self.deck, defined;
-                "the three points of coordinate system {number} lie on one line");
-        };
+        let (z, y) = found!(third.zip(second); self.deck, defined;
+            "the three points of coordinate system {number} lie on one line");
         Ok(System { kind, origin, axes: Matrix3::from_columns(&[y.cross(&z), y, z]) })
     }
 }

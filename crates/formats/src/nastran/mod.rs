@@ -46,8 +46,8 @@ struct Reader<'d, 'a> {
     collected: Vec<CollectedElement>,
     nodes: HashMap<usize, u32>,
     elements: HashMap<usize, usize>,
-    /// Nodes whose degrees of freedom are along axes of their own.
-    turned: BTreeSet<u32>,
+    /// Numbers of nodes whose degrees of freedom are along axes of their own.
+    turned: BTreeSet<usize>,
 }
 
 /// Reads bulk data; the files that it includes stand in it ([`included_text`](super::included_text)).
@@ -70,9 +70,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     reader.list_unknown();
     reader.read_nodes()?;
     reader.read_elements()?;
-    if reader.collected.is_empty() {
-        refuse!(deck, deck.end(); "the file has no solid elements (CTETRA, CHEXA, CPENTA, CPYRAM)");
-    }
+    ensure!(!reader.collected.is_empty(); deck, deck.end();
+        "the file has no solid elements (CTETRA, CHEXA, CPENTA, CPYRAM)");
     reader.read_properties()?;
     reader.read_skins()?;
     reader.read_supports()?;
@@ -96,78 +95,54 @@ impl<'d, 'a> Reader<'d, 'a> {
         self.cards.iter().filter(move |card| card.name == name)
     }
 
-    fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
-        self.file.model.leave_out(keyword, || self.deck.name(place), (reason, false));
-    }
-
-    /// Leaves out what would hold, load or join parts.
-    fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
-        self.file.model.leave_out(keyword, || self.deck.name(place), (reason, true));
+    /// Notes what is not used, and whether it would hold, load or join parts.
+    fn leave_out(&mut self, keyword: &str, place: Place, reason: (&str, bool)) {
+        self.file.model.leave_out(keyword, || self.deck.name(place), reason);
     }
 
     fn list_unknown(&mut self) {
-        for card in self.cards {
-            if KNOWN.contains(&card.name.as_str()) {
-                continue;
-            }
-            if card.name == "PARAM" || card.name.starts_with("EIG") {
-                self.leave_out(&card.name, card.place, "the case says what is computed");
-            } else if PARTS.iter().any(|part| card.name.starts_with(part)) {
-                self.lose_part(&card.name, card.place, "");
-            } else {
-                self.leave_out(&card.name, card.place, "");
-            }
+        for card in self.cards.iter().filter(|card| !KNOWN.contains(&card.name.as_str())) {
+            let is_analysis = card.name == "PARAM" || card.name.starts_with("EIG");
+            let reason = if is_analysis { "the case says what is computed" } else { "" };
+            let is_part = PARTS.iter().any(|part| card.name.starts_with(part));
+            self.leave_out(&card.name, card.place, (reason, is_part));
         }
     }
 
     /// Nodes in basic coordinates.
     fn read_nodes(&mut self) -> Result<()> {
         let default = self.cards_of("GRDSET").next();
-        let of_default = |field: usize| match default {
-            Some(card) => card.optional_int(field),
-            None => Ok(None),
-        };
+        let of_default = |field: usize| default.map_or(Ok(None), |card| card.optional_int(field));
         let [system, turned, held] = [of_default(1)?, of_default(5)?, of_default(6)?];
-        let mut held_nodes = Vec::new();
+        let system = system.map(|system| usize::try_from(system).unwrap_or(0));
         for card in self.cards_of("GRID") {
             let label = card.number(0)?;
-            let system = card.optional_int(1)?.or(system).unwrap_or(0);
-            let point = [card.real(2)?, card.real(3)?, card.real(4)?];
-            let system = usize::try_from(system).unwrap_or(0);
+            let system = card.optional_system(1)?.or(system).unwrap_or(0);
+            let point = card.point(2)?;
             let known = self.coordinates.grids.insert(label, (system, point, card.place));
-            if known.is_some_and(|known| known.1 != point || known.0 != system) {
-                refuse!(card; "node {label} is given twice, at different places");
+            ensure!(known.is_none_or(|known| known.1 == point && known.0 == system); card;
+                "node {label} is given twice, at different places");
+            if card.optional_int(5)?.or(turned).is_some_and(|own| own != 0) {
+                self.turned.insert(label);
             }
-            let is_turned = card.optional_int(5)?.or(turned).is_some_and(|cd| cd != 0);
             let held = card.optional_int(6)?.or(held).filter(|&held| held > 0);
-            held_nodes.push((label, is_turned, held, card.place));
-        }
-        let grids: Vec<_> =
-            self.coordinates.grids.iter().map(|(&label, &grid)| (label, grid)).collect();
-        for (label, (system, point, place)) in grids {
-            let index = self.file.points.len() as u32;
-            let point = self.coordinates.point(system, point, place)?;
-            self.nodes.insert(label, index);
-            self.file.points.push(point);
-            self.file.labels.push(label);
-        }
-        for (label, is_turned, held, place) in held_nodes {
-            let node = self.nodes[&label];
-            if is_turned {
-                self.turned.insert(node);
-            }
             if held.is_some_and(|axes| axes.to_string().contains(['1', '2', '3'])) {
                 let reason = "permanent constraints of nodes are not taken: hold them by SPC1 or in the case";
-                self.lose_part("GRID with PS", place, reason);
+                self.leave_out("GRID with PS", card.place, (reason, true));
             }
+        }
+        for (label, (system, point, place)) in self.coordinates.grids.clone() {
+            self.nodes.insert(label, self.file.points.len() as u32);
+            self.file.points.push(self.coordinates.point(system, point, place)?);
+            self.file.labels.push(label);
         }
         Ok(())
     }
 
-    /// The place of a node by its number; `owner` names it.
-    fn node(&self, label: usize, owner: &str, place: Place) -> Result<u32> {
-        self.nodes.get(&label).copied().ok_or_else(
-            || fault!(self.deck, place; "{owner} names node {label}, which the file does not have"),
-        )
+    /// The node that a field of a card names; `owner` is whose node it is.
+    fn node(&self, card: &Card<'_>, field: usize, owner: &str) -> Result<u32> {
+        let label = card.number(field)?;
+        let node = self.nodes.get(&label).copied();
+        Ok(found!(node; card; "{owner} names node {label}, which the file does not have"))
     }
 }

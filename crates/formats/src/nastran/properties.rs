@@ -24,17 +24,14 @@ impl Reader<'_, '_> {
                     let system = self.coordinates.system(system as usize, card.place)?;
                     if !system.is_rectangular() {
                         let reason = "a material system that is not rectangular: give axes = \"cylindrical\" in the case";
-                        self.leave_out("PSOLID with CORDM", card.place, reason);
+                        self.leave_out("PSOLID with CORDM", card.place, (reason, false));
                     }
                     let column = |axis: usize| system.axes.column(axis).into_owned().into();
                     MaterialAxes::Vectors([column(0), column(1)])
                 }
                 _ => {
-                    self.leave_out(
-                        "PSOLID with CORDM = -1",
-                        card.place,
-                        "axes along the edges of elements",
-                    );
+                    let reason = "axes along the edges of elements";
+                    self.leave_out("PSOLID with CORDM = -1", card.place, (reason, false));
                     MaterialAxes::Global
                 }
             };
@@ -42,84 +39,54 @@ impl Reader<'_, '_> {
             let is_meant = |card: &&Card<'_>| {
                 matches!(card.name.as_str(), "MAT1" | "MAT9") && card.field(0).parse() == Ok(number)
             };
-            let Some(material) = self.cards.iter().find(is_meant) else {
-                refuse!(card;
-                    "PSOLID {property} names material {number}, which is no MAT1 or MAT9 of the \
-                     file");
+            let material = found!(self.cards.iter().find(is_meant); card;
+                "PSOLID {property} names material {number}, which is no MAT1 or MAT9 of the file");
+            // Density and structural damping stand in fields of their own.
+            let (elasticity, [density, damping]) = match material.name.as_str() {
+                "MAT1" => (isotropic(material)?, [4, 7]),
+                _ => (anisotropic(material, axes)?, [22, 30]),
             };
-            let material = match material.name.as_str() {
-                "MAT1" => self.isotropic(material, region)?,
-                _ => self.anisotropic(material, region, axes)?,
-            };
-            self.file.model.materials.push(material);
+            let damping = material.optional_real(damping)?;
+            self.file.model.materials.push(FileMaterial {
+                region,
+                name: format!("{}_{}", material.name, material.field(0)),
+                elasticity: Some(elasticity),
+                density: material.optional_real(density)?,
+                loss_factor: damping.filter(|&damping| damping != 0.0),
+                place: self.deck.name(material.place),
+                ..FileMaterial::default()
+            });
         }
         Ok(())
     }
+}
 
-    fn isotropic(&self, card: &Card<'_>, region: String) -> Result<FileMaterial> {
-        let [e, g, nu] = [card.optional_real(1)?, card.optional_real(2)?, card.optional_real(3)?];
-        // Two of the three give the third: E = 2 G (1 + nu).
-        let (young_modulus, poisson_ratio) = match (e, g, nu) {
-            (Some(e), _, Some(nu)) => (e, nu),
-            (Some(e), Some(g), None) if g != 0.0 => (e, e / (2.0 * g) - 1.0),
-            (None, Some(g), Some(nu)) => (2.0 * g * (1.0 + nu), nu),
-            _ => {
-                refuse!(card; "MAT1 {}: two of E, G and NU are needed", card.field(0));
-            }
-        };
-        let elasticity = FileElasticity::Isotropic { young_modulus, poisson_ratio };
-        self.material(card, region, elasticity, (4, 7))
-    }
+fn isotropic(card: &Card<'_>) -> Result<FileElasticity> {
+    let [e, g, nu] = [card.optional_real(1)?, card.optional_real(2)?, card.optional_real(3)?];
+    // Two of the three give the third: E = 2 G (1 + nu).
+    let (young_modulus, poisson_ratio) = match (e, g, nu) {
+        (Some(e), _, Some(nu)) => (e, nu),
+        (Some(e), Some(g), None) if g != 0.0 => (e, e / (2.0 * g) - 1.0),
+        (None, Some(g), Some(nu)) => (2.0 * g * (1.0 + nu), nu),
+        _ => refuse!(card; "MAT1 {}: two of E, G and NU are needed", card.field(0)),
+    };
+    Ok(FileElasticity::Isotropic { young_modulus, poisson_ratio })
+}
 
-    fn anisotropic(
-        &self,
-        card: &Card<'_>,
-        region: String,
-        axes: MaterialAxes,
-    ) -> Result<FileMaterial> {
-        // The upper triangle by rows, over x, y, z, xy, yz, zx.
-        let mut stiffness = [[0.0; 6]; 6];
-        let mut field = 1;
-        for row in 0..6 {
-            for column in row..6 {
-                stiffness[row][column] = card.real(field)?;
-                field += 1;
-            }
-        }
-        let wrong = |message: &str| fault!(card; "MAT9 {}: {message}", card.field(0));
-        let is_coupled = (0..6).any(|row| {
-            (row.max(2) + 1..6).any(|column| column > row && stiffness[row][column] != 0.0)
-        });
-        if is_coupled {
-            return Err(wrong(
-                "only orthotropic materials are supported, their axes those of the material",
-            ));
-        }
-        let [a, b, c] = [stiffness[0], stiffness[1], stiffness[2]];
-        let normal = Matrix3::new(a[0], a[1], a[2], a[1], b[1], b[2], a[2], b[2], c[2]);
-        let shear_moduli = [stiffness[3][3], stiffness[5][5], stiffness[4][4]];
-        let elasticity = FileElasticity::of_stiffness(normal, shear_moduli, axes)
-            .ok_or_else(|| wrong("its stiffness is singular"))?;
-        self.material(card, region, elasticity, (22, 30))
+fn anisotropic(card: &Card<'_>, axes: MaterialAxes) -> Result<FileElasticity> {
+    // The upper triangle by rows, over x, y, z, xy, yz, zx.
+    let mut stiffness = [[0.0; 6]; 6];
+    let mut places = (0..6).flat_map(|row| (row..6).map(move |column| (row, column)));
+    for (field, (row, column)) in (1..).zip(places.clone()) {
+        stiffness[row][column] = card.real(field)?;
     }
-
-    /// A material whose density and structural damping stand in the given fields.
-    fn material(
-        &self,
-        card: &Card<'_>,
-        region: String,
-        elasticity: FileElasticity,
-        (density, damping): (usize, usize),
-    ) -> Result<FileMaterial> {
-        let damping = card.optional_real(damping)?;
-        Ok(FileMaterial {
-            region,
-            name: format!("{}_{}", card.name, card.field(0)),
-            elasticity: Some(elasticity),
-            density: card.optional_real(density)?,
-            loss_factor: damping.filter(|&damping| damping != 0.0),
-            place: self.deck.name(card.place),
-            ..FileMaterial::default()
-        })
-    }
+    let is_coupled =
+        |(row, column): (usize, usize)| column > row.max(2) && stiffness[row][column] != 0.0;
+    ensure!(!places.any(is_coupled); card;
+        "MAT9 {}: only orthotropic materials are supported, their axes those of the material", card.field(0));
+    let [a, b, c] = [stiffness[0], stiffness[1], stiffness[2]];
+    let normal = Matrix3::new(a[0], a[1], a[2], a[1], b[1], b[2], a[2], b[2], c[2]);
+    let shear_moduli = [stiffness[3][3], stiffness[5][5], stiffness[4][4]];
+    let constants = FileElasticity::of_stiffness(normal, shear_moduli, axes);
+    Ok(found!(constants; card; "MAT9 {}: its stiffness is singular", card.field(0)))
 }
