@@ -7,6 +7,7 @@ use super::{PrestressError, Result};
 use crate::contact::{ContactInterface, Point, PressedState};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::SparseLu;
+use crate::linalg::dense::{add, difference};
 
 /// A body with the separations of its contact points prescribed.
 pub(super) struct FullSliding<'a> {
@@ -68,9 +69,10 @@ impl<'a> FullSliding<'a> {
     }
 
     /// A response to a load with the load that round-off left solved for, too: slender bodies multiply it.
-    pub fn refined(&self, load: &[f64], first: Vec<f64>) -> Vec<f64> {
+    pub fn refined(&self, load: &[f64], mut first: Vec<f64>) -> Vec<f64> {
         let more = self.solve(&self.stiffness.residual(load, &first)); // K^-1 (f - K u).
-        first.iter().zip(more).map(|(first, more)| first + more).collect()
+        add(&mut first, 1.0, &more);
+        first
     }
 
     /// Response to a load with these separations.
@@ -80,8 +82,7 @@ impl<'a> FullSliding<'a> {
         let both = || self.separations.iter().zip(distances);
         both().for_each(|(&dof, distance)| prescribed[dof] = *distance);
         let force = self.stiffness.multiply(total, &prescribed); // K_ff u_f = f_f - K_fc c.
-        let left: Vec<f64> = load.iter().zip(force).map(|(load, force)| load - force).collect();
-        let mut pressed = self.solve(&left);
+        let mut pressed = self.solve(&difference(load, &force));
         both().for_each(|(&dof, distance)| pressed[dof] = *distance);
         pressed
     }

@@ -7,7 +7,7 @@ use super::{PrestressError, Result};
 use super::{SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::{MassKind, Triplets};
-use crate::linalg::dense::difference;
+use crate::linalg::dense::{add, difference};
 use crate::mesh::{ContactRing, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
@@ -144,8 +144,8 @@ fn press_on_springs(
         let body = FullSliding::new(&pressed, without_contact(sector), &[])?;
         // K u + k (u - delta) = f + s g - k g: what is known of the linearized law.
         let known = tangent.multiply(dofs, &difference(&pushed, &at));
-        let loads = load.iter().zip(&own).zip(&known);
-        let loads: Vec<f64> = loads.map(|((a, b), c)| a + b + c).collect();
+        let mut loads = load.clone();
+        [&own, &known].into_iter().for_each(|more| add(&mut loads, 1.0, more));
         let displacement = body.solve(&loads);
 
         // The approaches of the forces there.
@@ -161,8 +161,9 @@ fn press_on_springs(
         // Settled: to round-off, as derivatives take differences of such states.
         let displacement = body.refined(&loads, displacement);
         let found = approaches(sector, contact.interference, &displacement);
-        let left = tangent.multiply(dofs, &difference(&difference(&pushed, &displacement), &at)); // k (delta - u_n - g).
-        let push: Vec<f64> = own.iter().zip(&left).map(|(own, left)| own + left).collect();
+        let mut push =
+            tangent.multiply(dofs, &difference(&difference(&pushed, &displacement), &at)); // k (delta - u_n - g).
+        add(&mut push, 1.0, &own);
         return Ok(SolidSliding {
             law: Some(law),
             rule,

@@ -89,9 +89,8 @@ impl SolidSliding {
                 None if self.rule == FaceRule::Integrated => vec![WHOLE_ELEMENT],
                 _ => over.pressed_spans(&element),
             };
-            let own =
-                spans.into_iter().flat_map(|span| face_points(sector, &element, span, self.rule));
-            for FacePoint { area, radius, along, rows } in own {
+            let own = |span| face_points(sector, &element, span, self.rule);
+            for FacePoint { area, radius, along, rows } in spans.into_iter().flat_map(own) {
                 let (speed, friction) = self.friction(radius);
                 // N = A p, k = A p'(g), friction that of the radius.
                 let pressure = self.pressure_along(sector, &element, along);
