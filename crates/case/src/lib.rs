@@ -188,8 +188,10 @@ impl Case {
         let uncertainty = root.read_section("uncertainty", uncertainty::uncertainty);
         let improve = root.section("improve", false).closed(improve::improve);
         let sweep = sweep::read(&root);
-        // A section of other cases, which a word may mean.
-        root.section("superelements", false);
+        // Sections of other cases, which a word may mean, and of a mesh that cannot be read.
+        let is_unread = root.has("mesh") && !root.section("mesh", false).is_given();
+        let of_mesh = ["contacts", "ties", "motion"].into_iter().filter(|_| is_unread);
+        of_mesh.chain(["superelements"]).for_each(|own| _ = root.section(own, false));
         root.close();
         let (mut errors, mut warnings) = findings.into_parts();
         taken.name_places(&mut errors);

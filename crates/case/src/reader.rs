@@ -221,7 +221,11 @@ impl<'a> Section<'a> {
     fn misread(&self, key: &str, is_word: bool, error: Diagnostic) {
         let (part, at) = (part_of(&self.name(key)).to_owned(), error.at.clone());
         let mut errors = self.findings.errors.borrow_mut();
-        if !errors.contains(&error) {
+        // A material of a mesh file that several regions have is told of once, by a region.
+        let own = error.message.strip_prefix(&self.path).unwrap_or(&error.message);
+        let is_same = |other: &Diagnostic| other.at == error.at && other.message.ends_with(own);
+        errors.retain(|other| !(is_same(other) && other.message.starts_with("material.")));
+        if !errors.iter().any(is_same) {
             errors.push(error);
         }
         self.findings.misread.borrow_mut().push((part, is_word, at));
@@ -284,12 +288,10 @@ impl<'a> Section<'a> {
         let root = "the case has no such section or key";
         let place = if self.path.is_empty() { root } else { &section };
         for (key, entry) in unknown.by_ref().take(MOST_UNKNOWN) {
+            let word = (key.as_str(), &entry.item.value);
             let help = match self.declarations {
                 Some(own) => suggestion::suggest_part(key, own),
-                None => {
-                    let word = (key.as_str(), &entry.item.value);
-                    self.findings.scope.suggest(&self.path, word, &names)
-                }
+                None => self.findings.scope.suggest(&self.path, word, &names),
             };
             if let Some(meant) = suggestion::meant_here(&help) {
                 self.findings.take_back(&self.name(meant));
@@ -308,10 +310,8 @@ impl<'a> Section<'a> {
     pub fn remaining(&self) -> Vec<(&'a str, &'a RawEntry)> {
         let asked = self.asked.borrow();
         let entries = self.table.into_iter().flatten();
-        entries
-            .filter(|(key, _)| !asked.contains(key.as_str()))
-            .map(|(key, entry)| (key.as_str(), entry))
-            .collect()
+        let rest = entries.filter(|(key, _)| !asked.contains(key.as_str()));
+        rest.map(|(key, entry)| (key.as_str(), entry)).collect()
     }
 
     fn read_number(&self, key: &str, item: &RawItem, bound: Bound) -> Option<f64> {

@@ -94,3 +94,22 @@ fn contact_far_stiffer_than_the_bodies_has_a_state() {
     let force: f64 = assembly.state(0.0).unwrap().normal_forces(0.0).iter().sum();
     below((force / (1e8 * area) - 1.0).abs(), 1e-6, "force");
 }
+
+/// Balance: contact far stiffer than the bodies holds a block by few of many points, and they carry its load. It leans: the others are open.
+#[test]
+fn few_of_many_stiff_points_carry_a_block_that_nothing_else_holds() {
+    let gap = |x: f64, z: f64| if z > 0.02 + 5e-8 { 3.0 * x * x } else { 0.0 };
+    let blocks = file_of(&stacked(1e-7), |[x, y, z]| [x, y, z + gap(x, z)]);
+    let mesh = mesh_of(&blocks, &PRESSED);
+    let assembly = pressed(&mesh, Some(1e19));
+    let (state, points) = (assembly.state(0.0).unwrap(), &assembly.contacts()[0].1.points);
+    let are_pressed = state.is_pressed.iter().filter(|is_pressed| **is_pressed).count();
+    assert!(20 * are_pressed < points.len(), "{are_pressed}");
+    // Shape functions add up to one along z.
+    let upwards = points.iter().zip(state.normal_forces(0.0)).map(|(point, force)| {
+        let own = point.normal.iter().filter(|(dof, along)| dof % 3 == 2 && *along > 0.0);
+        force * own.map(|own| own.1).sum::<f64>()
+    });
+    let load = 1e8 * 0.05 * 0.04;
+    below((upwards.sum::<f64>() / load - 1.0).abs(), 1e-7, "force");
+}

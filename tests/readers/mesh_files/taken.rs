@@ -89,6 +89,10 @@ fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
     let folder = folder_with(&BRICKS.replace("6000., 0.25", "6000., 0.75"));
     let said = "materials.Upper.poisson_ratio ; bricks.inp, line ";
     has(&refused(folder.path(), CASE), &[said]);
+    // A material of two regions is told of once.
+    let shared = BRICKS.replace("MATERIAL=Iron", "MATERIAL=Lining");
+    let folder = folder_with(&shared.replace("6000., 0.25", "6000., 0.75"));
+    assert_eq!(refused(folder.path(), CASE).matches("poisson_ratio = 0.75").count(), 1);
     let folder = folder_with(BRICKS);
     let both = CASE.replace("units", "scale = 0.001\nunits");
     has(&refused(folder.path(), &both), &["mesh.units and mesh.scale"]);

@@ -26,9 +26,10 @@ const SOLID_BYTES: f64 = 600.0;
 /// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
-/// Memory of solid bodies, measured from 1e3 to 1.2e5 unknowns: bytes for each entry of the factors, which are complex
-/// and general at times, and for each unknown and mode.
-const FACTOR_BYTES: [f64; 2] = [70.0, 1000.0];
+/// Memory of solid bodies, measured from 1e3 to 6e4 unknowns: bytes for each entry of the factors, which are complex
+/// and general at times, and for each mode and unknown up to so many, for each more of these.
+const FACTOR_BYTES: f64 = 70.0;
+const VECTOR_BYTES: [f64; 3] = [1000.0, 4e3, 160.0];
 /// Operations at each friction value for `e` entries of their factors, for each of `e^(3/2)`.
 const FACTORS: f64 = 0.2;
 
@@ -100,16 +101,19 @@ impl Case {
             }
             _ => {
                 let (vectors, values) = (unknowns * modes as f64, friction_values as f64);
+                let basis = 2.0 * vectors + 40.0 * unknowns;
                 let (bytes, factors) = match &self.body.kind {
                     BodyKind::Assembly(own) => {
                         let entries = factor_entries(&own.mesh, unknowns);
-                        let bytes = FACTOR_BYTES[0] * entries + FACTOR_BYTES[1] * vectors;
-                        (bytes, FACTORS * values * entries.powf(1.5))
+                        let [each, few, next] = VECTOR_BYTES;
+                        let vector = each * unknowns.min(few) + next * (unknowns - few).max(0.0);
+                        let is_waves = own.mesh.symmetry.is_some();
+                        let are_real = !is_waves && !self.body.has_structural_damping();
+                        let parts = if are_real { 1.0 } else { 2.0 }; // Real and imaginary ones.
+                        let bytes = FACTOR_BYTES * entries + vector * modes as f64;
+                        (parts * bytes, FACTORS * values * entries.powf(1.5))
                     }
-                    _ => {
-                        let bytes = SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns);
-                        (SPARSE_BYTES[0] + bytes, 0.0)
-                    }
+                    _ => (SPARSE_BYTES[0] + SPARSE_BYTES[1] * basis, 0.0),
                 };
                 (bytes, factors + vectors * (WHOLE_MESH[0] + WHOLE_MESH[1] * values))
             }
@@ -147,9 +151,8 @@ impl Case {
             let bytes = 8.0 * 2.0 * unknowns * 250.0;
             (LIKELY_GROWING, bytes, periods * PERIOD_STEPS * STEP[1] * unknowns)
         };
-        let count = families as f64;
-        let run =
-            RunCost { memory_bytes: PROGRAM_BYTES + count * bytes, operations: count * operations };
+        let (count, memory_bytes) = (families as f64, PROGRAM_BYTES + families as f64 * bytes);
+        let run = RunCost { memory_bytes, operations: count * operations };
         CycleCost { families, cycles: 1 + followed, run }
     }
 
@@ -177,7 +180,7 @@ impl Case {
             // In three dimensions eight lines share one factor.
             (_, _, Some(own)) => {
                 let entries = factor_entries(&own.mesh, dofs);
-                (FACTOR_BYTES[0] * entries, FACTORS / 8.0 * entries.powf(1.5))
+                (FACTOR_BYTES * entries, FACTORS / 8.0 * entries.powf(1.5))
             }
             // A complex factorization takes some operations for each entry and its rows.
             (FrfMethod::Auto | FrfMethod::Cyclic | FrfMethod::Direct, ..) => {
@@ -215,16 +218,11 @@ impl Case {
             BodyKind::Annulus(_) if !is_sparse => (STEP[0], 0.0),
             _ => (STEP[1], STEPPED_BYTES * unknowns),
         };
+        // Ten nodal vectors and the record, which a checkpoint holds once more.
         let [samples, frames, snapshots] = self.record_bytes();
-        let run = RunCost {
-            // Ten nodal vectors and the record, which a checkpoint holds once more.
-            memory_bytes: PROGRAM_BYTES
-                + 160.0 * size.nodes as f64
-                + operator_bytes
-                + snapshots
-                + 2.0 * (samples + frames),
-            operations: each * unknowns * steps,
-        };
+        let held = 160.0 * size.nodes as f64 + snapshots + 2.0 * (samples + frames);
+        let memory_bytes = PROGRAM_BYTES + operator_bytes + held;
+        let run = RunCost { memory_bytes, operations: each * unknowns * steps };
         TransientCost { time_step, stable_step, steps: steps as u64, run }
     }
 }

@@ -3,6 +3,7 @@
 use super::coincidence::coincident_nodes;
 use super::error::{BodyError, BodyPart};
 use super::faces::{FaceKey, face_key};
+use super::grid::Grid;
 use super::plane_body::{plane_body, used_nodes};
 use super::solid_body::solid_elements;
 use super::{BoundaryFace, CyclicSymmetry, Mesh};
@@ -265,19 +266,29 @@ impl Cut {
         symmetry: &CyclicSymmetry,
         is_cut: &BTreeSet<FaceKey>,
     ) -> Vec<&BoundaryFace> {
-        let has = |face: &BoundaryFace, nodes: &BTreeMap<u32, u32>| {
-            face.nodes.iter().any(|node| nodes.contains_key(node))
-        };
+        let is_joined =
+            |node: &u32| self.first_of.contains_key(node) || self.second_of.contains_key(node);
         let is_beside = |face: &&BoundaryFace| {
-            !is_cut.contains(&face.key())
-                && (has(face, &self.first_of) || has(face, &self.second_of))
+            !is_cut.contains(&face.key()) && face.nodes.iter().any(is_joined)
         };
-        let inside = Inside::of(sector);
+        // Another body may well lie there. Parts of one that only copies join are one body.
+        let mut bodies = sector.bodies();
+        for (&own, &other) in &self.first_of {
+            let [own, other] = [own, other].map(|node| bodies[node as usize]);
+            if own != other {
+                bodies.iter_mut().filter(|body| **body == own).for_each(|body| *body = other);
+            }
+        }
+        let body_of = |nodes: &[u32]| bodies[nodes[0] as usize];
+        let spheres = spheres(sector);
         let turns = [1, symmetry.count - 1].map(|j| symmetry.turn(j));
         let is_in_copy = |face: &&BoundaryFace| {
-            let beyond = beyond(sector, face);
-            let mut turned = turns.iter().map(|turn| symmetry.turned(turn, beyond));
-            turned.any(|point| inside.has(sector, point))
+            let (beyond, own) = (beyond(sector, face), body_of(&face.nodes));
+            turns.iter().map(|turn| symmetry.turned(turn, beyond).into()).any(|point| {
+                let near = spheres.near(&point, 0.0).into_iter();
+                let mut near = near.filter(|&near| body_of(sector.element_nodes(near)) == own);
+                near.any(|near| has(sector, near, point))
+            })
         };
         self.outer.iter().filter(is_beside).filter(is_in_copy).collect()
     }
@@ -301,33 +312,20 @@ fn outward(sector: &Mesh, face: &BoundaryFace) -> Vector3<f64> {
     areas.fold(Vector3::zeros(), |sum, area| sum + area).normalize()
 }
 
-/// Spheres about the elements of a sector: most elements are told from a point by them.
-struct Inside {
-    spheres: Vec<(Vector3<f64>, f64)>,
+/// The elements of a sector by the spheres about them, in cells as large as the largest one.
+fn spheres(sector: &Mesh) -> Grid {
+    let all = (0..sector.element_count()).map(|element| {
+        let nodes = sector.element_nodes(element);
+        let center = sector.middle(nodes);
+        let reach = |&node: &u32| (Vector3::from(sector.nodes[node as usize]) - center).norm();
+        (center, nodes.iter().map(reach).fold(0.0, f64::max))
+    });
+    Grid::of(all.clone().map(|own| own.1).fold(0.0, f64::max), all)
 }
 
-impl Inside {
-    fn of(sector: &Mesh) -> Self {
-        let sphere = |element: usize| {
-            let nodes = sector.element_nodes(element);
-            let center = sector.middle(nodes);
-            let reach = |&node: &u32| (Vector3::from(sector.nodes[node as usize]) - center).norm();
-            (center, nodes.iter().map(reach).fold(0.0, f64::max))
-        };
-        Self { spheres: (0..sector.element_count()).map(sphere).collect() }
-    }
-
-    /// Whether a point lies in an element, whose faces are taken as plane.
-    fn has(&self, sector: &Mesh, point: [f64; 3]) -> bool {
-        let point = Vector3::from(point);
-        let near = self.spheres.iter().enumerate();
-        let mut near = near.filter(|(_, (center, radius))| (point - center).norm() < *radius);
-        near.any(|(element, _)| {
-            let faces = 0..sector.element_kind(element).faces().len();
-            let mut faces = faces.map(|face| sector.element_face(element, face));
-            faces.all(|face| {
-                (point - sector.middle(face.corners())).dot(&outward(sector, &face)) < 0.0
-            })
-        })
-    }
+/// Whether a point lies in an element, whose faces are taken as plane.
+fn has(sector: &Mesh, element: usize, point: Vector3<f64>) -> bool {
+    let faces = 0..sector.element_kind(element).faces().len();
+    let mut faces = faces.map(|face| sector.element_face(element, face));
+    faces.all(|face| (point - sector.middle(face.corners())).dot(&outward(sector, &face)) < 0.0)
 }

@@ -35,10 +35,8 @@ pub(super) fn range(
     for &i in &order {
         let friction = friction_coefficients[i];
         let known = bodies.pressing().known.and_then(|known| known.set_at(friction));
-        let set = match known.map(<[bool]>::to_vec) {
-            Some(set) => set,
-            None => pressed_points(bodies, friction, &at_rest)?,
-        };
+        let known = known.map(<[bool]>::to_vec);
+        let set = known.map_or_else(|| pressed_points(bodies, friction, &at_rest), Ok)?;
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
         }
@@ -88,6 +86,7 @@ fn follow(
             };
             Ok([begin.min(upper - SHORTEST_RANGE), upper]) // Long enough for a polynomial.
         };
+        bodies.begin(set)?;
         let own = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked[k])?;
         found.left_out = found.left_out.max(own.left_out);
         found.states.push(own.state);
@@ -128,11 +127,8 @@ fn pressed_points(
         was_circling |= is_circling;
         seen.push(set.clone());
         // All wrong points at once; from a set met before on the worst alone.
-        if is_circling {
-            set[worst] = !set[worst];
-        } else {
-            wrong.for_each(|(i, _)| set[i] = !set[i]);
-        }
+        let turned = wrong.filter(|(i, _)| !is_circling || *i == worst);
+        turned.for_each(|(i, _)| set[i] = !set[i]);
     }
     Err(PrestressError::NoState { friction_coefficient })
 }

@@ -8,6 +8,7 @@ use super::{PrestressError, Result};
 use crate::contact::Row;
 use crate::linalg::dense::{add, difference, norm};
 use crate::linalg::{LinearFamily, Mat};
+use std::collections::BTreeSet;
 
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
 const OPEN_SHARE: f64 = 1e-6;
@@ -23,6 +24,9 @@ const MOST_PRODUCTS: usize = 30;
 /// Products after which that is done at once, and those with it.
 const ENOUGH: usize = 100;
 const AT_MOST: usize = 1000;
+
+/// Points for each pressed one beyond which a state has a matrix of its own: bodies that few points hold magnify rounding near jamming.
+const FEW_PRESSED: usize = 4;
 
 /// Tangents of contact that stiffens that are tried, and the change of a force, over the largest, at which they have settled; that from
 /// which on changes that fall no more are round-off.
@@ -71,8 +75,10 @@ const NODES: [usize; 3] = [6, 8, 7];
 /// is concave, so that no step runs away.
 pub(super) struct ContactSystem<'a> {
     points: JoinedPoints<'a>,
-    /// Stiffness of the bodies at each point, that of its contact and `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens.
+    /// Stiffness of the bodies at each point, that of its contact and `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens;
+    /// whether there are more springs than unknowns that they move.
     bodies: Vec<f64>,
+    are_many: bool,
     springs: Vec<f64>,
     even: Vec<f64>,
     pushed: Vec<f64>,
@@ -97,9 +103,11 @@ struct Systems {
     family: LinearFamily,
 }
 
-/// `k_i` of a contact on bodies of some stiffness, N/m.
-fn even(spring: f64, bodies: f64) -> f64 {
-    if spring > FAR_STIFFER * bodies { bodies } else { spring }
+/// `k_i` of a contact on bodies of some stiffness, N/m. Forces of more springs than unknowns that they move depend on each other: the
+/// motion is unknown then.
+fn even(spring: f64, bodies: f64, are_many: bool) -> f64 {
+    let is_own = are_many && spring.is_finite();
+    if spring > FAR_STIFFER * bodies && !is_own { bodies } else { spring }
 }
 
 /// What the equations of a set of pressed points are made of.
@@ -146,14 +154,14 @@ impl<'a> ContactSystem<'a> {
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn new(pressing: &'a Pressing<'a>) -> Result<Self> {
         let points = JoinedPoints::new(pressing);
-        let given = pressing.stiffnesses.iter();
-        let springs: Vec<f64> = given.map(|own| own.unwrap_or(f64::INFINITY)).collect();
-        // Forces of more springs than unknowns that they move depend on each other: the motion is unknown then.
-        let are_many = springs.len() > points.along_normals.len();
-        let own = points.own_stiffnesses().zip(&springs);
-        let own = own.map(|(own, k)| if are_many && k.is_finite() { f64::INFINITY } else { own });
-        let bodies: Vec<f64> = own.collect();
-        let even: Vec<f64> = springs.iter().zip(&bodies).map(|(k, own)| even(*k, *own)).collect();
+        let springs = pressing.stiffnesses.iter().map(|own| own.unwrap_or(f64::INFINITY));
+        let springs: Vec<f64> = springs.collect();
+        let of_springs = points.normals.iter().zip(&springs).filter(|own| own.1.is_finite());
+        let moved = of_springs.clone().flat_map(|own| own.0).map(|own| own.0);
+        let are_many = of_springs.count() > moved.collect::<BTreeSet<usize>>().len();
+        let bodies: Vec<f64> = points.own_stiffnesses().collect();
+        let pairs = springs.iter().zip(&bodies);
+        let even: Vec<f64> = pairs.map(|(k, own)| even(*k, *own, are_many)).collect();
         Ok(Self {
             last: Vec::new(),
             pushed: pressing.pushed.clone(),
@@ -161,6 +169,7 @@ impl<'a> ContactSystem<'a> {
             held: even.clone(),
             points,
             bodies,
+            are_many,
             springs,
             even,
             columns: None,
@@ -180,8 +189,13 @@ impl<'a> ContactSystem<'a> {
         self.even[point]
     }
 
-    /// Factorizes `P` of other pressed points where the last solution took long, or holds its columns.
+    /// Factorizes `P` of other pressed points where the last solution took long, or holds its columns. Of many springs that are far stiffer
+    /// it is that of the pressed points: what the others have in it, taken off again, would leave few digits of `p_i - c_i`.
     fn follow(&mut self, is_pressed: &[bool]) -> Result<()> {
+        let is_far = |(k, own): (&f64, &f64)| k.is_finite() && *k > FAR_STIFFER * own;
+        if self.are_many && self.springs.iter().zip(&self.bodies).any(is_far) {
+            return self.factorize(is_pressed);
+        }
         let own = &self.points.along_normals;
         let has_many = self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD;
         if self.columns.is_none() && has_many {
@@ -191,6 +205,12 @@ impl<'a> ContactSystem<'a> {
             self.factorize(is_pressed)?;
         }
         Ok(())
+    }
+
+    /// Factorizes `P` of a set of pressed points whose state becomes a polynomial, if they are few.
+    pub fn begin(&mut self, is_pressed: &[bool]) -> Result<()> {
+        let pressed = is_pressed.iter().filter(|is_pressed| **is_pressed).count();
+        if FEW_PRESSED * pressed < is_pressed.len() { self.factorize(is_pressed) } else { Ok(()) }
     }
 
     /// Factorizes `P` of these pressed points.
@@ -209,7 +229,7 @@ impl<'a> ContactSystem<'a> {
         let known = self.systems.take().filter(|systems| systems.is_pressed == set);
         let equations = self.equations(set);
         let Equations { own, origin, yields, .. } = &equations;
-        let mut systems = known.unwrap_or_else(|| self.begin(&equations, set));
+        let mut systems = known.unwrap_or_else(|| self.systems_of(&equations, set));
         let apply = |x: &[f64]| equations.apply(x);
         let (mut moved, products) = systems.family.solve(mu, apply, (TOLERANCE, most))?;
         let mut y = equations.lifted(&moved);
@@ -247,7 +267,7 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// The systems of a set of pressed points.
-    fn begin(&self, equations: &Equations<'_>, is_pressed: &[bool]) -> Systems {
+    fn systems_of(&self, equations: &Equations<'_>, is_pressed: &[bool]) -> Systems {
         let (points, origin, is_pressed) = (&self.points, &equations.origin, is_pressed.to_vec());
         let pushes = self.held.iter().zip(origin);
         let pushes: Vec<[f64; 2]> = pushes.map(|(k, push)| [k * push, 0.0]).collect();
@@ -278,7 +298,7 @@ impl<'a> ContactSystem<'a> {
                 // The tangent N = k (p' - c) at the approach g of the force, p' = p - g + N / k.
                 let approach = law.approach(force / point.weight);
                 self.springs[i] = point.weight * law.stiffness(approach);
-                self.even[i] = even(self.springs[i], self.bodies[i]);
+                self.even[i] = even(self.springs[i], self.bodies[i], self.are_many);
                 self.pushed[i] = pressing.pushed[i] - approach + force / self.springs[i];
             }
         }

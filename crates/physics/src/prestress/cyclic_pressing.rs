@@ -55,8 +55,7 @@ impl Pressing<'_> {
         // Which point of the sector each of the body is a copy of.
         let copy_of = first_of.iter().map(|first| firsts.partition_point(|own| own < first));
         let copy_of: Vec<usize> = copy_of.collect();
-        let states = range.states.iter_mut();
-        states.for_each(|state| *state = state.repeated(count, &copy_of));
+        range.states.iter_mut().for_each(|state| *state = state.repeated(count, &copy_of));
         Ok(range)
     }
 
@@ -88,10 +87,9 @@ impl Pressing<'_> {
 
         // What the points see of the motion; copies follow each other in its order.
         let form = |row: &Row| row.iter().map(|&(dof, a)| a * motion[dof]).sum::<f64>();
-        let seen =
-            self.points.iter().zip(&self.pushed).map(|(point, &pushed)| {
-                [form(&point.normal), form(&point.slip), point.weight, pushed]
-            });
+        let places = self.points.iter().map(|own| [&own.normal, &own.slip].map(form));
+        let seen = places.zip(self.points).zip(&self.pushed);
+        let seen = seen.map(|(([out, along], own), pushed)| [out, along, own.weight, *pushed]);
         let seen: Vec<[f64; 4]> = seen.collect();
         // One from each sector: neighbours in the order of what they see, with all else equal.
         let mut order: Vec<usize> = (0..seen.len()).collect();
@@ -111,11 +109,9 @@ impl Pressing<'_> {
                 }
                 first_of[i] = first;
                 // Forces of a size that only copies share, along both rows of each point.
-                for (sum, row) in
-                    forces.iter_mut().zip([&self.points[i].normal, &self.points[i].slip])
-                {
-                    row.iter()
-                        .for_each(|&(dof, a)| sum[dof] += (1.0 + without_symmetry(first)) * a);
+                let (force, point) = (1.0 + without_symmetry(first), &self.points[i]);
+                for (sum, row) in forces.iter_mut().zip([&point.normal, &point.slip]) {
+                    row.iter().for_each(|&(dof, a)| sum[dof] += force * a);
                 }
             }
         }

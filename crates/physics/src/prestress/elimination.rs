@@ -87,12 +87,11 @@ impl Elimination {
     /// Puts the combination of a new pivot into those that have it.
     fn substitute(&mut self, pivot: usize, combination: Row) {
         for earlier in self.used_in.remove(&pivot).unwrap_or_default() {
-            let parts =
-                self.combined[&earlier].iter().flat_map(|&(dof, value)| match dof == pivot {
-                    true => scaled(&combination, value),
-                    false => vec![(dof, value)],
-                });
-            let row = summed(parts); // Of u_e = ... + v u_pivot the part v u_pivot is v times the combination.
+            let part = |&(dof, value): &(usize, f64)| match dof == pivot {
+                true => scaled(&combination, value),
+                false => vec![(dof, value)],
+            };
+            let row = summed(self.combined[&earlier].iter().flat_map(part)); // Of u_e = ... + v u_pivot the part v u_pivot is v times the combination.
             self.record(earlier, &row);
             self.combined.insert(earlier, row);
         }

@@ -31,13 +31,9 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, reach: f64
         }
     }
     // A power whose whole reach is round-off of the largest value goes.
-    while powers.len() > 1 {
-        let last = powers.len() - 1;
-        if size(&powers[last]) * reach.powi(last as i32) > 1e-11 * scale {
-            break;
-        }
-        powers.pop();
-    }
+    let counts = |power: usize| size(&powers[power]) * reach.powi(power as i32) > 1e-11 * scale;
+    let last = (1..powers.len()).rev().find(|&power| counts(power)).unwrap_or(0);
+    powers.truncate(last + 1);
     powers
 }
 

@@ -162,8 +162,8 @@ pub(super) fn polynomial_state<B: PressedBodies>(
         let [lower, upper] = widened(range);
         let interval = [lower.max(0.0), upper];
         for count in FEW_NODES {
-            let found =
-                EstimatedState::through(bodies, is_pressed, (interval, count), own(interval))?;
+            let points = (interval, count);
+            let found = EstimatedState::through(bodies, is_pressed, points, own(interval))?;
             if found.left_out <= EXACT {
                 return Ok(found);
             }
@@ -173,22 +173,17 @@ pub(super) fn polynomial_state<B: PressedBodies>(
     let origins = [0.0, begin(usual)];
     let mut best = EstimatedState::through(bodies, is_pressed, (usual, count), origins)?;
     if best.left_out > RESOLVED {
-        let exact = asked
-            .iter()
-            .map(|&friction| bodies.state_of(friction, is_pressed))
-            .collect::<Result<Vec<ContactState>, _>>()?;
+        let exact = asked.iter().map(|&friction| bodies.state_of(friction, is_pressed));
+        let exact = exact.collect::<Result<Vec<ContactState>>>()?;
         best.compare(asked, &exact);
         // Beyond the range in which the set holds there may be no state.
         let within = own_range(bodies, is_pressed).unwrap_or(range);
         let more = MORE_NODES.map(|count| (within, count));
         for points in more.into_iter().chain([(usual, MOST_USUAL)]) {
             let other = EstimatedState::through(bodies, is_pressed, points, own(points.0));
-            let Ok(mut other) = other else {
-                continue;
-            };
-            other.compare(asked, &exact);
-            if other.left_out < best.left_out {
-                best = other;
+            if let Ok(mut other) = other {
+                other.compare(asked, &exact);
+                best = if other.left_out < best.left_out { other } else { best };
             }
             if best.left_out <= RESOLVED {
                 break;
@@ -214,8 +209,7 @@ impl EstimatedState {
         origins: [f64; 2],
     ) -> Result<Self> {
         let nodes = chebyshev_points(count, interval);
-        let (mut displacements, mut normal_forces, mut stiffnesses) =
-            (Vec::new(), Vec::new(), Vec::new());
+        let [mut displacements, mut normal_forces, mut stiffnesses] = [const { Vec::new() }; 3];
         // Exact states, whose values are one column of each polynomial.
         for &friction in &nodes {
             let state = bodies.state_of(friction, is_pressed)?;

@@ -46,15 +46,12 @@ impl Rotation {
         if motions.iter().all(|motion| spins(motion).is_none()) {
             return Ok(None);
         }
-        let of_region = |region: usize| -> Option<Spin> {
-            motions.iter().find(|m| m.regions.contains(&region)).and_then(spins)
-        };
+        let own = |region| motions.iter().find(|motion| motion.regions.contains(&region));
+        let of_region = |region: usize| own(region).and_then(spins);
         check_frames(mesh, &of_region)?;
-        for motion in motions {
-            if spins(motion).is_some_and(|spin| spin.frame == RotationFrame::Rest) {
-                check_revolution(mesh, motion, seams)?;
-            }
-        }
+        let is_at_rest = |spin: Spin| spin.frame == RotationFrame::Rest;
+        let mut at_rest = motions.iter().filter(|own| spins(own).is_some_and(is_at_rest));
+        at_rest.try_for_each(|motion| check_revolution(mesh, motion, seams))?;
         let mut terms = assemble_rotation(mesh, materials, &of_region);
 
         // The stress of the centrifugal load alone.
