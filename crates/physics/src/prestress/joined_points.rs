@@ -31,7 +31,7 @@ pub(super) struct JoinedPoints<'a> {
 /// `P^-1`.
 pub(super) struct Inverse {
     solver: SparseLu,
-    /// `P` of few unknowns, numbered by dof, and these: what round-off leaves is solved for, too, as slender bodies multiply it.
+    /// `P`, numbered by dof, and its unknowns, of few points: what round-off leaves is solved for, too, as slender bodies multiply it.
     refined_by: Option<(Triplets, DofMap)>,
 }
 
@@ -52,8 +52,8 @@ impl Inverse {
     }
 }
 
-/// Unknowns up to which solutions are refined.
-const REFINED: usize = 4000;
+/// Unknowns along normals up to which solutions are refined: there are few of these, as of one sector.
+const REFINED: usize = 64;
 
 /// Columns that are solved for together.
 const BLOCK: usize = 32;
@@ -99,7 +99,7 @@ impl<'a> JoinedPoints<'a> {
             held.push_product(*spring, &row, &row);
         }
         let solver = factorized(&held, &self.unknowns)?;
-        let is_refined = self.unknowns.len() <= REFINED;
+        let is_refined = self.along_normals.len() <= REFINED;
         Ok(Inverse { solver, refined_by: is_refined.then(|| (held, self.unknowns.clone())) })
     }
 
