@@ -15,7 +15,6 @@ mod elimination;
 mod error;
 mod friction_polynomial;
 mod frozen;
-mod full_sliding;
 mod joined_points;
 mod joint;
 mod motion_matrices;
