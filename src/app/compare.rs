@@ -35,19 +35,20 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let quantities = shared(&runs);
     if quantities.is_empty() {
         let commands: Vec<&str> = runs.iter().map(|run| run.manifest.command.as_str()).collect();
-        return Err(Failure::usage(format!(
-            "these runs ({}) share no number: compare runs of one command",
-            commands.join(", ")
-        )));
+        let commands = commands.join(", ");
+        let what = format!("these runs ({commands}) share no number: compare runs of one command");
+        return Err(Failure::usage(what));
+    }
+    let places = ["/extent", "/base_state/extent"];
+    let extent = |run: &ComparedRun| places.map(|place| run.summary.pointer(place).cloned());
+    if runs.iter().any(|run| extent(run) != extent(&runs[0])) {
+        let what = "forces, torques, powers and energies of some runs are for each metre of \
+                    thickness, of others of the whole body";
+        tracing::warn!("{what}");
     }
     let manifest = manifest_of(&asked.folders, &runs);
-    let output = match asked.output.out {
-        Some(_) => asked.output.clone(),
-        None => OutputOptions {
-            out: Some(default_folder(&runs, &manifest, asked.output.force)),
-            ..asked.output.clone()
-        },
-    };
+    let mut output = asked.output.clone();
+    output.out.get_or_insert_with(|| default_folder(&runs, &manifest, asked.output.force));
     let folder = output.open_folder(&manifest, false)?;
     write_table(&folder, &file(&runs, &quantities))?;
     let text = print(&runs, &quantities);
@@ -83,8 +84,7 @@ const LONGEST_NAME: usize = 100;
 /// What the comparison is made from: the folders and the cases of their results.
 fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {
     let parts = |run: &'_ ComparedRun| [&run.name[..], "\0", &run.manifest.case_hash].concat();
-    let parts: String = runs.iter().map(parts).collect();
-    let case_hash = hash_of([parts.as_bytes()]);
+    let case_hash = hash_of([runs.iter().map(parts).collect::<String>().as_bytes()]);
     let mut folders = folders.iter().map(|path| path.display().to_string());
     Manifest {
         case_file: folders.next().unwrap_or_default(),

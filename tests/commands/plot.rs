@@ -223,3 +223,21 @@ fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
     let fields = answer.bytes("mesh.vtu");
     has(&String::from_utf8_lossy(&fields), &["Name=\"region_id\""]);
 }
+
+#[test]
+fn a_comparison_warns_where_forces_of_one_run_alone_are_for_each_metre() {
+    let folder = folder();
+    let few = "cea.friction_coefficients=[0.3] ; cea.shapes_at=[0.3] ; cea.modes=2";
+    let changes = ["contact.speed=1.5", "geometry.thickness=0.01", "geometry.thickness=0.02"];
+    for (out, change) in ["metre", "thin", "thick"].into_iter().zip(changes) {
+        let words = ["cea", &shipped("sliding-block.toml"), "--no-figures"];
+        Run::new(&words).within(&folder).out(out).set(&[few, change]).done();
+    }
+    let said = "for each metre of thickness, of others of the whole body";
+    let told = |[one, other]: [&str; 2]| {
+        let words = ["compare", one, other, "--no-figures"];
+        Run::new(&words).within(&folder).out(format!("{one}-{other}")).done().stderr
+    };
+    assert!(told(["metre", "thin"]).contains(said));
+    assert!(!told(["thin", "thick"]).contains(said));
+}
