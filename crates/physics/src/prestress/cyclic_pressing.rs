@@ -35,24 +35,22 @@ impl Pressing<'_> {
         let held = (0..size).filter(|&dof| unknowns[dof].is_none());
 
         // One point of those that are copies of each other.
-        let firsts = (0..first_of.len()).filter(|&i| first_of[i] == i);
-        let points = firsts.clone().map(|i| self.points[i].folded(size));
+        let firsts: Vec<usize> = (0..first_of.len()).filter(|&i| first_of[i] == i).collect();
+        let points: Vec<_> = firsts.iter().map(|&i| self.points[i].folded(size)).collect();
         let own = Pressing {
             stiffness: &stiffness,
             load: self.load[..size].to_vec(),
             elimination: Elimination::holding(size, held),
-            points: &points.collect::<Vec<_>>(),
+            points: &points,
             contacts: Vec::new(),
-            pushed: firsts.clone().map(|i| self.pushed[i]).collect(),
-            stiffnesses: firsts.clone().map(|i| self.stiffnesses[i]).collect(),
-            laws: firsts.clone().map(|i| self.laws[i]).collect(),
+            pushed: firsts.iter().map(|&i| self.pushed[i]).collect(),
+            stiffnesses: firsts.iter().map(|&i| self.stiffnesses[i]).collect(),
+            laws: firsts.iter().map(|&i| self.laws[i]).collect(),
             known: None,
         };
         let mut range = range(&mut ContactSystem::new(&own)?, friction_coefficients)?;
 
-        // The state of the whole body.
-        let firsts: Vec<usize> = firsts.collect();
-        // Which point of the sector each of the body is a copy of.
+        // The state of the whole body: which point of the sector each of the body is a copy of.
         let copy_of = first_of.iter().map(|first| firsts.partition_point(|own| own < first));
         let copy_of: Vec<usize> = copy_of.collect();
         range.states.iter_mut().for_each(|state| *state = state.repeated(count, &copy_of));

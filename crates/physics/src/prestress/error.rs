@@ -32,9 +32,9 @@ pub enum PrestressError {
     },
     /// No contact node touches.
     #[error(
-        "there is a gap everywhere: the nearest of {total} contact nodes is {distance:.3e} m away. \
-         The counterface is pushed in by contact.interference = {interference:e} m. Raise \
-         contact.interference by more than the gap, or press the body with a boundary pressure"
+        "there is a gap everywhere: {}. The counterface is pushed in by contact.interference = \
+         {interference:e} m. Raise contact.interference by more than the gap, or press the body \
+         with a boundary pressure", apart(*total, [*distance, *interference])
     )]
     GapEverywhere {
         /// Contact nodes.
@@ -67,8 +67,16 @@ pub enum PrestressError {
     AtRest,
     /// The stiffness matrix is not positive definite.
     #[error(
-        "the stiffness matrix is not positive definite: nothing holds the body, or part of it, or a C3D20R alone deforms without energy. \
-         Check [boundaries], [material] and [mesh]"
+        "the stiffness matrix is not positive definite: nothing holds the body, or part of it, or \
+         a C3D20R alone deforms without energy. Check [boundaries], [material] and [mesh]"
     )]
     Singular,
+}
+
+/// How far the surfaces are apart.
+fn apart(total: usize, [distance, interference]: [f64; 2]) -> String {
+    match distance > 0.0 || interference <= 0.0 {
+        true => format!("the nearest of {total} contact nodes is {distance:.3e} m away"),
+        false => format!("loads part all {total} contact nodes"),
+    }
 }

@@ -9,7 +9,7 @@ use super::{PrestressError, Result, SectorSliding, SolidSliding};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::{MassKind, Triplets};
 use crate::linalg::dense::{difference, norm};
-use crate::mesh::SolidSector;
+use crate::mesh::{ContactRing, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
 const SETS: usize = 200;
@@ -42,10 +42,10 @@ impl SolidSliding {
         // What the rings have.
         let approaches = face.approaches(&points, &state.displacements[0]);
         let forces = face.node_forces(&points, &state.normal_forces[0]);
-        let ring_forces = rings.iter().map(|ring| -> f64 {
+        let force = |ring: &ContactRing| -> f64 {
             forces.iter().filter(|own| ring.nodes.contains(&own.0)).map(|own| own.1).sum()
-        });
-        let ring_forces: Vec<f64> = ring_forces.collect();
+        };
+        let ring_forces: Vec<f64> = rings.iter().map(force).collect();
         let pressing = if law.is_some() { &approaches } else { &ring_forces };
         let is_pressed: Vec<bool> = pressing.iter().map(|own| *own > 0.0).collect();
         if !is_pressed.contains(&true) {
@@ -104,8 +104,7 @@ impl Face<'_> {
         points: &[Point],
         pressed: impl FnOnce(&mut ContactSystem<'_>) -> Result<Vec<bool>>,
     ) -> Result<PressedState> {
-        let strip = &self.sector.strip;
-        let size = strip.dof_count();
+        let (strip, size) = (&self.sector.strip, self.sector.strip.dof_count());
         // Neighbours move as this sector does.
         let points: Vec<Point> = points.iter().map(|own| own.folded(size)).collect();
         let own = points.iter().map(|own| Some(own.weight * self.law?.stiffness(0.0)));
@@ -140,12 +139,11 @@ impl Face<'_> {
         let all = points.iter().map(|own| [own.weight * along(own), own.weight]);
         let [sum, area] = all.fold([0.0; 2], |[a, b], own| [a + own[0], b + own[1]]);
         let seen = if area > 0.0 { sum / area } else { sign };
-        let mean = |nodes: &[usize]| {
-            let normals = nodes.iter().map(|node| displacement[3 * node + component]);
-            seen * normals.sum::<f64>() / nodes.len() as f64
+        let approach = |ring: &ContactRing| {
+            let normals = ring.nodes.iter().map(|node| displacement[3 * node + component]);
+            self.contact.interference - seen * normals.sum::<f64>() / ring.nodes.len() as f64
         };
-        let rings = self.sector.rings.iter();
-        rings.map(|ring| self.contact.interference - mean(&ring.nodes)).collect()
+        self.sector.rings.iter().map(approach).collect()
     }
 
     /// Nodes of the sector with what the normal of a point has along theirs.
@@ -168,16 +166,15 @@ impl Face<'_> {
     /// Signorini's conditions ring by ring, `N >= 0` of its nodes together and `u_n = delta` of each where it is pressed.
     fn on_rings(&self) -> Result<(Vec<Point>, PressedState)> {
         let rings = &self.sector.rings;
-        let nodes = rings.iter().flat_map(|ring| &ring.nodes);
-        let points: Vec<Point> =
-            nodes.map(|&node| node_point(self.sector, node, self.contact)).collect();
+        let point = |&node: &usize| node_point(self.sector, node, self.contact);
+        let points: Vec<Point> = rings.iter().flat_map(|ring| &ring.nodes).map(point).collect();
         let state = self.state(&points, |system| {
             let delta = self.contact.interference;
             let mut is_pressed = vec![true; rings.len()];
             for _ in 0..SETS {
-                let nodes = rings.iter().zip(&is_pressed);
-                let set = nodes.flat_map(|(ring, own)| vec![*own; ring.nodes.len()]);
-                let set: Vec<bool> = set.collect();
+                let both = rings.iter().zip(&is_pressed);
+                let set =
+                    both.flat_map(|(ring, own)| vec![*own; ring.nodes.len()]).collect::<Vec<_>>();
                 let state = system.state_of(0.0, &set)?;
                 let scale = state.normal_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
                 // Pressed rings must push, open ones must not have come nearer than delta.

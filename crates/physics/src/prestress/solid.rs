@@ -71,19 +71,16 @@ impl SolidSliding {
         if let Some(SectorSliding { points, state }) = &self.springs {
             return (points.clone(), state.clone());
         }
-        let (mut points, mut state) = (Vec::new(), PressedState::default());
-        let mut forces = Vec::new();
+        let (mut points, mut forces) = (Vec::new(), Vec::new());
         for element in sector.contact_elements() {
-            for (along, point) in
-                face_points(sector, (&element, WHOLE_ELEMENT), &self.contact, self.rule)
-            {
+            let whole = face_points(sector, (&element, [-1.0, 1.0]), &self.contact, self.rule);
+            for (along, point) in whole {
                 forces.push(point.weight * self.pressure_along(sector, &element, along)); // N = A p.
                 points.push(point);
             }
         }
-        state.is_pressed = forces.iter().map(|force| *force > 0.0).collect();
-        state.normal_forces = vec![forces];
-        (points, state)
+        let is_pressed = forces.iter().map(|force| *force > 0.0).collect();
+        (points, PressedState { is_pressed, normal_forces: vec![forces], ..Default::default() })
     }
 }
 
@@ -95,9 +92,6 @@ pub enum FaceRule {
     /// Lumped at the nodes, with the weight there: what a time step has.
     Nodal,
 }
-
-/// All of an element along the face.
-const WHOLE_ELEMENT: [f64; 2] = [-1.0, 1.0];
 
 /// The points that stand for a part of an element of the face, from -1 to 1 along it, with their places: of a lumped one the nodes at the
 /// ends in it that are free along the normal. Rows reach into the next sector, whose nodes come after those of this one.
