@@ -177,6 +177,23 @@ fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
     block(folder.path(), &["contact.speed=0"]).refused(&["contact.speed", "sticks at rest"]);
 }
 
+/// Independent: a perturbation of the same cycle in a time stepping of its own beats at 4725 Hz. Impacts part the shift in phase in two,
+/// of which one seems to grow.
+#[test]
+fn a_shift_in_phase_that_impacts_part_is_no_perturbation_that_grows() {
+    let folder = folder();
+    fs::write(folder.path().join("skewed-block.msh"), include_bytes!("../cases/skewed-block.msh"))
+        .unwrap();
+    let case = include_str!("../cases/skewed-block.toml");
+    fs::write(folder.path().join("case.toml"), case).unwrap();
+    let run = Run::new(&["cycle", "case.toml", "--no-figures"]).within(folder.path()).out("run");
+    let summary = run.done().summary();
+    let mut cycles = summary["cycles"].as_array().unwrap().iter();
+    let own = cycles.find(|own| own["mode"] == 2).unwrap();
+    let beat = own["stability"]["leading"]["beat_hz"].as_f64().unwrap();
+    assert!((beat / 4725.0 - 1.0).abs() < 0.01, "{beat}");
+}
+
 /// A square of one element on a moving plane, whose friction falls with speed: from 1.28 to 2.15 m/s it squeals beside stable sliding.
 fn square(command: &str, folder: &Path, set: &[&str]) -> Run {
     let square = plane_block([0.01; 2], [1; 2], ["face", "back", "body"]);

@@ -34,11 +34,12 @@ impl FloquetMultipliers {
         let mut noise = GaussianNoise::new(1);
         let start = (0..state.motion.len()).map(|_| noise.draw().re).collect(); // Noise has a part along every direction.
         let [reach, least] = NEUTRAL;
+        let is_shift = |own: &Ritz| own.value.ln().norm() < reach && own.along > least;
         let search = MultiplierSearch {
             dimensions: DIMENSIONS,
             converged: CONVERGED,
             listed: LISTED,
-            is_shift: &|own| own.value.ln().norm() < reach && own.along > least,
+            is_shift: &is_shift,
         };
         let found = search.run(&unit(start), image.rate.clone(), &mut apply);
         let found = found.map_err(|dimension| {
@@ -47,9 +48,13 @@ impl FloquetMultipliers {
                  after {dimension} periods; let a transient tell (cycle.confirmation_periods)"
             ))
         })?;
+        // Kinks part the shift in phase in two: what else may grow is told apart by following it.
+        let parts = found.listed.iter().take_while(|own| is_shift(own)).count();
+        let listed = found.listed.get(parts..).filter(|rest| !rest.is_empty());
+        let (shifts, listed) = (&found.listed[..parts], listed.unwrap_or(&found.listed));
         // A node that changes its status bends the map: it has another slope along a direction than against it, and a
         // perturbation may meet either of them. Known is the one along; the other is smaller by as much as this at most.
-        let first_listed = &found.listed[0];
+        let first_listed = &listed[0];
         let along = unit(found.vector(first_listed).iter().map(|value| value.re).collect());
         let against: Vec<f64> = along.iter().map(|value| -value).collect();
         let sums = apply(&along).into_iter().zip(apply(&against));
@@ -57,12 +62,13 @@ impl FloquetMultipliers {
         let bend = norm(&sums) / first_listed.value.norm(); // |P(x + d) - 2 P(x) + P(x - d)| / |rho d|, 0 of a smooth map.
         // What is open of every rate: how far the shift is from 1, the residual, and the bend.
         let shift = found.shift.map(|shift| shift.norm());
-        let off = shift.map_or(NEUTRAL[0], |shift| shift.ln().abs());
+        let parts = shifts.iter().map(|own| own.value.norm()).chain(shift);
+        let off = parts.map(|part| part.ln().abs()).reduce(f64::max).unwrap_or(NEUTRAL[0]);
         let of = |ritz: &Ritz| {
             let open = (ritz.residual + off + bend) / state.period;
             FloquetMultiplier::new(ritz.value, state.period, open)
         };
-        let multipliers = found.listed.iter().map(of).collect();
+        let multipliers = listed.iter().map(of).collect();
         let mut own = Self { multipliers, shift, periods: 0 };
         if own.verdict() == Verdict::Undecided {
             own.decide(&mut beside, along);
