@@ -57,7 +57,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/output", 794),
     ("crates/physics/src/cea", 10_183),
     ("crates/physics/src/contact", 2_568),
-    ("crates/physics/src/cycle", 7_677),
+    ("crates/physics/src/cycle", 7_612),
     ("crates/physics/src/fem", 4_323),
     ("crates/physics/src/frf", 1_280),
     ("crates/physics/src/lib.rs", 23),
