@@ -89,6 +89,25 @@ fn what_is_not_used_is_listed_with_its_line_and_count() {
     has(&remarks, &["C3D8R ; \n2 nodes belong to no element"]);
 }
 
+/// What pairs with a surface that is left out is left out too, by whatever name its scope gives it.
+#[test]
+fn pairs_with_a_rigid_surface_of_a_part_are_left_out_with_it() {
+    let rigid = "*SURFACE, NAME=Rigid, TYPE=CYLINDER\n";
+    let contact = "*CONTACT PAIR, INTERACTION=RUB\n";
+    let text = ASSEMBLY.replace("*END PART", &format!("{rigid}{contact}Top, Rigid\n*END PART"));
+    let text = text.replace("One.Top, Two.Top", "One.Top, Two.rigid");
+    let model = read("bricks.inp", &text.replace("One.Skin", "One.Rigid")).unwrap().model;
+    assert_eq!((model.ties.len(), model.contacts.len()), (0, 0));
+    let listed: Vec<&str> = model.left_out.iter().map(|own| own.keyword.as_str()).collect();
+    let pairs = ["*TIE of Two.rigid", "*CONTACT PAIR of Rigid", "*CONTACT PAIR of One.Rigid"];
+    for expected in ["*SURFACE, NAME=Rigid, TYPE=CYLINDER"].iter().chain(&pairs) {
+        assert!(listed.contains(expected), "{expected}: {listed:#?}");
+    }
+    // The assembly itself has none of that name.
+    let wrong = error("bricks.inp", &text.replace("One.Skin", "Rigid"));
+    has(&wrong, &["no surface is called \"Rigid\""]);
+}
+
 #[test]
 fn wrong_input_files_are_told_by_line_and_name() {
     check_errors("bricks.inp", ASSEMBLY, include_str!("../meshes/wrong-abaqus.txt"));

@@ -67,11 +67,7 @@ impl Reader<'_, '_> {
                 [None, _] => first,
                 _ => second,
             };
-            let is_left_out = self.file.model.left_out.iter().any(|left_out| {
-                let named = left_out.keyword.strip_prefix("*SURFACE, NAME=").unwrap_or_default();
-                named.split(',').next().is_some_and(|named| named.eq_ignore_ascii_case(missing))
-            });
-            if !is_left_out {
+            if !self.surfaces.contains_key(&self.key(row.scope, missing)) {
                 return Err(self.unknown(row.place, "surface", missing));
             }
             let keyword = format!("*{} of {missing}", block.keyword);
@@ -83,7 +79,7 @@ impl Reader<'_, '_> {
     /// The name among all surfaces of one that is named in a scope; a node or element set may stand for a surface.
     pub(super) fn surface_name(&mut self, row: Row<'_>, name: &str) -> Option<String> {
         let key = self.key(row.scope, name);
-        if let Some(found) = self.surfaces.get(&key) {
+        if let Some(Some(found)) = self.surfaces.get(&key) {
             return Some(found.clone());
         }
         let set = self.nodes.sets.get(&key)?;

@@ -75,8 +75,8 @@ struct Reader<'d, 'a> {
     collected: Vec<CollectedElement>,
     nodes: Numbered<u32>,
     elements: Numbered<usize>,
-    /// Names of surfaces among those of the mesh file.
-    surfaces: BTreeMap<Key, String>,
+    /// Names of surfaces among those of the mesh file; none of one that was left out.
+    surfaces: BTreeMap<Key, Option<String>>,
 }
 
 /// Keywords that make nodes or elements which are not written out.

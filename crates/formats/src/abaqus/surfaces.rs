@@ -22,6 +22,7 @@ impl Reader<'_, '_> {
                     if faces.is_empty() {
                         let reason = "it has no face of a solid (plane) element";
                         self.leave_out(&format!("*SURFACE, NAME={name}"), block.place, reason);
+                        self.surfaces.entry(key).or_default();
                         continue;
                     }
                     self.file.surfaces.entry(full.clone()).or_default().extend(faces);
@@ -34,10 +35,11 @@ impl Reader<'_, '_> {
                     let keyword = format!("*SURFACE, NAME={name}, TYPE={kind}");
                     let reason = "a rigid surface: model it by elements, or take a rigid counterface of the case";
                     self.leave_out(&keyword, block.place, reason);
+                    self.surfaces.entry(key).or_default();
                     continue;
                 }
             }
-            self.surfaces.insert(key, full);
+            self.surfaces.insert(key, Some(full));
         }
         Ok(())
     }

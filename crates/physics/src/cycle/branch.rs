@@ -120,29 +120,21 @@ impl<'a> Branch<'a> {
         let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
         // An inequality that breaks on the way after all becomes the goal; each such shortening is progress.
         for _ in 0..12 {
-            let Some((state, linear)) = self.correct(&heading, length, goal) else {
-                length *= 0.3;
-                goal = Goal::Length;
-                continue;
-            };
-            let broken = self.worst(&state, &linear);
-            let Some((event, slack)) = broken else {
-                if let Some(value) = self.skipped(&state, samples, goal) {
-                    goal = Goal::Value(value);
-                    continue;
+            let found = self.correct(&heading, length, goal);
+            match found.map(|(state, linear)| (self.worst(&state, &linear), state)) {
+                Some((None, state)) => match self.skipped(&state, samples, goal) {
+                    Some(value) => goal = Goal::Value(value),
+                    None => return Some(self.accept(state, heading, length, goal)),
+                },
+                Some((Some((event, slack)), _)) if Some(event) != flipped => {
+                    let before = inequalities.iter().find(|i| i.0 == event);
+                    let before = before.map_or(0.0, |i| i.1.max(0.0));
+                    length *= before / (before - slack); // slack(s) = before + s (slack - before) = 0.
+                    goal = Goal::Event(event);
                 }
-                return Some(self.accept(state, heading, length, goal));
-            };
-            if Some(event) == flipped {
-                // It came to hold and breaks again within the step: a shorter one ends where it holds.
-                length *= 0.3;
-                goal = Goal::Length;
-                continue;
+                // Nothing, or what came to hold breaks again within the step: a shorter one ends where it holds.
+                _ => (length, goal) = (0.3 * length, Goal::Length),
             }
-            let before = inequalities.iter().find(|i| i.0 == event);
-            let before = before.map_or(0.0, |i| i.1.max(0.0));
-            length *= before / (before - slack); // slack(s) = before + s (slack - before) = 0.
-            goal = Goal::Event(event);
         }
         None
     }
@@ -179,12 +171,8 @@ impl<'a> Branch<'a> {
             Event::Lift(_) => (PointState::Open, Event::Touch(i)),
             Event::Touch(_) => {
                 let linear = Linearization::at(self.wave, &self.state, self.parameter);
-                let slip = if linear.slip[i] < 0.0 {
-                    PointState::SlipForward
-                } else {
-                    PointState::SlipBackward
-                };
-                (slip, Event::Lift(i))
+                let slips = [PointState::SlipBackward, PointState::SlipForward];
+                (slips[usize::from(linear.slip[i] < 0.0)], Event::Lift(i))
             }
             Event::SlideForward(_) => (PointState::SlipForward, Event::Rest(i)),
             Event::SlideBackward(_) => (PointState::SlipBackward, Event::Rest(i)),
@@ -203,10 +191,7 @@ impl<'a> Branch<'a> {
     fn inequalities(&self, linear: &Linearization, heading: &Heading) -> Vec<Inequality> {
         let [gap, slip] = self.wave_rates(linear, heading);
         let friction = self.state.point.contact.friction_coefficient;
-        let rise = match self.parameter {
-            Parameter::FrictionCoefficient => heading.scalars()[2],
-            _ => 0.0,
-        };
+        let rise = self.parameter.friction_in(heading.scalars()[2]);
         // How each slack changes along the heading.
         let with_rate = |(event, slack): (Event, f64)| {
             let i = event.point();
@@ -227,10 +212,7 @@ impl<'a> Branch<'a> {
     fn wave_rates(&self, linear: &Linearization, heading: &Heading) -> [Vec<f64>; 2] {
         let forces = [heading.normal(), heading.tangential()].map(|own| self.wave.harmonics(own));
         let [frequency, _, parameter] = heading.scalars();
-        let parameter = match self.parameter {
-            Parameter::FrictionCoefficient => 0.0,
-            _ => parameter,
-        };
+        let parameter = parameter - self.parameter.friction_in(parameter);
         let [by_frequency, by_parameter] = &linear.by[..] else {
             unreachable!("branches of one wave have one frequency");
         };

@@ -175,23 +175,12 @@ impl Confirmation {
         map.place(&start);
         // The last fifth: its first harmonic period by period, its powers and statuses.
         let first = periods - periods / 5;
-        let mut turns: Vec<c64> = Vec::new();
-        let mut weights: Vec<c64> = Vec::new();
-        for period in 0..periods {
-            interruption::check();
-            if period == first {
-                map.run.take_sums();
-            }
-            let amplitudes = first_harmonic(map);
-            if period < first {
-                continue;
-            }
-            // How far the motion has turned against that of the first period looked at.
-            if weights.is_empty() {
-                weights = amplitudes.iter().map(|a| a.conj()).collect();
-            }
-            turns.push(amplitudes.iter().zip(&weights).map(|(a, w)| a * w).sum());
-        }
+        (0..first).for_each(|_| drop(first_harmonic(map)));
+        map.run.take_sums();
+        let looks: Vec<Vec<c64>> = (first..periods).map(|_| first_harmonic(map)).collect();
+        // How far the motion has turned against that of the first period looked at.
+        let turn = |own: &Vec<c64>| own.iter().zip(&looks[0]).map(|(a, w)| a * w.conj()).sum();
+        let turns: Vec<c64> = looks.iter().map(turn).collect();
         // What the first harmonic turns by from period to period is the difference of the frequencies.
         let (powers, _, counts) = map.run.take_sums();
         let share = turned(&turns) / TAU / (turns.len() - 1).max(1) as f64;
@@ -217,14 +206,13 @@ fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
     let half = state.motion.len() / 2;
     let scale = RANDOM_SEED * vibration / (half as f64).sqrt(); // A share of the vibration in the norm of all velocities.
     let mut start = state.clone();
-    for value in &mut start.motion[half..] {
-        *value += scale * noise.draw().re;
-    }
+    start.motion[half..].iter_mut().for_each(|value| *value += scale * noise.draw().re);
     start
 }
 
 /// First harmonic over one period of the displacement of each contact node along the counterface.
 fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
+    interruption::check();
     let mut sums = vec![c64::ZERO; map.run.interface().len()];
     let steps = map.steps();
     for step in 0..steps {

@@ -54,7 +54,6 @@ impl Values {
         Self(values)
     }
 
-    /// How many there are.
     pub fn count(&self) -> usize {
         self.0.len()
     }

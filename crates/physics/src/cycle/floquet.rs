@@ -115,9 +115,8 @@ fn leading_multipliers(
 ) -> Result<(FloquetMultipliers, Vec<f64>), CycleError> {
     let mut start = unit(unknown_start(period));
     if let Some(known) = known.filter(|known| known.len() == start.len()) {
-        for (x, k) in start.iter_mut().zip(known) {
-            *x = UNKNOWN_SHARE * *x + k; // A little of what the neighbour's modes may lack.
-        }
+        // A little of what the neighbour's modes may lack.
+        start.iter_mut().zip(known).for_each(|(x, k)| *x = UNKNOWN_SHARE * *x + k);
     }
     let [reach, least] = NEUTRAL;
     let search = MultiplierSearch {

@@ -11,7 +11,6 @@ pub(super) struct MovingDofs {
 }
 
 impl MovingDofs {
-    /// Those of an operator.
     pub fn of(operator: &dyn StiffnessOperator, frequency: f64) -> Self {
         let masses = operator.masses();
         let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
@@ -19,7 +18,6 @@ impl MovingDofs {
         Self { dofs: moving.map(|place| (place, masses[place].sqrt())).collect(), frequency }
     }
 
-    /// How many there are.
     pub fn count(&self) -> usize {
         self.dofs.len()
     }

@@ -80,6 +80,11 @@ impl Parameter {
         !matches!(self, Self::MassDamping | Self::StiffnessDamping)
     }
 
+    /// What a change of it is to the friction coefficient.
+    pub(super) fn friction_in(self, change: f64) -> f64 {
+        if self == Self::FrictionCoefficient { change } else { 0.0 }
+    }
+
     /// SI value of one unit of the case key.
     pub fn unit(self) -> f64 {
         match self {

@@ -2,6 +2,7 @@
 
 use crate::linalg::c64;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// A small perturbation of a limit cycle, by what it is a period later.
@@ -160,10 +161,7 @@ impl FloquetMultipliers {
     /// Circumferential harmonics of the modes that grow for sure, rising; of a rotating wave.
     pub fn growing_harmonics(&self) -> Vec<usize> {
         let growing = self.multipliers.iter().filter(|own| own.verdict() == Verdict::Unstable);
-        let mut harmonics: Vec<usize> =
-            growing.filter_map(|own| Some(own.mode?.harmonic)).collect();
-        harmonics.sort_unstable();
-        harmonics.dedup();
-        harmonics
+        let all: BTreeSet<usize> = growing.filter_map(|own| Some(own.mode?.harmonic)).collect();
+        all.into_iter().collect()
     }
 }

@@ -212,11 +212,7 @@ impl Period<'_> {
 
     /// Adds the change of the contact forces to the elastic accelerations of the coming step.
     fn push(&self, fields: &mut MotionFields, contact: &[PointState], before: &mut [[f64; 2]]) {
-        let StepCoefficients {
-            time_step: dt,
-            mass_coefficient: alpha,
-            stiffness_coefficient: beta,
-        } = self.coefficients;
+        let dt = self.coefficients.time_step;
         for (i, &state) in contact.iter().enumerate() {
             let [n, t] = self.places[i];
             let [q_n, q_t] = [fields.elastic[n], fields.elastic[t]];
@@ -224,17 +220,14 @@ impl Period<'_> {
             if state == PointState::Open {
                 continue;
             }
+            let trial = |place: usize| {
+                let (v, q) = (fields.velocity[place], fields.elastic[place]);
+                self.coefficients.moved(v, q, fields.elastic_rate[place])
+            };
             // dN / m so that du_n = 0 after the step.
-            let v_n = fields.velocity[n];
-            let trial_n = v_n - dt * (q_n + (alpha * v_n + beta * fields.elastic_rate[n]));
-            let normal = -(fields.displacement[n] + dt * trial_n) / (dt * dt); // u + dt (v + dt dN / m) = 0.
+            let normal = -(fields.displacement[n] + dt * trial(n)) / (dt * dt); // u + dt (v + dt dN / m) = 0.
             let tangential = match state {
-                // dT / m so that dv_t = 0 after the step.
-                PointState::Stick => {
-                    let v_t = fields.velocity[t];
-                    let trial_t = v_t - dt * (q_t + (alpha * v_t + beta * fields.elastic_rate[t]));
-                    -trial_t / dt
-                }
+                PointState::Stick => -trial(t) / dt, // dT / m so that dv_t = 0 after the step.
                 slip => slip.drag() * self.friction_coefficient * normal, // dT = +-mu dN.
             };
             fields.elastic[n] = q_n - normal; // The step subtracts q: forces count negative.

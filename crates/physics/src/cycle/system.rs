@@ -16,7 +16,6 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// From one state to another.
     pub fn between(from: &WaveState, to: &WaveState, parameter: Parameter) -> Self {
         let flat = |state: &WaveState| {
             let scalars = [&state.frequencies()[..], &[parameter.of(&state.point)]].concat();
@@ -40,7 +39,6 @@ impl Heading {
         [0, 1, 2].map(|i| self.values[2 * self.points + i])
     }
 
-    /// Turns it round.
     pub fn reverse(&mut self) {
         self.values.iter_mut().for_each(|value| *value = -*value);
     }
@@ -109,7 +107,6 @@ pub struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    /// The unknowns of `state`.
     pub fn new(state: &'a WaveState, parameter: Parameter, force_scale: f64) -> Self {
         let (contact, stick) = state.active();
         let points = state.contact.len();
@@ -208,7 +205,6 @@ impl<'a> System<'a> {
         Equation { row, residual }
     }
 
-    /// The equation that picks a point on the curve.
     fn closure(&self, closure: Closure<'_>, linear: &Linearization) -> Equation {
         let last = self.size() - 1;
         match closure {
@@ -248,10 +244,8 @@ impl<'a> System<'a> {
             Event::SlideBackward(_) => -1.0,
         };
         let friction = self.state.point.contact.friction_coefficient;
-        let rise = match self.parameter {
-            Parameter::FrictionCoefficient => force * self.parameter_scale() / self.force_scale, // d(mu N) = N dmu.
-            _ => 0.0,
-        };
+        // d(mu N) = N dmu.
+        let rise = self.parameter.friction_in(force * self.parameter_scale() / self.force_scale);
         let sheared = self.contact.len() + place(&self.stick);
         // mu N - drag T = 0.
         let factors = [(place(&self.contact), friction), (sheared, -drag), (self.size() - 1, rise)];
@@ -326,9 +320,7 @@ impl<'a> System<'a> {
             let rows = largest.iter_mut().enumerate();
             rows.for_each(|(row, largest)| *largest = largest.max(matrix[(row, j)].abs()));
         }
-        for own in largest.iter_mut().filter(|own| **own == 0.0) {
-            *own = 1.0;
-        }
+        largest.iter_mut().filter(|own| **own == 0.0).for_each(|own| *own = 1.0);
         for j in 0..self.size() {
             largest.iter().enumerate().for_each(|(row, largest)| matrix[(row, j)] /= largest);
         }
@@ -347,8 +339,7 @@ impl<'a> System<'a> {
         }
         // Slipping points are dragged along, by as much more as the friction coefficient rises.
         let friction = self.state.point.contact.friction_coefficient;
-        let is_friction = self.parameter == Parameter::FrictionCoefficient;
-        let rise = if is_friction { values[2 * points + 2] } else { 0.0 };
+        let rise = self.parameter.friction_in(values[2 * points + 2]);
         for &i in &self.contact {
             let drag = self.state.contact[i].drag();
             if drag != 0.0 {

@@ -211,7 +211,7 @@ struct HarmonicResponse {
 
 impl HarmonicResponse {
     fn new(wave: &Wave<'_>, k: usize, state: &WaveState, parameter: Parameter) -> Self {
-        let still = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
+        let still = RayleighDamping::default();
         let rate = wave.rate(k, state.frequencies());
         let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order)); // d(i s) / dw_1 and d(i s) / dw_2.
         let damping = &state.point.damping;

@@ -19,7 +19,7 @@ pub enum MassKind {
 /// Elements that are rotated copies of one another share one matrix to the last bit, so that a
 /// rotationally symmetric mesh gives an exactly rotationally symmetric operator.
 pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets {
-    sum_elements((mesh, &|_| true), true, |e| element_stiffness(mesh, material, e))
+    sum_elements((mesh, &|_| true), |e| element_stiffness(mesh, material, e))
 }
 
 /// Global mass `M` over all dofs, point masses included, kg for each metre of thickness.
@@ -77,7 +77,7 @@ pub fn element_mass(
 /// Stiffness of the elements of one region alone, over all dofs: N/m, in the plane for each metre of thickness.
 pub fn region_stiffness(mesh: &Mesh, material: &dyn MaterialField, region: usize) -> Triplets {
     let is_own = |e: usize| mesh.region(e) == region;
-    sum_elements((mesh, &is_own), true, |e| element_stiffness(mesh, material, e))
+    sum_elements((mesh, &is_own), |e| element_stiffness(mesh, material, e))
 }
 
 /// Those of all regions.
@@ -105,7 +105,7 @@ fn mass_of(
 ) -> Triplets {
     match kind {
         MassKind::Consistent => {
-            sum_elements((mesh, keep), true, |e| element_mass(mesh, material, kind, e))
+            sum_elements((mesh, keep), |e| element_mass(mesh, material, kind, e))
         }
         MassKind::Lumped => diagonal(mesh, masses_of(mesh, material, keep).into_iter().enumerate()),
     }
@@ -123,9 +123,7 @@ fn diagonal(mesh: &Mesh, masses: impl Iterator<Item = (usize, f64)>) -> Triplets
 /// Lumped mass of each node, point masses included, kg for each metre of thickness.
 pub fn lumped_masses(mesh: &Mesh, material: &dyn MaterialField) -> Vec<f64> {
     let mut masses = masses_of(mesh, material, &|_| true);
-    for attachment in &mesh.attachments {
-        masses[attachment.node] += attachment.mass;
-    }
+    mesh.attachments.iter().for_each(|attachment| masses[attachment.node] += attachment.mass);
     masses
 }
 
@@ -208,16 +206,15 @@ const MANY_ENTRIES: usize = 1 << 22;
 /// Element matrices that are computed side by side.
 const ELEMENTS_AT_A_TIME: usize = 4096;
 
-/// Sums the matrices of the elements that are kept; with `shares` that of the first of several congruent ones serves all.
+/// Sums the matrices of the elements that are kept; that of the first of several congruent ones serves all.
 fn sum_elements(
     kept: (&Mesh, &dyn Fn(usize) -> bool),
-    shares: bool,
     compute: impl Fn(usize) -> DMatrix<f64> + Sync,
 ) -> Triplets {
-    sums_of_elements(kept, shares, 1, |e| vec![compute(e)]).swap_remove(0)
+    sums_of_elements(kept, true, 1, |e| vec![compute(e)]).swap_remove(0)
 }
 
-/// The same of `count` matrices of each element.
+/// The same of `count` matrices of each element, which congruent ones share where it `shares`.
 fn sums_of_elements(
     (mesh, keep): (&Mesh, &dyn Fn(usize) -> bool),
     shares: bool,
@@ -269,8 +266,6 @@ fn sums_of_elements(
 fn scatter(triplets: &mut Triplets, mesh: &Mesh, element: usize, matrix: &DMatrix<f64>) {
     let dofs: Vec<usize> = mesh.element_dofs(element).collect();
     for (j, &column) in dofs.iter().enumerate() {
-        for (i, &row) in dofs.iter().enumerate() {
-            triplets.push(row, column, matrix[(i, j)]);
-        }
+        dofs.iter().enumerate().for_each(|(i, &row)| triplets.push(row, column, matrix[(i, j)]));
     }
 }

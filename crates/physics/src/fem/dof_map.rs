@@ -29,9 +29,7 @@ impl DofMap {
     /// Some dofs of `total` in this order.
     pub fn of(total: usize, dofs: Vec<usize>) -> Self {
         let mut unknown_of = vec![None; total];
-        for (unknown, &dof) in dofs.iter().enumerate() {
-            unknown_of[dof] = Some(unknown);
-        }
+        dofs.iter().enumerate().for_each(|(unknown, &dof)| unknown_of[dof] = Some(unknown));
         Self { unknown_of, dofs }
     }
 
@@ -48,9 +46,7 @@ impl DofMap {
     /// Writes unknowns into a vector over all dofs, zero elsewhere.
     pub fn expand<T: Copy + Default>(&self, unknowns: &[T]) -> Vec<T> {
         let mut full = vec![T::default(); self.unknown_of.len()];
-        for (&dof, &value) in self.dofs.iter().zip(unknowns) {
-            full[dof] = value;
-        }
+        self.dofs.iter().zip(unknowns).for_each(|(&dof, &value)| full[dof] = value);
         full
     }
 

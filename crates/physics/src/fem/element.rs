@@ -6,6 +6,7 @@
 mod mass;
 mod strain;
 
+use super::orthotropy::PAIRS;
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -214,7 +215,7 @@ impl ElementGeometry {
             let coupling = upper.view((0, nodal), (nodal, internal));
             upper = upper.view((0, 0), (nodal, nodal)) + coupling * recovered;
         }
-        mirror_upper_triangle(&mut upper);
+        upper.fill_lower_triangle_with_upper_triangle();
         upper
     }
 
@@ -234,7 +235,7 @@ impl ElementGeometry {
         }
         let coupling = upper.view((0, nodal), (nodal, internal)).transpose();
         let mut inner = upper.view((nodal, nodal), (internal, internal)).into_owned();
-        mirror_upper_triangle(&mut inner);
+        inner.fill_lower_triangle_with_upper_triangle();
         let factor = inner
             .cholesky()
             .expect("incompatible modes of a sound element have positive stiffness");
@@ -286,7 +287,7 @@ impl ElementGeometry {
                 }
             }
         }
-        mirror_upper_triangle(&mut matrix);
+        matrix.fill_lower_triangle_with_upper_triangle();
         matrix
     }
 }
@@ -303,33 +304,22 @@ fn stress_in(components: &[usize], law: &[Voigt; 6], strain: &Voigt) -> Voigt {
 
 /// Cauchy stress of a displacement gradient at a place, Pa.
 pub fn stress_of(material: &ElasticMaterial, gradient: &Matrix3<f64>, place: [f64; 3]) -> Voigt {
-    let g = gradient;
-    let strain = [
-        g[(0, 0)],
-        g[(1, 1)],
-        g[(2, 2)],
-        g[(0, 1)] + g[(1, 0)],
-        g[(1, 2)] + g[(2, 1)],
-        g[(0, 2)] + g[(2, 0)],
-    ];
-    material.stress(&strain, place)
+    material.stress(&strain_of(|i, j| gradient[(i, j)]), place)
+}
+
+/// Strain of a displacement gradient.
+#[inline(always)]
+fn strain_of(gradient: impl Fn(usize, usize) -> f64) -> Voigt {
+    let sum = |(i, j)| if i == j { gradient(i, i) } else { gradient(i, j) + gradient(j, i) };
+    PAIRS.map(sum)
 }
 
 /// A stress as a symmetric matrix.
-fn tensor(s: &Voigt) -> Matrix3<f64> {
+pub(super) fn tensor(s: &Voigt) -> Matrix3<f64> {
     Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2])
 }
 
 /// Values of an element's nodes out of those of all nodes.
 pub fn nodal_values(mesh: &Mesh, element: usize, all: &[f64]) -> Vec<f64> {
     mesh.element_dofs(element).map(|dof| all[dof]).collect()
-}
-
-/// Makes a matrix whose upper triangle was filled exactly symmetric.
-fn mirror_upper_triangle(matrix: &mut DMatrix<f64>) {
-    for column in 0..matrix.ncols() {
-        for row in 0..column {
-            matrix[(column, row)] = matrix[(row, column)];
-        }
-    }
 }

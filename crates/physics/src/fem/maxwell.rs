@@ -139,9 +139,7 @@ fn nonnegative_least_squares(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Vec
             let columns = matrix.select_columns(&free);
             let Ok(solved) = columns.svd(true, true).solve(right, 1e-12) else { return x };
             if solved.iter().all(|value| *value > 0.0) {
-                for (&j, value) in free.iter().zip(solved.iter()) {
-                    x[j] = *value;
-                }
+                free.iter().zip(solved.iter()).for_each(|(&j, value)| x[j] = *value);
                 break;
             }
             let pairs = free.iter().zip(solved.iter());

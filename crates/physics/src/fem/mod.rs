@@ -36,7 +36,7 @@ pub use material::{
 };
 pub use maxwell::{MaxwellChain, MaxwellElement};
 pub use modulus_table::{ModulusTable, own_frequency_step};
-pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
+pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS, beside};
 pub use rotation::{RotationFrame, RotationTerms, Spin, assemble_rotation};
 pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress};
 pub use support::{

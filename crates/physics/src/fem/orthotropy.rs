@@ -5,6 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 /// Elasticity matrix over `(xx, yy, zz, xy, yz, zx)` with engineering shear strains, Pa.
 pub type Elasticity = [[f64; 6]; 6];
 
+/// The pairs of axes `(xx, yy, zz, xy, yz, zx)`.
+pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+
 /// Axes 1, 2 and 3 of an orthotropic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MaterialAxes {
@@ -17,6 +20,12 @@ pub enum MaterialAxes {
         /// A point of the axis, m.
         center: [f64; 3],
     },
+}
+
+/// The direction across an axis nearest to that of x, y and z with the smallest share along it.
+pub fn beside(axis: &Vector3<f64>) -> Vector3<f64> {
+    let own = Vector3::ith(axis.iamin(), 1.0);
+    (own - axis * axis.dot(&own)).normalize()
 }
 
 impl MaterialAxes {
@@ -46,10 +55,7 @@ impl MaterialAxes {
                 let axis = Vector3::from(*axis);
                 let offset = Vector3::from(place) - Vector3::from(*center);
                 let across = offset - axis * axis.dot(&offset);
-                let any = Vector3::ith(axis.iamin(), 1.0);
-                let radial = across
-                    .try_normalize(0.0)
-                    .unwrap_or_else(|| (any - axis * axis.dot(&any)).normalize());
+                let radial = across.try_normalize(0.0).unwrap_or_else(|| beside(&axis));
                 Matrix3::from_columns(&[radial, axis.cross(&radial), axis])
             }
         }
@@ -123,9 +129,7 @@ impl Orthotropy {
         let normal = factor.inverse();
         let mut law = [[0.0; 6]; 6];
         for i in 0..3 {
-            for j in 0..3 {
-                law[i][j] = normal[(i.max(j), i.min(j))];
-            }
+            (0..3).for_each(|j| law[i][j] = normal[(i.max(j), i.min(j))]);
         }
         // Shears in the order 12, 23, 31.
         let [g12, g13, g23] = self.shear_moduli;
@@ -184,7 +188,6 @@ impl Orthotropy {
 
 /// An elasticity over axes (columns) written over global ones: `D = T^T D' T` with `epsilon' = T epsilon`.
 fn turned(law: &Elasticity, axes: &Matrix3<f64>) -> Elasticity {
-    const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
     // Column k of T: a unit strain k over global axes, seen from the material's.
     let strains = PAIRS.map(|(i, j)| {
         let mut strain = Matrix3::zeros();

@@ -1,6 +1,7 @@
 //! Values at nodes from superconvergent points, by patches of elements.
 
 use super::element::ElementGeometry;
+use crate::linalg::dense::add;
 use crate::mesh::{ElementKind, Mesh};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -166,9 +167,7 @@ fn patches(mesh: &Mesh, in_each_region: bool) -> Vec<Vec<(usize, Vec<u32>)>> {
 fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {
     let mut around = vec![Vec::new(); mesh.node_count()];
     for e in 0..mesh.element_count() {
-        for &node in mesh.element_nodes(e) {
-            around[node as usize].push(e as u32);
-        }
+        mesh.element_nodes(e).iter().for_each(|&node| around[node as usize].push(e as u32));
     }
     around
 }
@@ -255,10 +254,7 @@ fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree, thinnest: f
     let pairs = normal.eigenvalues.iter().zip(normal.eigenvectors.column_iter());
     for (eigenvalue, vector) in pairs.filter(|(value, _)| **value > UNDETERMINED * largest) {
         let slope = (&reach * vector)[0] / eigenvalue;
-        let along = &table * vector;
-        for (weight, along) in weights.iter_mut().zip(along.iter()) {
-            *weight += slope * along;
-        }
+        add(&mut weights, slope, (&table * vector).as_slice());
     }
     weights
 }

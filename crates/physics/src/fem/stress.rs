@@ -1,7 +1,8 @@
 //! Stress recovery at the nodes.
 
 use super::MaterialField;
-use super::element::{ElementGeometry, Voigt, nodal_values};
+use super::element::{ElementGeometry, Voigt, nodal_values, tensor};
+use super::orthotropy::PAIRS;
 use super::recovery::{Degree, Recovery};
 use crate::mesh::{Mesh, SolidSector};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -51,11 +52,8 @@ impl SolidStress {
 
     /// The components in the axes that are the columns of a rotation, `R^T sigma R`.
     fn turned(&self, axes: &Matrix3<f64>) -> Self {
-        let [x, y, z, xy, yz, zx] = self.0;
-        let global = Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z);
-        let own = axes.transpose() * global * axes;
-        let of = |row: usize, column: usize| own[(row, column)];
-        Self([of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(1, 2), of(2, 0)])
+        let own = axes.transpose() * tensor(&self.0) * axes;
+        Self(PAIRS.map(|at| own[at]))
     }
 }
 

@@ -23,11 +23,8 @@ fn at_points(
 /// nothing is supported.
 pub fn assemble_supports(mesh: &Mesh) -> [Triplets; 2] {
     let mut both = <[Triplets; 2]>::default();
-    for boundary in &mesh.boundaries {
-        if let Some(support) = boundary.support() {
-            add_support(mesh, (boundary, support), &mut both);
-        }
-    }
+    let supported = mesh.boundaries.iter().filter_map(|own| Some((own, own.support()?)));
+    supported.for_each(|own| add_support(mesh, own, &mut both));
     for (all, attached) in both.iter_mut().zip(assemble_attachments(mesh)) {
         all.entries.extend(attached.entries);
     }

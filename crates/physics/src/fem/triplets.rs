@@ -29,9 +29,7 @@ impl Triplets {
     /// Adds `factor row column^T`.
     pub fn push_product(&mut self, factor: f64, row: &[(usize, f64)], column: &[(usize, f64)]) {
         for &(i, along) in row.iter().filter(|_| factor != 0.0) {
-            for &(j, across) in column {
-                self.push(i, j, factor * along * across);
-            }
+            column.iter().for_each(|&(j, across)| self.push(i, j, factor * along * across));
         }
     }
 
@@ -41,9 +39,7 @@ impl Triplets {
             self.entries.iter().fold([0; 2], |[m, n], own| [m.max(own.0 + 1), n.max(own.1 + 1)]);
         let mut ends = vec![0_usize; rows + 1];
         self.entries.iter().for_each(|entry| ends[entry.0 + 1] += 1);
-        for row in 1..ends.len() {
-            ends[row] += ends[row - 1];
-        }
+        (1..ends.len()).for_each(|row| ends[row] += ends[row - 1]);
         let mut next = ends.clone();
         let mut by_row = vec![(0_u32, 0.0); self.entries.len()];
         for &(row, column, value) in &self.entries {
@@ -108,9 +104,7 @@ impl Triplets {
     /// `y = A x` over all entries, `y` of length `rows`.
     pub fn multiply(&self, rows: usize, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; rows];
-        for &(row, column, value) in &self.entries {
-            y[row] += value * x[column];
-        }
+        self.entries.iter().for_each(|&(row, column, value)| y[row] += value * x[column]);
         y
     }
 

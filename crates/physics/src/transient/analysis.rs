@@ -180,17 +180,11 @@ fn refuse_powers(growths: &mut [Growth]) {
 fn linear_stage(rows: &[SampleRow]) -> Range<usize> {
     let (mut best, mut start) = (0..0, 0);
     let first = rows.first().map_or_else(StatusCounts::default, |row| row.counts);
-    let opened = if first.stick == 0 && first.slip > 0 { first.open } else { 0 };
-    let is_base = |counts: &StatusCounts| {
-        // Samples count the nodes of one step or of several.
-        counts.stick == 0 && counts.open * first.slip == opened * counts.slip
-    };
+    // Open and slipping nodes at the start: samples count the nodes of one step or of several.
+    let is_base = first.stick == 0 && first.slip > 0;
+    let [opened, slipped] = if is_base { [first.open, first.slip] } else { [0, 1] };
     for (i, row) in rows.iter().enumerate() {
-        let is_linear = match opened {
-            0 => row.counts.stick + row.counts.open == 0,
-            _ => is_base(&row.counts),
-        };
-        if !is_linear {
+        if row.counts.stick > 0 || row.counts.open * slipped != opened * row.counts.slip {
             start = i + 1;
         } else if i + 1 - start > best.len() {
             best = start..i + 1;
@@ -205,16 +199,17 @@ impl LastFifth {
         let rows = &record.rows[range.clone()];
         let mut counts = StatusCounts::default();
         let mut powers = ContactPowers::default();
-        let (mut material_damping, mut harmonics) = (0.0, [0.0; HARMONIC_COUNT]);
+        let mut material_damping = 0.0;
         let share = 1.0 / rows.len() as f64;
         for row in rows {
             counts += row.counts;
             powers += row.powers.scaled(share);
             material_damping += share * row.material_damping;
-            for (sum, [re, im]) in harmonics.iter_mut().zip(row.harmonics) {
-                *sum += share * re.hypot(im);
-            }
         }
+        let mean = |n: usize| -> f64 {
+            let amplitudes = range.clone().filter_map(|k| record.amplitude(k, n));
+            amplitudes.map(|[re, im]| share * re.hypot(im)).sum()
+        };
         let main = main_vibration(record, range.clone());
         let main_amplitude = main.and_then(|(n, _)| Some(rms(&series(record, range.clone(), n)?)));
         Self {
@@ -224,26 +219,11 @@ impl LastFifth {
             status: counts.fractions(),
             powers,
             material_damping,
-            harmonics,
-            significant: significant(record, range.clone()),
+            harmonics: std::array::from_fn(mean),
+            significant: record.significant(mean),
             probes: probes(record, &range),
         }
     }
-}
-
-/// Mean amplitudes of the harmonics that matter, without the mean twist.
-fn significant(record: &Recorder, range: Range<usize>) -> Vec<(usize, f64)> {
-    let share = 1.0 / range.len() as f64;
-    let mean = |n: usize| {
-        let amplitudes = range.clone().filter_map(|k| record.amplitude(k, n));
-        amplitudes.map(|[re, im]| share * re.hypot(im)).sum::<f64>()
-    };
-    let followed = record.followed_harmonics().skip(1);
-    let means: Vec<(usize, f64)> = followed.map(|n| (n, mean(n))).collect();
-    let largest = means.iter().fold(0.0, |m: f64, (_, a)| m.max(*a));
-    let limit = super::recorder::SIGNIFICANT_SHARE * largest;
-    let above = |&(_, amplitude): &(usize, f64)| amplitude > 0.0 && amplitude >= limit;
-    means.into_iter().filter(above).collect()
 }
 
 /// Motion of each probe in its two or three directions.

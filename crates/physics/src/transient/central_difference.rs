@@ -173,14 +173,13 @@ impl<'a> CentralDifference<'a> {
         let [kinetic_energy, strain_energy] = self.energies();
         let contact_energy = self.contact_energy();
         let energy = kinetic_energy + strain_energy + contact_energy;
-        let account = &mut self.account;
-        account.largest = account.largest.max(energy);
-        let imbalance = (energy - account.initial - account.net_work).abs();
+        self.account.largest = self.account.largest.max(energy);
+        let imbalance = (energy - self.account.initial - self.account.net_work).abs();
         // A body at rest has no energy to be relative to.
-        let balance_residual = if imbalance == 0.0 { 0.0 } else { imbalance / account.largest };
+        let balance_residual =
+            if imbalance == 0.0 { 0.0 } else { imbalance / self.account.largest };
         self.check(energy, balance_residual)?;
-        let account = &mut self.account;
-        account.largest_residual = account.largest_residual.max(balance_residual);
+        self.account.largest_residual = self.account.largest_residual.max(balance_residual);
         let step = self.next_step - 1;
         let steps = if step == 0 { 1 } else { self.plan.steps_per_sample };
         let index = step / self.plan.steps_per_sample;

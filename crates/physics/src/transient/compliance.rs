@@ -164,11 +164,7 @@ fn stiffening_after(
     let round_off = 2.0 * f64::EPSILON * before.abs().max(free.abs());
     for _ in 0..NEWTON_STEPS {
         let value = excess(after);
-        if value > 0.0 {
-            upper = after;
-        } else {
-            lower = after;
-        }
+        *if value > 0.0 { &mut upper } else { &mut lower } = after;
         let mut next = after - value / slope(after);
         // Beyond the bounds, or far up an exponential, where the steps do not shrink.
         let is_slow = 2.0 * (next - after).abs() > moved;

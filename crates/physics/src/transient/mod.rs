@@ -33,4 +33,4 @@ pub use settings::{
     whole_intervals,
 };
 pub use settling::{Drift, EndState, Settling, Unsettled};
-pub use vibration::{TwoFrequencies, WEAKEST_LINE, strongest_two};
+pub use vibration::{TwoFrequencies, WEAKEST_LINE, rms, strongest_two};

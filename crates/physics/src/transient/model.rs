@@ -12,7 +12,7 @@ use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
 use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
 use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
-    assemble_supports,
+    assemble_supports, beside,
 };
 use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector};
 use crate::prestress::Assembly;
@@ -123,9 +123,7 @@ impl<'a> TransientModel<'a> {
             SteppedBody::Assembly { assembly, axis } => {
                 let [center, axis] = axis.map(Vector3::from);
                 let arm = Vector3::from(assembly.mesh.nodes[node]) - center;
-                // The axis with the smallest share along the other one gives the zero of the angle.
-                let first = Vector3::ith(axis.iamin(), 1.0);
-                let first = (first - axis * axis.dot(&first)).normalize();
+                let first = beside(&axis); // The zero of the angle.
                 let [x, y] = [arm.dot(&first), arm.dot(&axis.cross(&first))];
                 [x.hypot(y), y.atan2(x)]
             }
@@ -178,15 +176,13 @@ impl<'a> TransientModel<'a> {
     /// bounds the step.
     fn bounding_damping(&self, rates: &[f64], is_part: &dyn Fn(usize) -> bool) -> RayleighDamping {
         let mut bound = RayleighDamping::default();
-        let mut cover = |own: RayleighDamping| {
-            bound.mass_coefficient = bound.mass_coefficient.max(own.mass_coefficient);
-            bound.stiffness_coefficient =
-                bound.stiffness_coefficient.max(own.stiffness_coefficient);
-        };
         let mesh = self.mesh();
         let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
         for e in (0..mesh.element_count()).filter(|&e| is_part(first_dof(e))) {
-            cover(self.material.own_damping(mesh.region(e)).unwrap_or(self.damping));
+            let own = self.material.own_damping(mesh.region(e)).unwrap_or(self.damping);
+            bound.mass_coefficient = bound.mass_coefficient.max(own.mass_coefficient);
+            bound.stiffness_coefficient =
+                bound.stiffness_coefficient.max(own.stiffness_coefficient);
         }
         let rates = rates.iter().enumerate().filter(|(dof, _)| is_part(*dof));
         bound.mass_coefficient += rates.map(|(_, rate)| *rate).fold(0.0, f64::max);

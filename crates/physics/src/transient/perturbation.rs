@@ -52,17 +52,15 @@ impl Perturbation {
     /// Refuses harmonics that `elements` around do not hold.
     pub(super) fn check_harmonics(&self, elements: usize) -> Result<(), TransientError> {
         let limit = elements / 2;
-        match self.waves.iter().find(|wave| wave.harmonic > limit) {
-            Some(wave) => {
-                let problem = format!(
-                    " holds {}, above {limit}, the highest harmonic that {elements} elements around the circumference can carry",
-                    wave.harmonic
-                );
-                let fitting = format!("at most {limit}");
-                Err(TransientError::setting("perturbation.harmonics", fitting, problem))
-            }
-            None => Ok(()),
-        }
+        let beyond = self.waves.iter().find(|wave| wave.harmonic > limit);
+        beyond.map_or(Ok(()), |wave| {
+            let problem = format!(
+                " holds {}, above {limit}, the highest harmonic that {elements} elements around the circumference can carry",
+                wave.harmonic
+            );
+            let fitting = format!("at most {limit}");
+            Err(TransientError::setting("perturbation.harmonics", fitting, problem))
+        })
     }
 
     /// Velocity of the waves along the sliding, m/s.

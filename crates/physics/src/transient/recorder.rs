@@ -9,6 +9,7 @@ use super::{
 };
 use crate::contact::ContactInterface;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Harmonics of the contact edge that every sample holds, `n = 0..=8`.
@@ -18,7 +19,7 @@ pub const HARMONIC_COUNT: usize = 9;
 const HIGHEST_FOLLOWED: usize = 24;
 
 /// Share of the largest harmonic above which one matters.
-pub const SIGNIFICANT_SHARE: f64 = 1e-3;
+const SIGNIFICANT_SHARE: f64 = 1e-3;
 
 /// What to keep.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -130,7 +131,7 @@ pub struct Recorder {
     pub sample_interval: f64,
     /// Fields at the snapshot times reached so far.
     pub snapshots: Vec<Snapshot>,
-    snapshot_indices: Vec<u64>,
+    snapshot_indices: BTreeSet<u64>,
     tributary_lengths: Vec<f64>,
     /// Angle of each contact node, rad.
     pub contact_angles: Vec<f64>,
@@ -203,10 +204,7 @@ impl Recorder {
             probe_turns: probe_turns(run.model(), &settings.probes),
             rows: Vec::with_capacity(plan.samples as usize),
             probe_rows: vec![Vec::with_capacity(plan.samples as usize); probes],
-            axial_rows: match components {
-                3 => vec![Vec::new(); probes],
-                _ => Vec::new(),
-            },
+            axial_rows: vec![Vec::new(); if components == 3 { probes } else { 0 }],
             raw_accelerations: settings.raw_acceleration.then(|| vec![Vec::new(); probes]),
             frames: Vec::new(),
             frame_stride: (stride.round() as u64).max(1),
@@ -306,10 +304,17 @@ impl Recorder {
             let amplitudes = (0..self.rows.len()).filter_map(|k| self.amplitude(k, harmonic));
             amplitudes.fold(0.0_f64, |m, [re, im]| m.max(re.hypot(im)))
         };
-        let all: Vec<(usize, f64)> = self.followed_harmonics().map(|n| (n, largest(n))).collect();
-        let limit = SIGNIFICANT_SHARE * all[1..].iter().fold(0.0, |m: f64, (_, a)| m.max(*a));
-        let matters = |&&(n, a): &&(usize, f64)| n < HARMONIC_COUNT || (a > 0.0 && a >= limit);
-        all.iter().filter(matters).map(|&(n, _)| n).collect()
+        let higher = self.significant(largest).into_iter().map(|own| own.0);
+        (0..HARMONIC_COUNT).chain(higher.filter(|n| *n >= HARMONIC_COUNT)).collect()
+    }
+
+    /// The followed harmonics `n >= 1` of which a size is above a thousandth of the largest.
+    pub(super) fn significant(&self, size: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
+        let sizes = self.followed_harmonics().skip(1).map(|n| (n, size(n)));
+        let mut sizes: Vec<(usize, f64)> = sizes.collect();
+        let limit = SIGNIFICANT_SHARE * sizes.iter().fold(0.0, |m: f64, (_, a)| m.max(*a));
+        sizes.retain(|(_, a)| *a > 0.0 && *a >= limit);
+        sizes
     }
 
     /// Largest amplitude of the harmonics `0..=8` over some samples, or the expansion of the cylinder where that is larger, m.
@@ -333,31 +338,26 @@ fn probe_turns(model: &TransientModel<'_>, probes: &[usize]) -> Vec<[[f64; 3]; 3
     probes.iter().map(turn).collect()
 }
 
-/// Sample nearest to each snapshot time, ascending.
-fn snapshot_indices(plan: &StepPlan, times: &[f64]) -> Result<Vec<u64>, TransientError> {
-    let mut indices = Vec::new();
-    for &time in times {
+/// Sample nearest to each snapshot time.
+fn snapshot_indices(plan: &StepPlan, times: &[f64]) -> Result<BTreeSet<u64>, TransientError> {
+    let index = |time: &f64| {
         let index = (time / plan.sample_interval).round();
-        if !(index >= 0.0 && index < plan.samples as f64) {
-            let fitting = format!("0 to {}", plan.end_time());
-            let problem = format!(" holds {time} s: the run covers {fitting} s");
-            return Err(TransientError::setting("snapshots", fitting, problem));
+        if index >= 0.0 && index < plan.samples as f64 {
+            return Ok(index as u64);
         }
-        indices.push(index as u64);
-    }
-    indices.sort_unstable();
-    indices.dedup();
-    Ok(indices)
+        let fitting = format!("0 to {}", plan.end_time());
+        let problem = format!(" holds {time} s: the run covers {fitting} s");
+        Err(TransientError::setting("snapshots", fitting, problem))
+    };
+    times.iter().map(index).collect()
 }
 
 /// Harmonics above 8 to follow on an edge that holds them up to `limit`.
 fn higher_harmonics(limit: usize, seeded: &[usize]) -> Vec<usize> {
-    let mut followed: Vec<usize> = (HARMONIC_COUNT..=HIGHEST_FOLLOWED.min(limit)).collect();
+    let usual = HARMONIC_COUNT..=HIGHEST_FOLLOWED.min(limit);
     let beyond = |n: &usize| *n > HIGHEST_FOLLOWED && *n <= limit;
-    followed.extend(seeded.iter().copied().filter(beyond));
-    followed.sort_unstable();
-    followed.dedup();
-    followed
+    let all: BTreeSet<usize> = usual.chain(seeded.iter().copied().filter(beyond)).collect();
+    all.into_iter().collect()
 }
 
 /// `cos` and `sin` of each harmonic at each contact node, times the weight of its amplitude.

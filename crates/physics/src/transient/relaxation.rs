@@ -149,18 +149,16 @@ impl Relaxation {
     /// # Errors
     /// [`TransientError::ForeignState`] for the elements of another body.
     pub fn restore(&mut self, state: &[Vec<f64>]) -> Result<(), TransientError> {
-        let count = |all: &[Vec<f64>]| all.iter().map(Vec::len).sum::<usize>();
-        let (expected, found) = (count(&self.state()), count(state));
-        let sizes: Vec<usize> = self.state().iter().map(Vec::len).collect();
-        if sizes != state.iter().map(Vec::len).collect::<Vec<usize>>() {
+        let sizes = |all: &[Vec<f64>]| all.iter().map(Vec::len).collect::<Vec<usize>>();
+        let [expected, found] = [sizes(&self.state()), sizes(state)];
+        if found != expected {
+            let [expected, found] = [expected, found].map(|own| own.iter().sum());
             return Err(TransientError::ForeignState { found, expected });
         }
         let mut pairs = state.chunks_exact(2);
         for part in &mut self.parts {
-            for own in &mut part.elements {
-                if let Some(pair) = pairs.next() {
-                    own.stretch.clone_from_slice(pair);
-                }
+            for (own, pair) in part.elements.iter_mut().zip(&mut pairs) {
+                own.stretch.clone_from_slice(pair);
             }
             part.look(BEFORE);
         }

@@ -184,27 +184,27 @@ pub fn whole_intervals(duration: f64, sample_interval: f64) -> u64 {
 
 pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientError> {
     let perturbation = &settings.perturbation;
-    let mut positive =
-        vec![("duration", settings.duration), ("sample_interval", settings.sample_interval)];
-    if let TimeStep::Seconds(step) = settings.time_step {
-        positive.push(("time_step", step));
-    }
-    for (setting, value) in positive {
-        if !(value > 0.0 && value.is_finite()) {
-            let problem = format!(" = {value} s must be a positive finite time");
-            return Err(TransientError::setting(setting, "a positive time".to_owned(), problem));
-        }
-    }
+    let step = match settings.time_step {
+        TimeStep::Seconds(step) => step,
+        TimeStep::Auto => settings.sample_interval,
+    };
     let velocities = perturbation.waves.iter().map(|wave| wave.velocity.abs());
-    for (setting, value) in [
-        ("expansion_time", settings.expansion_time),
-        ("perturbation.velocity", velocities.fold(0.0, f64::max)),
-        ("perturbation.noise", perturbation.noise),
-        ("perturbation.at", perturbation.time),
+    for (setting, value, is_positive) in [
+        ("duration", settings.duration, true),
+        ("sample_interval", settings.sample_interval, true),
+        ("time_step", step, true),
+        ("expansion_time", settings.expansion_time, false),
+        ("perturbation.velocity", velocities.fold(0.0, f64::max), false),
+        ("perturbation.noise", perturbation.noise, false),
+        ("perturbation.at", perturbation.time, false),
     ] {
-        if !(value >= 0.0 && value.is_finite()) {
-            let problem = format!(" = {value} must be zero or a positive finite number");
-            return Err(TransientError::setting(setting, "zero or more".to_owned(), problem));
+        let (is_high, must, fitting) = match is_positive {
+            true => (value > 0.0, "s must be a positive finite time", "a positive time"),
+            false => (value >= 0.0, "must be zero or a positive finite number", "zero or more"),
+        };
+        if !(is_high && value.is_finite()) {
+            let problem = format!(" = {value} {must}");
+            return Err(TransientError::setting(setting, fitting.to_owned(), problem));
         }
     }
     let duration = settings.duration;

@@ -175,15 +175,11 @@ impl Settling {
         let main = main_vibration(record, fifth.clone())
             .filter(|_| short.is_some() || !dies_out(record, &fifth, LARGEST_DRIFT));
         let short = short.filter(|_| main.is_none());
-        match short.map_or_else(|| Self::judge(record, &fifth, main), Err) {
-            Ok(settled) => settled,
-            Err(reason) => Self {
-                state: EndState::Unsettled,
-                from: None,
-                drift: if let Unsettled::Drifting(drift) = reason { Some(drift) } else { None },
-                reason: Some(reason),
-            },
-        }
+        let judged = short.map_or_else(|| Self::judge(record, &fifth, main), Err);
+        judged.unwrap_or_else(|reason| {
+            let drift = if let Unsettled::Drifting(drift) = reason { Some(drift) } else { None };
+            Self { state: EndState::Unsettled, from: None, drift, reason: Some(reason) }
+        })
     }
 
     fn judge(
@@ -261,11 +257,8 @@ fn stationary(
         }
         end = block.start;
     }
-    if drift.largest() < LARGEST_DRIFT {
-        Ok((drift, from))
-    } else {
-        Err(Unsettled::Drifting(drift))
-    }
+    let is_still = drift.largest() < LARGEST_DRIFT;
+    is_still.then_some((drift, from)).ok_or(Unsettled::Drifting(drift))
 }
 
 /// A vibration of a harmonic, or of a body without symmetry, whose modes are no harmonics.

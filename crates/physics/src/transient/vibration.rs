@@ -74,7 +74,7 @@ pub(super) fn series(record: &Recorder, range: Range<usize>, harmonic: usize) ->
 }
 
 /// Root mean square of a series.
-pub(super) fn rms(series: &[c64]) -> f64 {
+pub fn rms(series: &[c64]) -> f64 {
     let sum: f64 = series.iter().map(c64::norm_sqr).sum();
     (sum / series.len().max(1) as f64).sqrt()
 }

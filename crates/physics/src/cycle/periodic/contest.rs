@@ -53,9 +53,8 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             let turned: Vec<c64> = mode.shape.iter().map(|u| u * c64::I).collect();
             let later = GrowingMode { shape: &turned, ..mode };
             let pattern = |mode: &GrowingMode<'_>| {
-                let mut own = difference(&mode.state(&map, 1.0).motion, &rest.motion);
-                own.iter_mut().for_each(|value| *value /= slip); // For each metre of its largest slip.
-                own
+                let own = difference(&mode.state(&map, 1.0).motion, &rest.motion);
+                own.into_iter().map(|value| value / slip).collect() // For each metre of its largest slip.
             };
             Seeded {
                 number,

@@ -65,8 +65,7 @@ impl Goal {
         match self {
             Self::Value(value) => place[0] - value / scales[0],
             Self::Length { from, tangent, length } => {
-                let along = |i: usize| tangent[i] * (place[i] - from[i]);
-                along(0) + along(1) - length
+                tangent[0] * (place[0] - from[0]) + tangent[1] * (place[1] - from[1]) - length
             }
         }
     }
@@ -178,11 +177,8 @@ impl<'b, 'a> Corrector<'b, 'a> {
     /// A motion that dies, leaves its counterface, or does not repeat itself.
     pub fn correct(&mut self, near: &Point, from: Guess, goal: &Goal) -> Result<Point, CycleError> {
         let found = self.search(near, from.clone(), goal);
-        let is_good = |found: &Result<Point, CycleError>| {
-            let residual = found.as_ref().map(|point| point.found.residual);
-            residual.is_ok_and(|residual| residual < GOOD)
-        };
-        if is_good(&found) || matches!(found, Err(CycleError::Stepping(_))) {
+        let is_good = found.as_ref().is_ok_and(|point| point.found.residual < GOOD);
+        if is_good || matches!(found, Err(CycleError::Stepping(_))) {
             return found;
         }
         // What the last points have taught may be of another status of the nodes: once more without it.

@@ -17,8 +17,7 @@ impl Follower<'_, '_, '_> {
     /// cycle with sticking and one without meet, and no tangent leads on. The other cycles lie off the line on which these came.
     pub(super) fn turn(&mut self) -> Result<bool, TransientError> {
         // What hardly repeats itself lies beyond the corner.
-        let is_good = |own: &Point| own.found.residual < GOOD;
-        let good = self.points.iter().rposition(is_good).unwrap_or(0);
+        let good = self.points.iter().rposition(|own| own.found.residual < GOOD).unwrap_or(0);
         let at = good.max(self.points.len().saturating_sub(4));
         self.points.truncate(at + 1);
         if at == 0 || self.here().is_fold || self.tangent[0].abs() < ALONG {

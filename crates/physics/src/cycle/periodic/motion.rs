@@ -256,8 +256,7 @@ fn widest(samples: &[Vec<[f64; 2]>], touches: &[bool]) -> (usize, f64) {
 fn later(map: &mut PeriodMap<'_>, state: &PeriodicState, steps: usize) -> PeriodicState {
     map.place(state);
     (0..steps).for_each(|_| map.run.advance());
-    let motion = map.motion();
-    PeriodicState { motion, period: state.period }
+    PeriodicState { motion: map.motion(), period: state.period }
 }
 
 /// Harmonics 1, 2, ... of displacements over one period: `samples[step][node]`, evenly spaced.

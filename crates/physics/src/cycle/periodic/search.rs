@@ -110,14 +110,11 @@ pub fn find_settled(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Fou
 }
 
 /// A result with the periods of the whole search.
-fn counted(result: Result<Found, CycleError>, periods: usize) -> Result<Found, CycleError> {
-    match result {
-        Ok(found) => Ok(Found { periods, ..found }),
-        Err(CycleError::NotConverged { residual, frequency_hz, .. }) => {
-            Err(CycleError::NotConverged { periods, residual, frequency_hz })
-        }
-        Err(error) => Err(error),
+fn counted(mut result: Result<Found, CycleError>, all: usize) -> Result<Found, CycleError> {
+    if let Ok(Found { periods, .. }) | Err(CycleError::NotConverged { periods, .. }) = &mut result {
+        *periods = all;
     }
+    result
 }
 
 /// The best motion of a search with so many plain periods first, at least and at most.

@@ -39,7 +39,6 @@ impl FlatFace {
     pub fn of(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<Self> {
         let normals: Vec<Vector3<f64>> = faces.iter().map(|face| normal(mesh, face)).collect();
         let neighbours = neighbours(faces);
-        let is_flat = |a: usize, b: usize| normals[a].dot(&normals[b]) > 1.0 - FLAT;
         let (mut group_of, mut groups) = (vec![usize::MAX; faces.len()], Vec::new());
         for seed in 0..faces.len() {
             if group_of[seed] != usize::MAX {
@@ -51,7 +50,7 @@ impl FlatFace {
             while let Some(&face) = group.get(next) {
                 next += 1;
                 for &other in &neighbours[face] {
-                    if is_flat(seed, other) {
+                    if normals[seed].dot(&normals[other]) > 1.0 - FLAT {
                         if group_of[other] == usize::MAX {
                             group_of[other] = groups.len();
                             group.push(other);
@@ -81,9 +80,7 @@ impl FlatFace {
             // Corners share the area of each element: midside nodes of quadratic ones move between them.
             let corners = face.corners();
             let share = mesh.face_area(std::slice::from_ref(face)) / corners.len() as f64;
-            for &node in corners {
-                *areas.entry(node).or_default() += share;
-            }
+            corners.iter().for_each(|&node| *areas.entry(node).or_default() += share);
         }
         let mut flat = Self::default();
         for (node, area) in areas {

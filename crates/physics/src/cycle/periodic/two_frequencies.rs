@@ -5,7 +5,7 @@ use crate::cycle::CycleError;
 use crate::cycle::field::slips;
 use crate::linalg::{c64, interruption};
 use crate::signal::{RotatingLine, rotating_lines};
-use crate::transient::{WEAKEST_LINE, strongest_two};
+use crate::transient::{WEAKEST_LINE, rms, strongest_two};
 
 /// Periods before the motion is looked at, and those over which it is.
 const PERIODS: [usize; 2] = [300, 200];
@@ -38,8 +38,7 @@ pub fn transient_from(
 /// The frequencies, Hz, of the strongest vibration of a contact node along the counterface and of the strongest one that is
 /// neither a multiple of it nor of its half or third, if there is one.
 fn frequencies(series: &[c64], rate: f64) -> Option<(f64, Option<f64>)> {
-    let size = series.iter().map(|value| value.norm_sqr()).sum::<f64>() / series.len() as f64;
-    let lines = rotating_lines(series, rate, WEAKEST_LINE * size.sqrt()).into_iter();
+    let lines = rotating_lines(series, rate, WEAKEST_LINE * rms(series)).into_iter();
     let lines: Vec<(usize, RotatingLine)> =
         lines.filter(|line| line.frequency_hz > 0.0).map(|line| (0, line)).collect(); // A real series has each line at both signs.
     let (first, second) = strongest_two(&lines, 0, rate / series.len() as f64)?; // rate / N: what the record resolves.

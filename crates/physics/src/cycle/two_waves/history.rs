@@ -6,7 +6,7 @@ use super::super::state::{Phase, PointState, WaveState};
 use super::TwoWaves;
 use crate::linalg::{c64, interruption};
 use crate::signal::rotating_lines;
-use crate::transient::CentralDifference;
+use crate::transient::{CentralDifference, rms};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -96,11 +96,7 @@ impl History {
             });
             own.next()
         };
-        let size = |wave: usize| {
-            let own = &self.waves[wave];
-            (own.iter().map(|z| z.norm_sqr()).sum::<f64>() / own.len() as f64).sqrt()
-        };
-        let first = strongest(0, None, WEAKEST * size(0))?;
+        let first = strongest(0, None, WEAKEST * rms(&self.waves[0]))?;
         let second = strongest(1, Some(first.frequency_hz), WEAKEST * first.amplitude)?;
         let lines = [first, second];
         let refined = [0, 1].map(|wave| self.refined(wave, TAU * lines[wave].frequency_hz));

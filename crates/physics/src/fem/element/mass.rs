@@ -13,10 +13,8 @@ impl ElementGeometry {
     /// Element lumped mass of each node, kg, in the plane for each metre of thickness: row sums for linear kinds; for quadratic ones, whose
     /// row sums are not positive at the corners, the diagonal scaled to the element's mass (Hinton, Rock and Zienkiewicz 1976).
     pub fn lumped_mass(&self, material: &ElasticMaterial) -> Vec<f64> {
-        let scalar = self.scalar_mass(material);
-        let full = DMatrix::from_fn(scalar.nrows(), scalar.ncols(), |row, column| {
-            scalar[(row.min(column), row.max(column))]
-        });
+        let mut full = self.scalar_mass(material);
+        full.fill_lower_triangle_with_upper_triangle();
         if !self.kind.is_quadratic() {
             return full.row_iter().map(|row| row.sum()).collect();
         }
@@ -31,9 +29,7 @@ impl ElementGeometry {
         for point in self.integration_points() {
             for column in 0..count {
                 let weighted = material.density * point.measure * point.values[column];
-                for row in 0..=column {
-                    scalar[(row, column)] += point.values[row] * weighted;
-                }
+                (0..=column).for_each(|row| scalar[(row, column)] += point.values[row] * weighted);
             }
         }
         scalar

@@ -1,6 +1,6 @@
 //! Strains and stresses at the points of an element.
 
-use super::{ElementGeometry, IntegrationPoint, Voigt, inverse, stress_of};
+use super::{ElementGeometry, IntegrationPoint, Voigt, inverse, strain_of, stress_of};
 use crate::fem::ElasticMaterial;
 use crate::mesh::ElementKind;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -94,11 +94,11 @@ impl ElementGeometry {
         let mut strains = Vec::new();
         for (slope, frame) in point.gradients.iter().zip(&self.frames) {
             let axes = (0..self.dimension()).map(|axis| deformed(frame.column(axis).into_owned()));
-            strains.extend(axes.map(|e| strain_along(slope, &e)));
+            strains.extend(axes.map(|e| strain_of(|i, j| slope[i] * e[j])));
         }
         for slope in modes {
             let axes = (0..3).map(|axis| deformed(Vector3::ith(axis, 1.0)));
-            strains.extend(axes.map(|e| strain_along(slope, &e)));
+            strains.extend(axes.map(|e| strain_of(|i, j| slope[i] * e[j])));
         }
         strains
     }
@@ -135,16 +135,4 @@ impl ElementGeometry {
         let count = components.len();
         DMatrix::from_fn(count, count, |row, column| law[components[row]][components[column]])
     }
-}
-
-/// Strain of a displacement along `e` with the gradient `g` of its size.
-fn strain_along(g: &Vector3<f64>, e: &Vector3<f64>) -> Voigt {
-    [
-        g.x * e.x,
-        g.y * e.y,
-        g.z * e.z,
-        g.y * e.x + g.x * e.y,
-        g.z * e.y + g.y * e.z,
-        g.z * e.x + g.x * e.z,
-    ]
 }

@@ -45,9 +45,7 @@ impl SectorStencil {
             per_sector,
             simd: simd.min(SimdLevel::detect()),
         };
-        for (line, &mass) in (1..).zip(&node_masses[nodes]) {
-            own.fill_masses(line, 0..2, mass);
-        }
+        (1..).zip(&node_masses[nodes]).for_each(|(line, &mass)| own.fill_masses(line, 0..2, mass));
         Ok(own)
     }
 }

@@ -95,19 +95,12 @@ fn largest_tridiagonal(diagonal: &[f64], coupling: &[f64]) -> f64 {
         }
         // The pivots of T - x are all negative exactly when x lies above every eigenvalue.
         let mut pivot = diagonal[0] - middle;
-        let mut is_above = pivot < 0.0;
-        for i in 1..diagonal.len() {
-            if !is_above {
-                break;
-            }
+        let mut next = (1..diagonal.len()).map(|i| {
             pivot = diagonal[i] - middle - coupling[i - 1] * coupling[i - 1] / pivot;
-            is_above = pivot < 0.0;
-        }
-        if is_above {
-            high = middle;
-        } else {
-            low = middle;
-        }
+            pivot
+        });
+        let is_above = diagonal[0] < middle && next.all(|pivot| pivot < 0.0);
+        *if is_above { &mut high } else { &mut low } = middle;
     }
     high
 }

@@ -39,6 +39,12 @@ impl StepCoefficients {
         let RayleighDamping { mass_coefficient, stiffness_coefficient } = *damping;
         Self { time_step, mass_coefficient, stiffness_coefficient }
     }
+
+    /// Velocity `v - dt (q + alpha_R v + beta_R z)` after a step, of one dof.
+    #[inline(always)]
+    pub fn moved(&self, v: f64, q: f64, z: f64) -> f64 {
+        v - self.time_step * (q + (self.mass_coefficient * v + self.stiffness_coefficient * z))
+    }
 }
 
 /// Why an operator cannot represent a mesh, and which one can.
@@ -102,8 +108,6 @@ pub fn gather(operator: &dyn StiffnessOperator, field: &[f64]) -> Vec<f64> {
 /// A field from a vector over all dofs; padding is zero.
 pub fn scatter(operator: &dyn StiffnessOperator, vector: &[f64]) -> AlignedVector {
     let mut field = AlignedVector::zeros(operator.field_length());
-    for (dof, &value) in vector.iter().enumerate() {
-        field[operator.position(dof)] = value;
-    }
+    vector.iter().enumerate().for_each(|(dof, &value)| field[operator.position(dof)] = value);
     field
 }

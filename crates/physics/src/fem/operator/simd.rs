@@ -1,7 +1,6 @@
 //! Choice of instruction set.
 
 use std::fmt;
-use std::str::FromStr;
 
 /// Instruction set of the kernels.
 ///
@@ -62,7 +61,11 @@ impl SimdLevel {
         if name == "auto" {
             return Ok(Self::detect());
         }
-        name.parse::<Self>()?.available()
+        let mut all = [Self::Scalar, Self::Avx2, Self::Avx512].into_iter();
+        let found = all.find(|level| level.to_string() == name).ok_or_else(|| {
+            SimdError(format!("simd level \"{name}\" is none of auto, scalar, avx2, avx512"))
+        });
+        found?.available()
     }
 }
 
@@ -73,18 +76,5 @@ impl fmt::Display for SimdLevel {
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
         })
-    }
-}
-
-impl FromStr for SimdLevel {
-    type Err = SimdError;
-
-    fn from_str(name: &str) -> Result<Self, SimdError> {
-        [Self::Scalar, Self::Avx2, Self::Avx512]
-            .into_iter()
-            .find(|level| level.to_string() == name)
-            .ok_or_else(|| {
-                SimdError(format!("simd level \"{name}\" is none of auto, scalar, avx2, avx512"))
-            })
     }
 }

@@ -73,9 +73,7 @@ impl<const D: usize> SparseOperator<D> {
             false => (0..nodes as u32).collect(),
         };
         let mut places = vec![0; nodes];
-        for (k, &node) in order.iter().enumerate() {
-            places[node as usize] = (D * k) as u32;
-        }
+        order.iter().enumerate().for_each(|(k, &node)| places[node as usize] = (D * k) as u32);
 
         // Rows and masses in that order.
         let mut rows = BlockRows { starts: vec![0], columns: Vec::new(), blocks: Vec::new() };

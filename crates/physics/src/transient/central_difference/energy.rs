@@ -69,9 +69,7 @@ impl CentralDifference<'_> {
         let before = self.energy_before_step();
         let kick = scatter(self.operator, velocity);
         let fields = &mut self.fields;
-        for (v, added) in fields.velocity.iter_mut().zip(kick.iter()) {
-            *v += added;
-        }
+        fields.velocity.iter_mut().zip(kick.iter()).for_each(|(v, added)| *v += added);
         self.operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
         if self.next_step > 0 {
             self.relaxation.rewind(&self.fields, self.plan.time_step);
@@ -102,8 +100,7 @@ impl CentralDifference<'_> {
         let speed = |node: usize| {
             let component =
                 |c: usize| self.fields.velocity[self.operator.position(count * node + c)];
-            let speed = (2..count)
-                .fold(component(0).hypot(component(1)), |size, c| size.hypot(component(c)));
+            let speed = (1..count).fold(component(0), |size, c| size.hypot(component(c)));
             if speed.is_finite() { speed } else { f64::MAX }
         };
         let speeds = (0..self.operator.dof_count() / count).map(|node| (node, speed(node)));

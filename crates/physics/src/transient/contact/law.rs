@@ -56,7 +56,6 @@ impl TouchingSurfaces {
         if penetration > 0.0 { mass * penetration / (dt * dt) } else { 0.0 }
     }
 
-    /// The normal force of a spring.
     fn compress(&mut self, point: &ContactPoint, free: &FreePoint, step: &Step) -> f64 {
         let dt = step.coefficients.time_step;
         let [earlier, now, later] = step.shares.map(|share| self.pushed(free.place, point, share));

@@ -13,7 +13,6 @@ impl LagrangeContact {
         if total == 0.0 { 0.0 } else { sum / total }
     }
 
-    /// The surfaces of point `p`.
     fn surfaces_of(&self, p: usize) -> Option<&TouchingSurfaces> {
         self.surfaces.iter().find(|surfaces| surfaces.points.contains(&p))
     }

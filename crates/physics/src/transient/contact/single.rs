@@ -4,7 +4,7 @@ use super::law::FreePoint;
 use super::powers::Account;
 use super::{ContactPowers, LagrangeContact, StatusCounts, Step};
 use crate::contact::ContactStatus;
-use crate::fem::operator::{MotionFields, StepCoefficients};
+use crate::fem::operator::MotionFields;
 
 impl LagrangeContact {
     /// [`Self::apply`] point by point.
@@ -13,9 +13,7 @@ impl LagrangeContact {
         fields: &mut MotionFields,
         step: &Step,
     ) {
-        let StepCoefficients { time_step: dt, mass_coefficient, stiffness_coefficient } =
-            step.coefficients;
-        let rows = TANGENTS + 1;
+        let (coefficients, rows) = (step.coefficients, TANGENTS + 1);
         let (displacement, velocity) = (&fields.displacement[..], &fields.velocity[..]);
         let (elastic, elastic_rate) = (&mut fields.elastic[..], &fields.elastic_rate[..]);
         self.ambiguous = 0;
@@ -30,15 +28,13 @@ impl LagrangeContact {
                     FreePoint { place, separation: 0.0, before: [0.0; 3], free: [0.0; 3] };
                 for (c, dof) in dofs.iter_mut().enumerate() {
                     let (v, q) = (velocity[dof.place], elastic[dof.place]);
-                    let damping =
-                        mass_coefficient * v + stiffness_coefficient * elastic_rate[dof.place];
                     dof.before = [v, q];
                     // In the plane rows are the dofs themselves.
                     if TANGENTS > 1 {
                         along[c] = self.entries[rows * i + c].1;
                     }
                     free.before[c] = along[c] * v;
-                    free.free[c] = along[c] * (v - dt * (q + damping));
+                    free.free[c] = along[c] * coefficients.moved(v, q, elastic_rate[dof.place]);
                 }
                 free.separation = along[0] * displacement[dofs[0].place];
                 // The forces, into the accelerations.

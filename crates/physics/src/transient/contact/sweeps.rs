@@ -40,13 +40,10 @@ impl LagrangeContact {
 
     /// The motion before the step, and its end without contact. Forces start from none, as those of the last step are not in a saved state.
     fn gather(&mut self, fields: &MotionFields, step: &Step) {
-        let coefficients = &step.coefficients;
         for (dof, velocity) in self.dofs.iter_mut().zip(&mut self.velocities) {
             let (v, q) = (fields.velocity[dof.place], fields.elastic[dof.place]);
-            let damping = coefficients.mass_coefficient * v
-                + coefficients.stiffness_coefficient * fields.elastic_rate[dof.place];
             dof.before = [v, q];
-            *velocity = v - coefficients.time_step * (q + damping);
+            *velocity = step.coefficients.moved(v, q, fields.elastic_rate[dof.place]);
         }
         for i in 0..self.points.len() {
             let mut turn = PointTurn {

@@ -55,9 +55,7 @@ fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<SparseOperator<
     let (mesh, basis) = (assembly.mesh, &assembly.joined.basis);
     let mass = assemble_mass(mesh, assembly.materials, MassKind::Lumped);
     let mut own = vec![0.0; mesh.dof_count()];
-    for (dof, _, mass) in basis.gathered(&mass).entries {
-        own[dof] += mass;
-    }
+    basis.gathered(&mass).entries.into_iter().for_each(|(dof, _, mass)| own[dof] += mass);
 
     // What each dof that follows others follows.
     let unknowns = basis.unknowns();

@@ -10,11 +10,9 @@ impl Recorder {
     pub fn is_consistent(&self) -> bool {
         let (samples, contact) = (self.rows.len(), self.contact_angles.len());
         let harmonics = HARMONIC_COUNT + self.higher_harmonics.len();
-        let rises = |times: &[f64]| times.windows(2).all(|pair| pair[0] < pair[1]);
         let times: Vec<f64> = self.rows.iter().map(|row| row.time).collect();
-        let nodes_are_known = |&node: &usize| (1..LARGEST).contains(&node);
         let probes_fit = self.probes.len() == self.probe_rows.len()
-            && self.probes.iter().all(nodes_are_known)
+            && self.probes.iter().all(|node| (1..LARGEST).contains(node))
             && self.probe_rows.iter().all(|rows| rows.len() == samples);
         let axial_fits = self.axial_rows.is_empty()
             || self.axial_rows.len() == self.probes.len()
@@ -34,7 +32,7 @@ impl Recorder {
                 && snapshot.gap.len() == contact
         });
         samples > 0
-            && rises(&times)
+            && times.windows(2).all(|pair| pair[0] < pair[1])
             && times.iter().all(|time| time.is_finite())
             && probes_fit
             && axial_fits
@@ -52,13 +50,12 @@ impl Recorder {
 
     /// Whether probes, fields and contact nodes can be those of a mesh of `dofs`, some `components` to a node.
     pub fn fits(&self, dofs: usize, components: usize, contact_nodes: usize) -> bool {
-        let mut snapshots = self.snapshots.iter();
         let across = if components == 3 { contact_nodes } else { 0 };
-        let frames = self.frames.iter();
-        let frames = frames.chain(self.snapshots.iter().map(|snapshot| &snapshot.contact));
+        let snapshots = || self.snapshots.iter();
+        let mut frames = self.frames.iter().chain(snapshots().map(|snapshot| &snapshot.contact));
         self.contact_angles.len() == contact_nodes
             && self.probes.iter().all(|&probe| probe * components <= dofs)
-            && frames.into_iter().all(|frame| frame.shear_across().len() == across)
-            && snapshots.all(|snapshot| snapshot.displacement.len() == dofs)
+            && frames.all(|frame| frame.shear_across().len() == across)
+            && snapshots().all(|snapshot| snapshot.displacement.len() == dofs)
     }
 }

@@ -112,11 +112,7 @@ impl Recorder {
         }
         self.frames.push(self.frame(sample));
         if self.frames.len() > FRAME_LIMIT && !self.is_stride_given {
-            let mut place = 0;
-            self.frames.retain(|_| {
-                place += 1;
-                place % 2 == 1
-            });
+            self.frames = std::mem::take(&mut self.frames).into_iter().step_by(2).collect();
             self.frame_stride *= 2;
         }
     }
