@@ -2,6 +2,7 @@
 
 use super::PairError;
 use super::surface::SurfacePair;
+use crate::fem::beside;
 use crate::mesh::Grid;
 use nalgebra::{Matrix3, Vector3};
 
@@ -38,8 +39,7 @@ impl Topography {
         let grids = self.grids(reach);
         for point in pair.points.iter_mut().map(|point| &mut point.at) {
             let (position, normal) = (point.position.into(), Vector3::from(point.normal));
-            let first = Vector3::ith(normal.iamin(), 1.0);
-            let first = (first - normal * normal.dot(&first)).normalize();
+            let first = beside(&normal);
             let axes = [first, normal.cross(&first)];
             let chosen = self.around(&grids, &position, &axes);
             if chosen.is_empty() {
