@@ -1,5 +1,6 @@
 //! Leading multipliers of small perturbations over one period, by Arnoldi's process on the map of the period.
 
+use super::CycleError;
 use crate::linalg::dense::{dot, norm, orthogonalize};
 use crate::linalg::dense_eigen::{RealEigen, real_eigen};
 use crate::linalg::{Mat, c64};
@@ -14,6 +15,8 @@ pub struct MultiplierSearch<'a> {
     pub listed: (usize, f64),
     /// Whether a value with such a share along the motion may be the shift in phase.
     pub is_shift: &'a dyn Fn(&Ritz) -> bool,
+    /// The key of a case by which a transient tells.
+    pub remedy: &'a str,
 }
 
 /// A Ritz value of the map.
@@ -43,18 +46,25 @@ impl MultiplierSearch<'_> {
     /// `motion` is the direction of a shift in phase.
     ///
     /// # Errors
-    /// The dimension at which none is worth listing.
+    /// [`CycleError::NotFound`] where none is worth listing.
     pub fn run(
         &self,
         start: &[f64],
         motion: Vec<f64>,
         mut apply: impl FnMut(&[f64]) -> Vec<f64>,
-    ) -> Result<LeadingMultipliers, usize> {
+    ) -> Result<LeadingMultipliers, CycleError> {
         // What is damped within a period is of no interest.
         let mut basis = vec![unit(apply(start))];
         let mut columns: Vec<Vec<f64>> = Vec::new();
         let motion = unit(motion);
         let [least, most, stride] = self.dimensions;
+        let none = |dimension: usize| {
+            CycleError::NotFound(format!(
+                "the stability of this limit cycle cannot be told: no multiplier has converged after \
+                 {dimension} periods; let a transient tell ({})",
+                self.remedy
+            ))
+        };
         loop {
             // One more vector.
             let mut next = apply(&basis[basis.len() - 1]);
@@ -68,7 +78,7 @@ impl MultiplierSearch<'_> {
             }
 
             // The leading ones, once in a while: the shift in phase stands apart.
-            let mut listed = ritz(&columns, &basis, &motion).ok_or(dimension)?;
+            let mut listed = ritz(&columns, &basis, &motion).ok_or_else(|| none(dimension))?;
             let candidates = listed.iter().enumerate().filter(|(_, own)| (self.is_shift)(own));
             let place = candidates.max_by(|a, b| a.1.along.total_cmp(&b.1.along)).map(|own| own.0);
             let shift = place.map(|place| listed.remove(place).value);
@@ -81,7 +91,7 @@ impl MultiplierSearch<'_> {
                 let open = listed.iter().position(|own| own.residual >= residual);
                 listed.truncate(open.unwrap_or(kept).min(kept));
                 let found = LeadingMultipliers { listed, shift, basis };
-                return if found.listed.is_empty() { Err(dimension) } else { Ok(found) };
+                return if found.listed.is_empty() { Err(none(dimension)) } else { Ok(found) };
             }
         }
     }
@@ -126,8 +136,7 @@ fn eigenvector(eigen: &RealEigen, i: usize) -> Vec<c64> {
 }
 
 /// The vector of length one.
-pub fn unit(mut vector: Vec<f64>) -> Vec<f64> {
+pub fn unit(vector: Vec<f64>) -> Vec<f64> {
     let length = norm(&vector);
-    vector.iter_mut().for_each(|value| *value /= length);
-    vector
+    vector.into_iter().map(|value| value / length).collect()
 }

@@ -124,17 +124,12 @@ fn leading_multipliers(
         converged: CONVERGED,
         listed: LISTED,
         is_shift: &|own| own.value.ln().norm() < reach * TAU && own.along > least,
+        remedy: "transient.initial = \"limit-cycle\"",
     };
     let mut periods = 0;
     let found = search.run(&start, period.shift(), |direction| {
         periods += 1;
         period.map(direction)
-    });
-    let found = found.map_err(|dimension| {
-        CycleError::NotFound(format!(
-            "the stability of this limit cycle cannot be told: no exponent has converged after \
-             {dimension} periods; let a transient tell (transient.initial = \"limit-cycle\")"
-        ))
     })?;
     // The shift along the cycle neither grows nor decays: what it does is the error.
     let neutral = found.shift.map(|shift| shift.ln() / period.duration); // lambda_0 = ln(rho_0) / T, exactly 0 in theory.

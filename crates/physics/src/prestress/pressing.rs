@@ -134,7 +134,7 @@ impl Face<'_> {
     /// `delta - u_n` at each ring, the mean over its nodes, m: what the points see of it, less than all on a cylinder.
     fn approaches(&self, points: &[Point], displacement: &[f64]) -> Vec<f64> {
         let (sign, component) = self.normal();
-        // The mean of sum_a N_a n_a . n, which is one at nodes and on a plane.
+        // The mean of sum_a N_a n_a . n, one at nodes, which have no area of their own, and on a plane.
         let along = |own: &Point| self.on_normals(own).map(|own| own.1).sum::<f64>();
         let all = points.iter().map(|own| [own.weight * along(own), own.weight]);
         let [sum, area] = all.fold([0.0; 2], |[a, b], own| [a + own[0], b + own[1]]);

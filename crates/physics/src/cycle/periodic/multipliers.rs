@@ -28,76 +28,57 @@ impl FloquetMultipliers {
     /// # Errors
     /// [`CycleError::NotFound`] where they do not.
     pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Result<Self, CycleError> {
-        let (first, image) = (map.periods(), map.image(state));
+        let (begun, image) = (map.periods(), map.image(state));
         let mut beside = Beside { map, state, image: &image };
-        let mut apply = |direction: &[f64]| beside.change_of(direction, PERTURBATION);
         let mut noise = GaussianNoise::new(1);
         let start = (0..state.motion.len()).map(|_| noise.draw().re).collect(); // Noise has a part along every direction.
-        let [reach, least] = NEUTRAL;
-        let is_shift = |own: &Ritz| own.value.ln().norm() < reach && own.along > least;
+        let is_shift = |own: &Ritz| own.value.ln().norm() < NEUTRAL[0] && own.along > NEUTRAL[1];
         let search = MultiplierSearch {
             dimensions: DIMENSIONS,
             converged: CONVERGED,
             listed: LISTED,
             is_shift: &is_shift,
+            remedy: "cycle.confirmation_periods",
         };
-        let found = search.run(&unit(start), image.rate.clone(), &mut apply);
-        let found = found.map_err(|dimension| {
-            CycleError::NotFound(format!(
-                "the stability of this limit cycle cannot be told: no multiplier has converged \
-                 after {dimension} periods; let a transient tell (cycle.confirmation_periods)"
-            ))
-        })?;
-        // Kinks part the shift in phase in two: what else may grow is told apart by following it.
-        let parts = found.listed.iter().take_while(|own| is_shift(own)).count();
-        let listed = found.listed.get(parts..).filter(|rest| !rest.is_empty());
-        let (shifts, listed) = (&found.listed[..parts], listed.unwrap_or(&found.listed));
-        // A node that changes its status bends the map: it has another slope along a direction than against it, and a
-        // perturbation may meet either of them. Known is the one along; the other is smaller by as much as this at most.
-        let first_listed = &listed[0];
-        let along = unit(found.vector(first_listed).iter().map(|value| value.re).collect());
-        let against: Vec<f64> = along.iter().map(|value| -value).collect();
-        let sums = apply(&along).into_iter().zip(apply(&against));
-        let sums: Vec<f64> = sums.map(|(one, other)| one + other).collect();
-        let bend = norm(&sums) / first_listed.value.norm(); // |P(x + d) - 2 P(x) + P(x - d)| / |rho d|, 0 of a smooth map.
+        let found =
+            search.run(&unit(start), image.rate.clone(), |d| beside.change_of(d, PERTURBATION))?;
+        let direction = |own: &Ritz| unit(found.vector(own).iter().map(|v| v.re).collect());
+        // Kinks may part the shift in phase in two. A perturbation that is followed without the shift grows as its multiplier says, a
+        // part of the shift does not.
+        let (first, has_others) = (&found.listed[0], found.listed.len() > 1);
+        let followed = (has_others && is_shift(first)).then(|| beside.followed(direction(first)));
+        let growth = followed.filter(|own| (own[0] - first.value.norm().ln()).abs() > own[1]);
+        let listed = &found.listed[usize::from(growth.is_some())..];
+        let along = direction(&listed[0]);
+        let bend = beside.bend(&along) / listed[0].value.norm();
         // What is open of every rate: how far the shift is from 1, the residual, and the bend.
         let shift = found.shift.map(|shift| shift.norm());
-        let parts = shifts.iter().map(|own| own.value.norm()).chain(shift);
+        let parts = growth.map(|_| first.value.norm()).into_iter().chain(shift);
         let off = parts.map(|part| part.ln().abs()).reduce(f64::max).unwrap_or(NEUTRAL[0]);
         let of = |ritz: &Ritz| {
             let open = (ritz.residual + off + bend) / state.period;
             FloquetMultiplier::new(ritz.value, state.period, open)
         };
-        let multipliers = listed.iter().map(of).collect();
-        let mut own = Self { multipliers, shift, periods: 0 };
-        if own.verdict() == Verdict::Undecided {
-            own.decide(&mut beside, along);
+        let mut own = Self { multipliers: listed.iter().map(of).collect(), shift, periods: 0 };
+        match own.verdict() {
+            Verdict::Stable if growth.is_none() => {}
+            Verdict::Unstable => {}
+            _ => own.decide(state.period, growth.unwrap_or_else(|| beside.followed(along))),
         }
-        own.periods = map.periods() - first;
+        own.periods = map.periods() - begun;
         Ok(own)
     }
 
-    /// Takes the leading one by what it makes of a perturbation that begins `along` it, without the shift in phase; none of the others
-    /// grows faster.
-    fn decide(&mut self, beside: &mut Beside<'_, '_>, along: Vec<f64>) {
-        let (mut direction, rate) = (along, unit(beside.image.rate.clone()));
-        let [growth, open] = followed(|length| {
-            let mut next = beside.change_of(&direction, length);
-            let shift = dot(&next, &rate);
-            add(&mut next, -shift, &rate); // A shift in phase neither grows nor decays.
-            let growth = norm(&next).ln();
-            direction = unit(next);
-            growth
-        });
-        let period = beside.state.period;
+    /// Takes the leading one by what a period makes of a perturbation that was followed; none of the others grows faster.
+    fn decide(&mut self, period: f64, [growth, open]: [f64; 2]) {
         let turned = c64::from_polar(growth.exp(), self.multipliers[0].multiplier.arg()); // Of |P d| alone its angle is not known anew.
         let leading = FloquetMultiplier::new(turned, period, open / period);
         let most = leading.growth_rate + leading.uncertainty;
         self.multipliers[0] = leading;
         self.multipliers.retain(|other| other.growth_rate <= most);
-        for other in &mut self.multipliers[1..] {
-            other.uncertainty = other.uncertainty.min(most - other.growth_rate); // None may be thought to grow faster than the leading one.
-        }
+        // None may be thought to grow faster than the leading one.
+        let others = self.multipliers.iter_mut().skip(1);
+        others.for_each(|own| own.uncertainty = own.uncertainty.min(most - own.growth_rate));
     }
 }
 
@@ -112,24 +93,39 @@ impl Beside<'_, '_> {
     /// `(P(x + l d) - P(x)) / l` of a direction `d`, `l` a share of the amplitude.
     fn change_of(&mut self, direction: &[f64], share: f64) -> Vec<f64> {
         let length = share * self.image.vibration;
-        let pairs = self.state.motion.iter().zip(direction);
-        let motion = pairs.map(|(x, d)| x + length * d).collect();
-        let moved = PeriodicState { motion, period: self.state.period };
-        let mut change = difference(&self.map.image(&moved).motion, &self.image.motion);
-        change.iter_mut().for_each(|value| *value /= length);
-        change
+        let mut moved = self.state.clone();
+        add(&mut moved.motion, length, direction);
+        let change = difference(&self.map.image(&moved).motion, &self.image.motion);
+        change.into_iter().map(|value| value / length).collect()
     }
-}
 
-/// Mean of the growth over a period, `ln |P d| / |d|`, of a perturbation that keeps a length, and what that may be wrong by: how far
-/// the means of both halves and lengths lie apart. Where impacts bend the map, no linear one is near it.
-fn followed(mut growth: impl FnMut(f64) -> f64) -> [f64; 2] {
-    let (lengths, turns, half) = FOLLOWED;
-    let mut sum = |length, periods| (0..periods).map(|_| growth(length)).sum::<f64>();
-    let sums = lengths.map(|length| [turns, half, half].map(|periods| sum(length, periods)));
-    let means = sums.map(|[_, one, other]| [one, other].map(|sum| sum / half as f64)).concat(); // The turns to its direction do not count.
-    let [least, most] = [f64::min, f64::max].map(|of| means.iter().copied().fold(means[0], of));
-    [means.iter().sum::<f64>() / means.len() as f64, most - least] // Mean and spread of four: two lengths, two halves.
+    /// `|P(x + l d) - 2 P(x) + P(x - l d)| / l`, 0 of a smooth map. A node that changes its status bends the map: it has another slope along
+    /// a direction than against it, and a perturbation may meet either. Known is the one along; the other is smaller by as much at most.
+    fn bend(&mut self, along: &[f64]) -> f64 {
+        let [one, other] = [PERTURBATION, -PERTURBATION].map(|share| self.change_of(along, share));
+        norm(&difference(&one, &other))
+    }
+
+    /// Mean of the growth over a period, `ln |P d| / |d|`, of a perturbation that begins in a `direction` and keeps a length, without the
+    /// shift in phase, and what that may be wrong by: how far the means of both halves and lengths lie apart. Where impacts bend the map,
+    /// no linear one is near it.
+    fn followed(&mut self, mut direction: Vec<f64>) -> [f64; 2] {
+        let rate = unit(self.image.rate.clone());
+        let (lengths, turns, half) = FOLLOWED;
+        let mut growth = |length| {
+            let mut next = self.change_of(&direction, length);
+            let shift = dot(&next, &rate);
+            add(&mut next, -shift, &rate); // A shift in phase neither grows nor decays.
+            let growth = norm(&next).ln();
+            direction = unit(next);
+            growth
+        };
+        let mut sum = |length, periods| (0..periods).map(|_| growth(length)).sum::<f64>();
+        let sums = lengths.map(|length| [turns, half, half].map(|periods| sum(length, periods)));
+        let means = sums.map(|[_, one, other]| [one, other].map(|sum| sum / half as f64)).concat(); // The turns to its direction do not count.
+        let [least, most] = [f64::min, f64::max].map(|of| means.iter().copied().fold(means[0], of));
+        [means.iter().sum::<f64>() / means.len() as f64, most - least] // Mean and spread of four: two lengths, two halves.
+    }
 }
 
 #[cfg(test)]
