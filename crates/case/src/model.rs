@@ -47,7 +47,9 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
     own.geometry.close();
     let bytes = imported::mesh_bytes(own.raw, file);
     let read = bytes.as_ref().ok().and_then(|bytes| bytes.read().ok());
-    let has_solids = read.map_or(own.is_solid(), |read| read.dimension == 3);
+    // Of a file that cannot be read the case tells.
+    let in_space = own.raw.find("contact.direction").is_some_and(|own| own.listed().len() == 3);
+    let has_solids = read.map_or(own.is_solid() || in_space, |read| read.dimension == 3);
     // What slides on what, and the axes of sectors and of materials.
     let (joints, contact, axes) = if root.has("contacts") || root.has("ties") || has_solids {
         let (parts, contact) = solid_joints(own, has_solids);
@@ -110,11 +112,9 @@ fn solid_joints(own: &Description<'_>, has_solids: bool) -> (AssemblyParts, Cont
     if has_solids {
         let material = root.section("material", false);
         let is_plane = material.has("formulation") && !own.is_solid();
-        let idle = [
-            (&own.geometry, "thickness", own.geometry.has("thickness")),
-            (&material, "formulation", is_plane),
-        ];
-        for (section, key, _) in idle.into_iter().filter(|own| own.2) {
+        let flat = own.geometry.has("thickness").then_some((&own.geometry, "thickness"));
+        for (section, key) in flat.into_iter().chain(is_plane.then_some((&material, "formulation")))
+        {
             caution!(section, key => "is not used: the mesh is of solid elements"; "no effect");
         }
     }

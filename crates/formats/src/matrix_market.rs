@@ -75,22 +75,26 @@ impl MarketMatrix {
         ensure!(rows.max(columns) <= most; size;
             "a matrix of {rows} x {columns} is larger than {most} x {most}");
         let mut matrix = Self { rows, columns, entries: Vec::new() };
-        match is_coordinate {
-            true => matrix.read_coordinates(lines, symmetry, whole[2])?,
-            false => matrix.read_array(lines, symmetry)?,
-        }
-        Ok(matrix)
-    }
-
-    fn read_coordinates<'a>(
-        &mut self,
-        lines: impl Iterator<Item = Line<'a>>,
-        symmetry: Symmetry,
-        promised: usize,
-    ) -> Result<()> {
-        let mut found = 0;
+        // Of arrays column by column; of a symmetric one the lower triangle alone.
+        let first = |column: usize| match symmetry {
+            Symmetry::General => 0,
+            Symmetry::Symmetric => column,
+            Symmetry::Skew => column + 1,
+        };
+        let places = |column: usize| (first(column)..rows).map(move |row| (row, column));
+        let mut places = (0..columns).flat_map(places);
+        let all = || (0..columns).map(|column| rows.saturating_sub(first(column))).sum();
+        let (promised, mut found) = (whole.get(2).copied().unwrap_or_else(all), 0);
         for line in lines {
             let words: Vec<&str> = line.1.split_whitespace().collect();
+            if !is_coordinate {
+                for word in words {
+                    let (value, place) = (line.finite(word)?, places.next());
+                    place.into_iter().for_each(|place| matrix.add(place, value, symmetry));
+                    found += 1;
+                }
+                continue;
+            }
             let entry = match words[..] {
                 [row, column, value] => row.parse().ok().zip(column.parse().ok()).zip(Some(value)),
                 _ => None,
@@ -98,40 +102,13 @@ impl MarketMatrix {
             let ((row, column), value) = found!(entry; line;
                 "\"{}\" should be a row, a column and a value", begin_of(line.1));
             let value = line.finite(value)?;
-            ensure!((1..=self.rows).contains(&row) && (1..=self.columns).contains(&column); line;
-                "entry ({row}, {column}) lies outside a matrix of {} x {}", self.rows, self.columns);
-            self.add((row - 1, column - 1), value, symmetry);
+            ensure!((1..=rows).contains(&row) && (1..=columns).contains(&column); line;
+                "entry ({row}, {column}) lies outside a matrix of {rows} x {columns}");
+            matrix.add((row - 1, column - 1), value, symmetry);
             found += 1;
         }
-        has_count(promised, found)
-    }
-
-    /// Column by column; of a symmetric matrix the lower triangle alone.
-    fn read_array<'a>(
-        &mut self,
-        lines: impl Iterator<Item = Line<'a>>,
-        symmetry: Symmetry,
-    ) -> Result<()> {
-        let first = |column: usize| match symmetry {
-            Symmetry::General => 0,
-            Symmetry::Symmetric => column,
-            Symmetry::Skew => column + 1,
-        };
-        let (rows, columns) = (self.rows, self.columns);
-        let mut places =
-            (0..columns).flat_map(|column| (first(column)..rows).map(move |row| (row, column)));
-        let promised = (0..columns).map(|column| rows.saturating_sub(first(column))).sum();
-        let mut found = 0;
-        for line in lines {
-            for word in line.1.split_whitespace() {
-                let value = line.finite(word)?;
-                if let Some(place) = places.next() {
-                    self.add(place, value, symmetry);
-                }
-                found += 1;
-            }
-        }
-        has_count(promised, found)
+        let text = || format!("the size line promises {promised} entries, the file has {found}");
+        if found == promised { Ok(matrix) } else { Err(MatrixMarketError(text())) }
     }
 
     fn add(&mut self, (row, column): (usize, usize), value: f64, symmetry: Symmetry) {
@@ -203,11 +180,6 @@ fn read_banner(banner: &str) -> Result<(bool, Symmetry)> {
 /// What messages show of a text.
 fn begin_of(text: &str) -> String {
     text.chars().take(80).collect()
-}
-
-fn has_count(promised: usize, found: usize) -> Result<()> {
-    let text = || format!("the size line promises {promised} entries, the file has {found}");
-    if found == promised { Ok(()) } else { Err(MatrixMarketError(text())) }
 }
 
 #[cfg(test)]

@@ -108,6 +108,34 @@ fn pairs_with_a_rigid_surface_of_a_part_are_left_out_with_it() {
     has(&wrong, &["no surface is called \"Rigid\""]);
 }
 
+/// What moves with nodes of the body and resists nothing leaves what holds between these alone.
+#[test]
+fn nodes_without_elements_vanish_from_equations() {
+    let equation = |terms: &[[&str; 3]]| {
+        let terms: String = terms.iter().map(|term| term.join(", ") + "\n").collect();
+        format!("*EQUATION\n{}\n{terms}", terms.lines().count())
+    };
+    let nodes = "*NODE\n901, 0., 0., 0.\n902, 1., 0., 0.\n903, 2., 0., 0.\n";
+    let equations = [
+        equation(&[["901", "1", "2."], ["One.1", "1", "-1."]]),
+        equation(&[["902", "1", "1."], ["901", "1", "-1."], ["903", "1", "-1."]]),
+        equation(&[["One.2", "1", "1."], ["901", "1", "-2."]]),
+        equation(&[
+            ["902", "1", "1."],
+            ["903", "1", "-1."],
+            ["One.1", "1", "-1."],
+            ["One.2", "1", "1."],
+        ]),
+        equation(&[["901", "2", "1."], ["One.2", "2", "-1."]]),
+        equation(&[["902", "1", "1."], ["903", "1", "-1."], ["901", "1", "-1."]]),
+    ];
+    let text =
+        ASSEMBLY.replace("*END ASSEMBLY", &format!("{nodes}{}*END ASSEMBLY", equations.concat()));
+    let file = read("bricks.inp", &text).unwrap();
+    let told: Vec<Vec<_>> = file.equations.iter().filter(|own| !own.is_empty()).cloned().collect();
+    assert_eq!(told, [[(0, 0, -1.0), (1, 0, 1.0)], [(0, 0, -0.5), (1, 0, 1.0)]]);
+}
+
 #[test]
 fn wrong_input_files_are_told_by_line_and_name() {
     check_errors("bricks.inp", ASSEMBLY, include_str!("../meshes/wrong-abaqus.txt"));

@@ -22,6 +22,13 @@ fn nodes_of_nested_systems_in_all_fields_make_a_brick() {
 }
 
 #[test]
+fn tabs_lead_to_the_next_field() {
+    let tabbed = BRICK.replace("GRID    1       1       0.      0. ", "GRID\t1\t1\t0.\t0.\t");
+    assert_ne!(tabbed, BRICK);
+    assert_eq!(read("brick.bdf", &tabbed), read("brick.bdf", BRICK));
+}
+
+#[test]
 fn materials_supports_and_pressures_are_those_that_the_subcase_names() {
     let model = read("brick.bdf", BRICK).unwrap().model;
     assert_eq!(model.title.as_deref(), Some("a brick"));

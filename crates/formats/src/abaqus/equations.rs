@@ -6,42 +6,51 @@ use super::conditions::Held;
 use crate::collection::{dimension, used_nodes};
 use crate::deck::real;
 use crate::file_mesh::Result;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// A term: its nodes, an axis, a coefficient.
-type Term = (Vec<u32>, usize, f64);
+/// A node or a set of them, an axis, a coefficient.
+type Term<N> = (N, usize, f64);
+
+/// Part of the largest coefficient of an equation below which another one is round-off.
+const ROUND_OFF: f64 = 1e-12;
 
 impl Reader<'_, '_> {
-    /// Reads the equations, and returns the nodes without elements that are part of them: such a node must be held, and takes no
-    /// part then.
+    /// Reads the equations, and returns the nodes without elements that are part of them. Those that are held vanish; nothing resists
+    /// the others: the first equation says where one is, and those behind hold with that.
     pub(super) fn read_equations(&mut self, held: &Held) -> Result<BTreeSet<u32>> {
         let used = used_nodes(&self.collected);
         let is_held = |reader: &Self, node: u32, axis: usize| {
-            let mut sets = held.iter().filter(|(_, (axes, _))| axes[axis]);
-            sets.any(|(key, _)| reader.nodes.sets[key].items.contains(&node))
+            held.iter()
+                .any(|(set, own)| own.0[axis] && reader.nodes.sets[set].items.contains(&node))
         };
-        let mut referred = BTreeSet::new();
+        let (mut referred, mut told) = (BTreeSet::new(), BTreeMap::<_, BTreeMap<_, f64>>::new());
         for block in self.blocks_of("EQUATION") {
-            for (row, terms) in self.equation_terms(block)? {
-                // Sets of as many nodes stand for as many equations; a single node is part of each.
-                let count = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
-                ensure!(terms.iter().all(|term| [1, count].contains(&term.0.len())); row;
-                    "*EQUATION: node sets of one equation have as many nodes each");
-                for i in 0..count {
-                    let all = terms.iter().map(|(nodes, axis, factor)| {
-                        let node = nodes[if nodes.len() == 1 { 0 } else { i }];
-                        (node, *axis, *factor)
-                    });
-                    let (own, beside): (Vec<_>, Vec<_>) = all.partition(|t| used.contains(&t.0));
-                    // Nodes without elements vanish from it if they are held.
-                    for (node, axis, _) in beside {
-                        ensure!(is_held(self, node, axis); row;
-                            "*EQUATION: node {} belongs to no element, and nothing holds it along {}: a node that \
-                             moves others freely is not supported",
-                            self.file.labels[node as usize], ["x", "y", "z"][axis]);
-                        referred.insert(node);
+            for terms in self.equations(block)? {
+                let mut own: BTreeMap<(u32, usize), f64> = BTreeMap::new();
+                for &(node, axis, factor) in &terms {
+                    let is_used = used.contains(&node);
+                    referred.extend((!is_used).then_some(node));
+                    if is_used || !is_held(self, node, axis) {
+                        *own.entry((node, axis)).or_default() += factor;
                     }
-                    self.file.equations.push(own);
+                }
+                while let Some(at) = own.keys().copied().find(|at| told.contains_key(at)) {
+                    let factor = own.remove(&at).unwrap_or_default();
+                    for (at, share) in &told[&at] {
+                        *own.entry(*at).or_default() += factor * share;
+                    }
+                }
+                let largest = terms.iter().fold(0.0_f64, |m, term| m.max(term.2.abs()));
+                own.retain(|_, factor| factor.abs() > ROUND_OFF * largest);
+                let loose = own.iter().filter(|(at, _)| !used.contains(&at.0));
+                let loose = loose.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+                if let Some((&at, &factor)) = loose {
+                    own.remove(&at);
+                    own.values_mut().for_each(|share| *share /= -factor);
+                    told.insert(at, own);
+                } else {
+                    let terms = own.into_iter().map(|((node, axis), f)| (node, axis, f));
+                    self.file.equations.push(terms.collect());
                 }
             }
         }
@@ -55,15 +64,15 @@ impl Reader<'_, '_> {
         Ok(referred)
     }
 
-    /// The equations of a block: the number of terms, then node or set, axis and coefficient of each, over any lines.
-    fn equation_terms<'a>(&self, block: Scoped<'_, 'a>) -> Result<Vec<(Row<'a>, Vec<Term>)>> {
-        let mut equations = Vec::new();
-        let mut rows = block.rows();
+    /// The equations of a block: the number of terms, then node or set, axis and coefficient of each, over any lines. Sets of as many
+    /// nodes stand for as many equations; a single node is part of each.
+    fn equations(&self, block: Scoped<'_, '_>) -> Result<Vec<Vec<Term<u32>>>> {
+        let (mut equations, mut rows) = (Vec::new(), block.rows());
         while let Some(head) = rows.next() {
             let count = head.line.trim().trim_end_matches(',').parse::<usize>().ok();
             let count = count.filter(|count| (1..=1_000_000).contains(count));
             let count = found!(count; head; "*EQUATION: the number of terms expected");
-            let mut terms: Vec<Term> = Vec::new();
+            let mut terms: Vec<Term<Vec<u32>>> = Vec::new();
             while terms.len() < count {
                 let row = found!(rows.next(); head;
                     "*EQUATION: {count} terms expected, found {}", terms.len());
@@ -72,12 +81,20 @@ impl Reader<'_, '_> {
                     terms.push(self.equation_term(row, term)?);
                 }
             }
-            equations.push((head, terms));
+            let size = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
+            ensure!(terms.iter().all(|term| [1, size].contains(&term.0.len())); head;
+                "*EQUATION: node sets of one equation have as many nodes each");
+            equations.extend((0..size).map(|i| {
+                let own = |(nodes, axis, factor): &Term<Vec<u32>>| {
+                    (nodes[i % nodes.len()], *axis, *factor)
+                };
+                terms.iter().map(own).collect()
+            }));
         }
         Ok(equations)
     }
 
-    fn equation_term(&self, row: Row<'_>, term: &[&str]) -> Result<Term> {
+    fn equation_term(&self, row: Row<'_>, term: &[&str]) -> Result<Term<Vec<u32>>> {
         let parsed = match term {
             &[target, axis, factor] => {
                 let axis = axis.parse::<usize>().ok().filter(|axis| (1..=3).contains(axis));

@@ -108,6 +108,17 @@ fn fields_of(line: &str) -> (&str, Vec<&str>) {
     (head, (8..72).step_by(width).map(|from| column(from, from + width)).collect())
 }
 
+/// Text with blanks in place of its tabs, each up to the next field of eight characters.
+pub(super) fn without_tabs(text: &str) -> String {
+    let mut column = 0;
+    let wide = |c: char| {
+        let (c, width) = if c == '\t' { (' ', 8 - column % 8) } else { (c, 1) };
+        column = if c == '\n' { 0 } else { column + width };
+        std::iter::repeat_n(c, width)
+    };
+    text.chars().flat_map(wide).collect()
+}
+
 /// The cards of a file and its case control.
 pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control)> {
     let is_bulk = |line: &str| {
@@ -125,7 +136,6 @@ pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control)> 
             continue;
         }
         let line = line.split('$').next().unwrap_or_default().trim_end();
-        ensure!(!line.contains('\t'); deck, place; "a tab stop: replace tabs by blanks or write free fields");
         if line.is_empty() {
             continue;
         }

@@ -17,7 +17,7 @@ mod properties;
 use super::collection::{CollectedElement, finished};
 use super::deck::{Deck, Place};
 use super::file_mesh::{FileMesh, Result};
-use card::{Card, Control, cards};
+use card::{Card, Control, cards, without_tabs};
 use coordinates::Coordinates;
 use std::collections::{BTreeSet, HashMap};
 
@@ -52,7 +52,10 @@ struct Reader<'d, 'a> {
 
 /// Reads bulk data; the files that it includes stand in it ([`included_text`](super::included_text)).
 pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
-    let text = String::from_utf8_lossy(bytes);
+    let mut text = String::from_utf8_lossy(bytes);
+    if text.contains('\t') {
+        text = without_tabs(&text).into();
+    }
     let deck = Deck::new(&text, "$", false)?;
     let (cards, control) = cards(&deck)?;
     let mut reader = Reader {
