@@ -136,6 +136,20 @@ fn nodes_without_elements_vanish_from_equations() {
     assert_eq!(told, [[(0, 0, -1.0), (1, 0, 1.0)], [(0, 0, -0.5), (1, 0, 1.0)]]);
 }
 
+/// An element of the patch test of MacNeal and Harder (1985) that folds at a corner and at no point of its quadrature.
+#[test]
+fn an_element_that_folds_at_a_corner_alone_is_badly_shaped() {
+    let nodes = "*NODE\n1, .249, .342, .192\n2, .826, .288, .288\n6, .677, .305, .683\n5, .32, .186, .643\n\
+        9, 0, 0, 0\n12, 1, 0, 0\n14, 1, 0, 1\n13, 0, 0, 1\n";
+    let element =
+        "*ELEMENT, TYPE=C3D8, ELSET=All\n4, 1, 2, 6, 5, 9, 12, 14, 13\n*SOLID SECTION, ELSET=All\n";
+    let quality = body("patch.inp", &(nodes.to_owned() + element)).quality();
+    assert!((-0.05..-0.02).contains(&quality.worst_jacobian), "{quality:?}");
+    let twice = nodes.to_owned() + &element.replace("14, 13", "14, 9");
+    let file = read("patch.inp", &twice).unwrap();
+    assert!(Mesh::from_solids(&file, 1.0, &[]).unwrap_err().to_string().contains("no volume"));
+}
+
 #[test]
 fn wrong_input_files_are_told_by_line_and_name() {
     check_errors("bricks.inp", ASSEMBLY, include_str!("../meshes/wrong-abaqus.txt"));

@@ -50,25 +50,25 @@ pub(super) fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
     let found = case.body.imported()?.mesh.unmerged_nodes()?;
     Some(diagnosis!(case, "mesh.file", "{found}: the parts are not connected there";
         "parts that were not merged?";
-        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), \
-         unless this is a crack"))
+        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;); not at a crack"))
 }
 
-/// The worst element of an imported mesh.
+/// The worst element of a mesh file.
 pub(super) fn element_shape(case: &Case) -> Option<Diagnostic> {
-    let mesh = &case.body.imported()?.mesh;
+    let mesh = case.raw.find("mesh.file").and_then(|_| case.body.mesh().ok())?;
     let quality = mesh.quality();
     if quality.worst_jacobian >= SMALLEST_JACOBIAN {
         return None;
     }
     let nodes = mesh.element_nodes(quality.worst_element);
-    let count = nodes.len() as f64;
-    let sum = |axis: usize| nodes.iter().map(|&n| mesh.nodes[n as usize][axis]).sum::<f64>();
     let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
+    let middle = (0..mesh.dimension).map(|axis| {
+        let sum: f64 = nodes.iter().map(|&n| mesh.nodes[n as usize][axis]).sum();
+        format!("{:.6}", sum / nodes.len() as f64)
+    });
     Some(diagnosis!(case, "mesh.file",
-        "the Jacobian of an element varies by a factor {:.3} (smallest over largest): that of \
-         nodes {} at ({:.6}, {:.6}) m. Below {SMALLEST_JACOBIAN} an element is badly \
-         shaped", quality.worst_jacobian, first_of(labels, 9), sum(0) / count, sum(1) / count;
-        "a badly shaped element";
-        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable"))
+        "the Jacobian of an element varies by a factor {:.3} (smallest over largest): that of nodes {} at ({}) m. \
+         Below {SMALLEST_JACOBIAN} an element is badly shaped, below 0 a corner folds",
+        quality.worst_jacobian, first_of(labels, 9), middle.collect::<Vec<_>>().join(", "); "a badly shaped element";
+        "mesh again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable"))
 }

@@ -3,7 +3,7 @@
 use super::{PairError, SlidingContact};
 use crate::mesh::{Boundary, Chord, Mesh};
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a surface slides on.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,26 +163,26 @@ impl RigidCounterface {
         let faces = surface.faces.iter();
         let outward = faces.map(|face| (mesh.middle(face.corners()), mesh.area_vector(face)));
         let outward: Vec<(Vector3<f64>, Vector3<f64>)> = outward.collect();
-        let all = surface.faces.iter().flat_map(|face| &face.nodes); // Its nodes, each once.
-        let mut nodes: Vec<u32> = all.copied().collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let mut placed = PlacedCounterface {
-            own: self,
-            heights: BTreeMap::new(),
-            inward: Vector3::zeros(),
-            sense: 1.0,
-        };
+        let nodes: BTreeSet<u32> =
+            surface.faces.iter().flat_map(|face| &face.nodes).copied().collect();
+        let (own, heights, inward) = (self, BTreeMap::new(), Vector3::zeros());
+        let mut placed = PlacedCounterface { own, heights, inward, sense: 1.0 };
         let position = |node: u32| Vector3::from(mesh.nodes[node as usize]);
         let radius = match self.shape {
             RigidShape::Plane => {
                 let sum: Vector3<f64> = outward.iter().map(|(_, normal)| normal).sum();
+                let whole: f64 = outward.iter().map(|(_, normal)| normal.norm()).sum();
+                if !(sum.norm() > ALONG * whole) {
+                    let name = &surface.name;
+                    let text =
+                        format!("surface \"{name}\" has faces all around: name those on the plane");
+                    return Err(PairError(text));
+                }
                 placed.inward = -sum.normalize();
                 self.check_along(&placed.inward, surface)?;
                 let height = |node: u32| position(node).dot(&placed.inward);
                 let lowest = nodes.iter().map(|&node| height(node)).fold(f64::INFINITY, f64::min);
-                let heights = nodes.iter().map(|&node| (node, height(node) - lowest));
-                placed.heights = heights.collect();
+                placed.heights = nodes.iter().map(|&node| (node, height(node) - lowest)).collect();
                 return Ok(placed);
             }
             RigidShape::Cylinder(radius) | RigidShape::Sphere(radius) => radius,
@@ -231,16 +231,13 @@ impl RigidCounterface {
         let mean = radii.values().sum::<f64>() / radii.len() as f64;
         let off = |&(_, radius): &(&u32, &f64)| (radius - mean).abs();
         let farthest = radii.iter().max_by(|a, b| off(a).total_cmp(&off(b)));
-        match farthest {
-            Some((&node, &distance)) if (distance - mean).abs() > ROUND * mean => {
-                Err(PairError(format!(
-                    "surface \"{}\" is not round about the axis or centre of its counterface: node {} lies {distance:.6e} m away, the \
-                     mean is {mean:.6e} m. Correct `center` and `axis`, or give its `radius`",
-                    surface.name, mesh.labels[node as usize]
-                )))
-            }
-            _ => Ok(mean),
-        }
+        let outlier = farthest.filter(|own| off(own) > ROUND * mean);
+        let Some((&node, distance)) = outlier else { return Ok(mean) };
+        Err(PairError(format!(
+            "surface \"{}\" is not round about the axis or centre of its counterface: node {} lies {distance:.6e} m away, the \
+             mean is {mean:.6e} m. Correct `center` and `axis`, or give its `radius`",
+            surface.name, mesh.labels[node as usize]
+        )))
     }
 
     /// Refuses a motion that takes a plane out of itself.

@@ -99,25 +99,25 @@ impl Mesh {
         quality
     }
 
-    /// Refuses elements that fold or have no area; `label` gives the number in the file.
+    /// Refuses elements that fold where they are integrated or have a node twice; `label` gives the number in the file. One whose corner
+    /// alone folds is only badly shaped, see [`Self::quality`].
     pub(super) fn check_elements(&self, label: impl Fn(usize) -> usize) -> Result<(), BodyError> {
-        // A quadratic element may reach zero at a node that its quadrature does not see, but no further.
-        match (0..self.element_count()).find(|&e| self.jacobian_ratio(e) <= 0.0) {
-            Some(element) => {
-                let nodes = self.element_nodes(element).iter();
-                let nodes: Vec<String> =
-                    nodes.map(|&node| self.labels[node as usize].to_string()).collect();
-                Err(BodyError::Body(format!(
-                    "element {} (nodes {}) is inverted or has no {}: its Jacobian is not positive everywhere; mesh the \
-                     {} again, finer where it curves",
-                    label(element),
-                    nodes.join(", "),
-                    if self.dimension == 3 { "volume" } else { "area" },
-                    if self.dimension == 3 { "volume" } else { "surface" },
-                )))
-            }
-            None => Ok(()),
-        }
+        let is_folded = |&element: &usize| {
+            let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
+            let mut places = kind.quadrature().into_iter().chain(kind.stiffness_quadrature());
+            places.any(|(place, _)| !(self.jacobian(element, place) > 0.0))
+                || kind.edges().iter().any(|&[i, j]| nodes[i] == nodes[j])
+        };
+        let Some(element) = (0..self.element_count()).find(is_folded) else { return Ok(()) };
+        let nodes = self.element_nodes(element).iter();
+        let nodes: Vec<_> = nodes.map(|&n| self.labels[n as usize].to_string()).collect();
+        let [what, again] = if self.dimension == 3 { ["volume"; 2] } else { ["area", "surface"] };
+        Err(BodyError::Body(format!(
+            "element {} (nodes {}) is inverted or has no {what}: its Jacobian is not positive everywhere; mesh the \
+             {again} again, finer where it curves",
+            label(element),
+            nodes.join(", ")
+        )))
     }
 
     /// Refuses a plane body, or a part of it that is not connected to the rest, that can move as a rigid whole.
