@@ -3,7 +3,7 @@
 use super::{Failure, OutputOptions, Told, terminal};
 use crate::case::hash_of;
 use crate::results::compare::{
-    ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
+    ComparedRun, ComparisonSummary, SharedQuantity, document, file, overlaid, print, shared,
 };
 use crate::results::{Head, Manifest, Page, read_manifest, read_record, read_summary, write_table};
 use clap::{Args, ValueHint};
@@ -33,15 +33,16 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     });
     let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
     let quantities = shared(&runs);
-    if quantities.is_empty() {
+    if quantities.iter().all(SharedQuantity::is_cost) && overlaid(&runs).is_empty() {
         let commands: Vec<&str> = runs.iter().map(|run| run.manifest.command.as_str()).collect();
         let commands = commands.join(", ");
         let what = format!("these runs ({commands}) share no number: compare runs of one command");
         return Err(Failure::usage(what));
     }
     let places = ["/extent", "/base_state/extent"];
-    let extent = |run: &ComparedRun| places.map(|place| run.summary.pointer(place).cloned());
-    if runs.iter().any(|run| extent(run) != extent(&runs[0])) {
+    let summaries = runs.iter().map(|run| &run.summary);
+    let mut extents = summaries.filter_map(|own| places.iter().find_map(|at| own.pointer(at)));
+    if extents.next().is_some_and(|first| extents.any(|other| other != first)) {
         let what = "forces, torques, powers and energies of some runs are for each metre of \
                     thickness, of others of the whole body";
         tracing::warn!("{what}");
@@ -63,9 +64,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
 fn default_folder(runs: &[ComparedRun], manifest: &Manifest, is_forced: bool) -> PathBuf {
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | '_');
     let names = runs.iter().map(|run| {
-        let parts = run.name.split(|c| !is_plain(c));
-        let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
-        parts.join("-")
+        let parts = run.name.split(|c| !is_plain(c)).filter(|part| !part.is_empty());
+        parts.collect::<Vec<&str>>().join("-")
     });
     let name: String = names.collect::<Vec<_>>().join("-and-").chars().take(LONGEST_NAME).collect();
     let folder = Path::new("results").join("compare");

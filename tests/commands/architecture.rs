@@ -68,7 +68,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/transient", 4_571),
     ("crates/results", 17_234),
     ("crates/signal", 5_995),
-    ("crates/study", 10_281),
+    ("crates/study", 10_280),
     ("src/app", 4_497),
     ("src/guide", 70),
     ("src/lib.rs", 100),

@@ -240,4 +240,13 @@ fn a_comparison_warns_where_forces_of_one_run_alone_are_for_each_metre() {
     };
     assert!(told(["metre", "thin"]).contains(said));
     assert!(!told(["thin", "thick"]).contains(said));
+    // A response has no forces, and a mesh no number that an analysis has.
+    let frf = "frf={ force_node = 1, force_direction = \"x\", frequencies_hz = [1000.0] }";
+    for (command, change) in [("frf", frf), ("mesh", "geometry.thickness=0.02")] {
+        let words = [command, &shipped("sliding-block.toml"), "--no-figures"];
+        Run::new(&words).within(&folder).out(command).set(&[change]).done();
+    }
+    assert!(!told(["thick", "frf"]).contains(said));
+    let pair = Run::new(&["compare", "thick", "mesh"]).within(&folder);
+    pair.refused(&["these runs (cea, mesh) share no number"]);
 }

@@ -32,8 +32,8 @@ pub enum PrestressError {
     },
     /// No contact node touches.
     #[error(
-        "there is a gap everywhere: {}. The counterface is pushed in by contact.interference = \
-         {interference:e} m. Raise contact.interference by more than the gap, or press the body \
+        "there is a gap everywhere: {}, with an interference of {interference:e} m. Raise \
+         contact.interference (of a rigid counterface) by more than the gap, or press the bodies \
          with a boundary pressure", apart(*total, [*distance, *interference])
     )]
     GapEverywhere {
@@ -46,10 +46,9 @@ pub enum PrestressError {
     },
     /// The complementarity problem has no solution that could be found.
     #[error(
-        "there is no state of steady sliding at friction {friction_coefficient}: every choice of \
-         pressed and open nodes tried pulls one or lets one penetrate. Lower \
-         contact.friction_coefficient, or the largest of cea.friction_coefficients. A contact \
-         stiffness far above that of the bodies may hide a state: lower it, too"
+        "there is no state of steady sliding at friction {friction_coefficient}: every choice of pressed and open nodes \
+         tried pulls one or lets one penetrate. Lower contact.friction_coefficient, or the largest of \
+         cea.friction_coefficients. A contact stiffness far above that of the bodies may hide a state: lower it, too"
     )]
     NoState {
         /// Friction coefficient.
@@ -75,8 +74,9 @@ pub enum PrestressError {
 
 /// How far the surfaces are apart.
 fn apart(total: usize, [distance, interference]: [f64; 2]) -> String {
-    match distance > 0.0 || interference <= 0.0 {
+    match distance > 0.0 {
         true => format!("the nearest of {total} contact nodes is {distance:.3e} m away"),
-        false => format!("loads part all {total} contact nodes"),
+        false if interference > 0.0 => format!("loads part all {total} contact nodes"),
+        false => format!("nothing presses any of {total} contact nodes"),
     }
 }

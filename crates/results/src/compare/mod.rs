@@ -142,7 +142,7 @@ impl SharedQuantity {
     }
 
     /// Whether it decides nothing.
-    fn is_cost(&self) -> bool {
+    pub fn is_cost(&self) -> bool {
         self.path.rsplit('.').next().is_some_and(|key| COSTS.contains(&key))
     }
 }

@@ -9,9 +9,9 @@ use frictionsim_physics::fem::element_supports;
 use frictionsim_results::improve::{State, TargetMode};
 
 /// Steps of friction from 0 to that of the case, over which branches are followed.
-const STEPS: usize = 4;
+pub(super) const STEPS: usize = 4;
 
-/// Distance beyond the highest mode, relative to it, up to which modes after a change are listed.
+/// Distance beyond the highest mode, relative to it, up to which modes before and after a change are listed.
 pub(super) const REACH: f64 = 1.02;
 
 /// A mode with its vectors over the unknowns and over all dofs.
@@ -79,6 +79,8 @@ pub(super) struct Base<'a> {
     /// Springs and dashpots of supports on the faces of each element.
     pub supports: BTreeMap<u32, [Triplets; 2]>,
     pub window: Window,
+    /// Which modes are listed, of the case as of its changes.
+    pub reach: ModeLimit,
     /// Eigenvalues of all listed modes, by frequency.
     pub listed: Vec<c64>,
     /// Those of them that have vectors.
@@ -89,18 +91,29 @@ pub(super) struct Base<'a> {
     pub multiple: usize,
 }
 
-/// The model and the spectrum of a case over its whole mesh, from friction 0 to that of the case.
+/// The model and the spectrum of a case over its whole mesh, in so many of [`STEPS`] up to the friction of the case.
 pub(super) fn spectrum_of(
     case: &Case,
     mass: MassKind,
     modes: ModeLimit,
+    steps: usize,
 ) -> Result<(WholeMesh, FrictionSweep), CeaError> {
     let own = case.contact.sliding.friction_coefficient;
-    let frictions: Vec<f64> = (0..=STEPS).map(|i| own * i as f64 / STEPS as f64).collect();
+    let steps = STEPS - steps..=STEPS;
+    let frictions: Vec<f64> = steps.map(|i| own * i as f64 / STEPS as f64).collect();
     let whole = WholeMesh::solve(case, tangent_options(case, mass), &frictions)?;
     let request = SweepRequest::new(&frictions, modes);
     let sweep = whole.sweep(case, &request, &Unwatched)?.sweep;
     Ok((whole, sweep))
+}
+
+/// What a case is to list with and without a change: as many modes would be others, some of which may grow as it is.
+fn reach(case: &Case, cea: &Cea) -> Result<ModeLimit, CeaError> {
+    let ModeLimit::Lowest(_) = cea.modes else { return Ok(cea.modes) };
+    let (_, sweep) = spectrum_of(case, cea.mass, cea.modes, 0)?;
+    let modes = sweep.modes_at(case.contact.sliding.friction_coefficient).iter();
+    let highest = modes.map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);
+    Ok(ModeLimit::MaxFrequency(REACH * highest / TAU))
 }
 
 /// The lowest critical friction coefficient of a mode in a window.
@@ -116,7 +129,8 @@ impl<'a> Base<'a> {
         refuse_bodies(case)?;
         let friction = case.contact.sliding.friction_coefficient;
         let window = Window(case.improve.frequencies_hz);
-        let (whole, sweep) = spectrum_of(case, cea.mass, cea.modes)?;
+        let reach = reach(case, cea)?;
+        let (whole, sweep) = spectrum_of(case, cea.mass, reach, STEPS)?;
         let own = sweep.modes_at(friction).iter();
         let targets: Vec<c64> = own.map(|mode| mode.eigenvalue).collect();
         let outlook = window.outlook(targets.iter().copied());
@@ -133,7 +147,6 @@ impl<'a> Base<'a> {
             left: tangent.left_displacement(&pair.left, friction),
             pair,
         });
-        let modes: Vec<PairedMode> = modes.collect();
         let stressing = whole.assembly(case).stressing(whole.state());
         let mesh = case.body.mesh()?;
         Ok(Self {
@@ -144,22 +157,14 @@ impl<'a> Base<'a> {
             state: State { critical_friction: lowest_onset(&sweep, window), ..outlook },
             case,
             cea,
+            modes: modes.collect(),
             tangent,
             friction,
             window,
+            reach,
             listed: targets,
-            modes,
             multiple,
         })
-    }
-
-    /// The modes that a body with a change is to list: a mass lets more of them into as many.
-    pub fn reach(&self) -> ModeLimit {
-        let highest = self.listed.iter().map(|mode| mode.im).fold(0.0, f64::max);
-        match self.cea.modes {
-            ModeLimit::Lowest(_) => ModeLimit::MaxFrequency(REACH * highest / TAU),
-            limit => limit,
-        }
     }
 
     /// Places of the dofs that are unknowns.
@@ -226,10 +231,8 @@ fn nothing_grows(case: &Case, beside: usize, window: Window) -> CaseErrors {
         0 => String::new(),
         count => format!("; {count} beside these frequencies do"),
     };
-    let key = match case.raw.find("contact.friction_coefficient") {
-        Some(_) => "contact.friction_coefficient",
-        None => "contacts",
-    };
+    let own = "contact.friction_coefficient";
+    let key = if case.raw.find(own).is_some() { own } else { "contacts" };
     refusal!(case, key,
         "no mode {place} grows at friction {friction}: there is nothing to improve{beside}";
         "every mode decays";

@@ -1,6 +1,6 @@
 //! Candidates as cases of their own: their keys, their runs, what these come to.
 
-use super::base::{Base, lowest_onset, spectrum_of};
+use super::base::{Base, STEPS, lowest_onset, spectrum_of};
 use super::trial::{Search, Target, Trial};
 use crate::eigenvalues::WholeMesh;
 use crate::prelude::*;
@@ -68,7 +68,7 @@ pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTang
 /// Runs the case with some keys.
 pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, String> {
     let case = changed(base, keys)?;
-    let sweep = spectrum_of(&case, base.cea.mass, base.reach());
+    let sweep = spectrum_of(&case, base.cea.mass, base.reach, STEPS);
     let (_, sweep) = sweep.map_err(|error| error.to_string())?;
     let modes = sweep.modes_at(base.friction).iter();
     Ok(State {

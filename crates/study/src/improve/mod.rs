@@ -28,7 +28,7 @@ use confirm::{keys_of, run_again, verdict};
 use fields::{Derivatives, element_terms, matrices};
 use frictionsim_case::ModificationKind;
 use frictionsim_output::rounded;
-use frictionsim_physics::fem::lumped_masses;
+use frictionsim_physics::{fem::lumped_masses, parallel};
 use frictionsim_results::improve::{Candidate, ImproveSummary, Improvement, Sizes, State};
 use modal::{Change, ModalModel};
 use trial::{Places, Search, Target, Trial, added_mass, target_fields};
@@ -77,7 +77,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     order.truncate(case.improve.confirm);
     order.sort_unstable();
     let run = |&i: &usize| (i, run_again(&base, &listed[i].1.keys));
-    let outcomes: Vec<_> = frictionsim_physics::parallel::map(&order, run);
+    let outcomes: Vec<_> = parallel::map(&order, run);
     let mut candidates: Vec<Candidate> = listed.into_iter().map(|(_, own)| own).collect();
     for (i, outcome) in outcomes {
         candidates[i].verdict = match &outcome {
@@ -138,17 +138,14 @@ fn predictions(
         trials = shortlist(search, modal, trials, SHORTLISTED * count)?;
     }
     let changes: Vec<Result<(Change, Trial), String>> =
-        frictionsim_physics::parallel::map(trials, |trial| {
-            Ok((change(search, modal, &trial)?, trial))
-        });
+        parallel::map(trials, |trial| Ok((change(search, modal, &trial)?, trial)));
     for reason in changes.iter().filter_map(|own| own.as_ref().err()) {
         notes.push(format!("{}: {reason}", kind.word()));
     }
     let changes: Vec<(Change, Trial)> = changes.into_iter().flatten().collect();
 
     // By the growth of all modes together.
-    let outlooks: Result<Vec<State>, _> =
-        frictionsim_physics::parallel::map(&changes, |(own, _)| modal.outlook(own));
+    let outlooks: Result<Vec<State>, _> = parallel::map(&changes, |(own, _)| modal.outlook(own));
     let outlooks = outlooks.map_err(CeaError::from)?;
     let growth = |i: usize| outlooks[i].growth_rate_per_s.unwrap_or(f64::NEG_INFINITY);
     let mut order = sorted(0..changes.len(), |&i| growth(i));
@@ -207,7 +204,7 @@ fn shortlist(
         let outlook = modal.outlook(&modal.local(&dofs, [&m, &c, &k]))?;
         Ok((outlook.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY), trial))
     };
-    let ranked: Result<Vec<(f64, Trial)>, _> = frictionsim_physics::parallel::map(trials, growth);
+    let ranked: Result<Vec<(f64, Trial)>, _> = parallel::map(trials, growth);
     let ranked = sorted(ranked.map_err(CeaError::from)?, |own| own.0).into_iter();
     Ok(ranked.take(count).map(|(_, trial)| trial).collect())
 }
@@ -234,8 +231,7 @@ fn patch_matrices(
 ) -> (Vec<usize>, [DMatrix<f64>; 3]) {
     let all = elements.iter().map(|&e| base.mesh.element_dofs(e as usize).collect());
     let all: Vec<Vec<usize>> = all.collect();
-    let own: BTreeSet<usize> = all.iter().flatten().copied().collect();
-    let own: Vec<usize> = own.into_iter().collect();
+    let own = Vec::from_iter(all.iter().flatten().copied().collect::<BTreeSet<usize>>());
     let mut sums = [0, 1, 2].map(|_| DMatrix::<f64>::zeros(own.len(), own.len()));
     for (&element, dofs) in elements.iter().zip(&all) {
         let terms = match kind {
