@@ -21,7 +21,7 @@ use frictionsim_physics::frf::{
 };
 use frictionsim_physics::linalg::GaussianNoise;
 use frictionsim_physics::mesh::{BoundaryCondition, Strip};
-use frictionsim_physics::prestress::BaseChoice;
+use frictionsim_physics::prestress::{BaseChoice, WaveTangent};
 use frictionsim_results::ResponseSummary;
 
 /// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
@@ -203,8 +203,8 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         }
         (_, FrfBoundary::Sliding) => {
             refuse_rest(case)?;
-            let sector = sector_tangent(case, &tangent_options(case, frf.mass))?;
-            let waves = sector.expect("a body of equal sectors").waves();
+            let waves = sector_tangent(case, &tangent_options(case, frf.mass))?;
+            let waves = waves.expect("a body of equal sectors");
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
         (BodyKind::Annulus(own), _) => apart(case, frf, &Strip::of_annulus(own)?),
@@ -219,7 +219,8 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
 /// The harmonics of a body of equal sectors that touches nothing.
 fn apart(case: &Case, frf: &Frf, strip: &Strip) -> CyclicSystem {
     let is_held = frf.boundary == FrfBoundary::Clamped;
-    CyclicSystem::body(strip, case.materials(), frf.mass, case.damping.rayleigh, is_held)
+    let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
+    CyclicSystem::sliding(&WaveTangent::of_free(strip, materials, frf.mass, rayleigh, is_held), 0.0)
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.
@@ -266,7 +267,7 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
     }
     let assembly = apart.assembled(case.materials(), frf.mass)?;
     let tangent = assembly.tangent(&assembly.state(0.0)?, &options)?;
-    Ok((FrfSystem::tied(&tangent), Arc::clone(&body.mesh)))
+    Ok((FrfSystem::sliding(&tangent, 0.0), Arc::clone(&body.mesh)))
 }
 
 /// A counterface at rest sticks: there is no steady sliding to respond around.

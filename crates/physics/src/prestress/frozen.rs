@@ -14,16 +14,12 @@ impl SlidingTangent {
         if !self.is_tabled() {
             return Cow::Borrowed(self);
         }
-        let mut frozen = self.clone();
-        let mut lost: Option<MatrixPolynomial> = None;
-        for (gain, part) in std::mem::take(&mut frozen.losses) {
+        let mut frozen = self.referred_to(frequency_hz); // Their factors are imaginary there.
+        let lost = frozen.losses.iter().map(|(gain, part)| {
             let gain = gain.at(c64::new(0.0, TAU * frequency_hz));
-            frozen.stiffness =
-                MatrixPolynomial::combination(1.0, &frozen.stiffness, gain.re, &part);
-            // K + Re g_p K_p, H + Im g_p K_p.
-            let (weight, before) = lost.as_ref().map_or((0.0, &part), |lost| (1.0, lost));
-            lost = Some(MatrixPolynomial::combination(weight, before, gain.im, &part));
-        }
+            MatrixPolynomial::combination(0.0, part, gain.im, part)
+        });
+        let lost = lost.reduce(|sum, own| MatrixPolynomial::combination(1.0, &sum, 1.0, &own)); // H + sum_p Im g_p K_p.
         frozen.losses = lost.into_iter().map(|own| (LossGain(None), own)).collect();
         Cow::Owned(frozen)
     }

@@ -1,12 +1,14 @@
 //! Bodies pressed together at their contact points, and their state under one set of pressed points as polynomials in the friction
 //! coefficient.
 
+use super::contact_system::ContactSystem;
 use super::elimination::Elimination;
 use super::friction_polynomial::{evaluate, interpolated};
 use super::pressed_range::{PressedRange, RESOLVED};
 use super::{PrestressError, Result};
 use crate::contact::{NormalLaw, Point, PressedState};
 use crate::fem::Triplets;
+use std::ops::Range;
 
 /// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is followed from there.
 pub(super) const LEAST_RANGE: f64 = 0.05;
@@ -37,13 +39,13 @@ pub struct Pressing<'a> {
     pub elimination: Elimination,
     /// The contact points.
     pub points: &'a [Point],
+    /// Numbers of points that touch together or not at all; empty where each is by itself.
+    pub together: Vec<usize>,
     /// Section and name of each contact and its number of points, in their order; empty where there is one contact.
     pub contacts: Vec<(String, usize)>,
     /// How far the counterface is pushed in at each, `delta_i - g_i`, m.
     pub pushed: Vec<f64>,
-    /// Stiffness of the contact of each, N/m, without pressure where it stiffens; `None` is rigid contact.
-    pub stiffnesses: Vec<Option<f64>>,
-    /// Contact that stiffens, of each point; `None` is linear or rigid.
+    /// Law of the contact of each; `None` is rigid contact.
     pub laws: Vec<Option<NormalLaw>>,
     /// Their states at some friction coefficients, as found before.
     pub known: Option<&'a PressedRange>,
@@ -64,6 +66,18 @@ impl Pressing<'_> {
             "nothing presses the two sides of {name} together: one of them is held by the contact alone. Press it with a boundary pressure \
              or an interference, or hold it by springs"
         )))
+    }
+
+    /// The points that touch together with one of them.
+    pub(super) fn together_with(&self, point: usize) -> Range<usize> {
+        let mut first = 0;
+        for count in &self.together {
+            if point < first + count {
+                return first..first + count;
+            }
+            first += count;
+        }
+        point..point + 1
     }
 
     pub(super) fn gap_everywhere(&self) -> PrestressError {
@@ -123,31 +137,18 @@ impl PressedState {
     }
 }
 
-/// Bodies whose state of one set of pressed points becomes a polynomial.
-pub(super) trait PressedBodies {
-    /// Friction coefficients through which the polynomial of a state that holds in `range` goes, where they are enough: their
-    /// interval and number.
-    fn usual_points(&self, range: [f64; 2]) -> ([f64; 2], usize);
-
-    /// The state in which exactly the points of `is_pressed` touch, whatever sign their forces have.
-    fn state_of(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> Result<ContactState>;
-
-    /// Displacement of every dof from the state of the contact points.
-    fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64>;
-}
-
-/// Finds the friction coefficients between which a set of pressed points holds.
-pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2]> + 'a;
+/// Finds the friction coefficients between which the set of pressed points holds.
+pub(super) type OwnRange<'a> = dyn Fn(&mut ContactSystem<'_>) -> Result<[f64; 2]> + 'a;
 
 /// The state of one set of pressed points as a polynomial in the friction coefficient.
 ///
 /// Where the usual points leave out too much, as near a friction coefficient at which sliding jams, other numbers of points over the
 /// range in which the set is the one that holds, as `own_range` finds it, are tried: the polynomial is taken that leaves out least, the
 /// friction coefficients `asked` for included. With it comes the share of the largest force that it leaves out.
-pub(super) fn polynomial_state<B: PressedBodies>(
-    bodies: &mut B,
+pub(super) fn polynomial_state(
+    bodies: &mut ContactSystem<'_>,
     is_pressed: &[bool],
-    (range, own_range): ([f64; 2], &OwnRange<'_, B>),
+    (range, own_range): ([f64; 2], &OwnRange<'_>),
     asked: &[f64],
 ) -> Result<EstimatedState> {
     let (usual, count) = bodies.usual_points(range);
@@ -177,7 +178,7 @@ pub(super) fn polynomial_state<B: PressedBodies>(
         let exact = exact.collect::<Result<Vec<ContactState>>>()?;
         best.compare(asked, &exact);
         // Beyond the range in which the set holds there may be no state.
-        let within = own_range(bodies, is_pressed).unwrap_or(range);
+        let within = own_range(bodies).unwrap_or(range);
         let more = MORE_NODES.map(|count| (within, count));
         for points in more.into_iter().chain([(usual, MOST_USUAL)]) {
             let other = EstimatedState::through(bodies, is_pressed, points, own(points.0));
@@ -203,7 +204,7 @@ pub(super) struct EstimatedState {
 impl EstimatedState {
     /// That through the states at Chebyshev points of an interval, from the first of two origins, or the second where contact stiffens.
     fn through(
-        bodies: &mut impl PressedBodies,
+        bodies: &mut ContactSystem<'_>,
         is_pressed: &[bool],
         (interval, count): ([f64; 2], usize),
         origins: [f64; 2],
@@ -288,28 +289,30 @@ fn chebyshev_points(count: usize, [lower, upper]: [f64; 2]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::SteadyFriction;
 
-    /// One point whose force `1 / (jam - mu)` grows without bound at a friction coefficient.
-    struct Jamming {
-        jam: f64,
-    }
-
-    impl PressedBodies for Jamming {
-        fn usual_points(&self, [_, upper]: [f64; 2]) -> ([f64; 2], usize) {
-            ([0.0, upper], 7)
-        }
-
-        fn state_of(&mut self, friction_coefficient: f64, _: &[bool]) -> Result<ContactState> {
-            Ok(ContactState {
-                separations: vec![0.0],
-                normal_forces: vec![1.0 / (self.jam - friction_coefficient)],
-                stiffnesses: None,
-            })
-        }
-
-        fn whole_displacement(&self, _: f64, state: &ContactState) -> Vec<f64> {
-            state.normal_forces.clone()
-        }
+    /// Solves for a point whose force `1 / (jam - mu)` grows without bound at a friction coefficient: friction pulls a body of two
+    /// dofs, `K = [k 1; 1 jam]`, along the second of them and so into the counterface.
+    fn jamming(jam: f64, range: [f64; 2], asked: &[f64]) -> EstimatedState {
+        const STIFFNESS: f64 = 10.0;
+        let entries = vec![(0, 0, STIFFNESS), (0, 1, 1.0), (1, 0, 1.0), (1, 1, jam)];
+        let friction = SteadyFriction { drag: 1.0, ..SteadyFriction::default() };
+        let [normal, slip] = [0, 1].map(|dof| vec![(dof, 1.0)]);
+        let points = [Point { normal, slip, friction, ..Point::default() }];
+        let pressing = Pressing {
+            stiffness: &Triplets { entries },
+            load: vec![0.0; 2],
+            elimination: Elimination::holding(2, []),
+            points: &points,
+            together: Vec::new(),
+            contacts: Vec::new(),
+            pushed: vec![1.0 / (STIFFNESS * jam - 1.0)],
+            laws: vec![None],
+            known: None,
+        };
+        let own = |_: &mut ContactSystem<'_>| Ok([0.3, 0.6]);
+        let mut bodies = ContactSystem::new(&pressing).unwrap();
+        polynomial_state(&mut bodies, &[true], (range, &own), asked).unwrap()
     }
 
     /// Closed form: far from jamming few points are enough, from friction 0 on; nearer to it those of the range of the state serve.
@@ -318,10 +321,7 @@ mod tests {
         let (range, asked) = ([0.3, 0.6], [0.3, 0.45, 0.6]);
         let cases = [(19.0, 0.0, 1e-7), (1.8, 0.3, 1e-7), (0.75, 0.3, 1e-6)];
         for (jam, frozen_below, bound) in cases {
-            let bodies = &mut Jamming { jam };
-            let own = |_: &mut Jamming, _: &[bool]| Ok(range);
-            let found = polynomial_state(bodies, &[true], (range, &own), &asked);
-            let EstimatedState { state, left_out } = found.unwrap();
+            let EstimatedState { state, left_out } = jamming(jam, range, &asked);
             assert!(left_out < bound, "{jam} {left_out:e}");
             assert_eq!(state.frozen_below, frozen_below, "{jam}");
             for friction in asked {
@@ -336,10 +336,7 @@ mod tests {
     #[test]
     fn forces_of_one_friction_coefficient_follow_it() {
         let (jam, asked) = (0.75, 0.6);
-        let own = |_: &mut Jamming, _: &[bool]| Ok([0.3, asked]);
-        let (bodies, range) = (&mut Jamming { jam }, ([asked; 2], &own as &OwnRange<'_, _>));
-        let EstimatedState { state, .. } =
-            polynomial_state(bodies, &[true], range, &[asked]).unwrap();
+        let EstimatedState { state, .. } = jamming(jam, [asked; 2], &[asked]);
         let [force, next] = [asked, asked + 1e-6].map(|friction| state.normal_forces(friction)[0]);
         let slope = (next - force) / 1e-6;
         assert!((slope * (jam - asked).powi(2) - 1.0).abs() < 1e-3, "{slope}");

@@ -95,7 +95,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
             whole.tangent(case, first)?.referred_to(limit_hz)
         }
         Model::Waves(options) => {
-            let waves = sector_tangent(case, options)?.expect("a body of sectors").waves();
+            let waves = sector_tangent(case, options)?.expect("a body of sectors");
             let has_modes = |n: usize| {
                 let [mass, stiffness] = waves.at_rest(n);
                 BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0

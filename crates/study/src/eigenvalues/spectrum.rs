@@ -109,7 +109,7 @@ pub fn unstable_intervals(
     let model = Model::with_solver(case, solver, options, &frictions)?;
     if let (Some(harmonics), Model::Waves(options)) = (harmonics, &model)
         && let Ok(Some(tangent)) = sector_tangent(case, options)
-        && let Ok(Some(found)) = cyclic::onsets(tangent.waves(), &request, harmonics)
+        && let Ok(Some(found)) = cyclic::onsets(tangent, &request, harmonics)
     {
         return Ok(OnsetSearch::of(found, Vec::new()));
     }
