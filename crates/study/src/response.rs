@@ -11,7 +11,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::eigenvalues::{WholeMesh, sector_tangent};
+use super::eigenvalues::{WholeMesh, wave_tangent};
 use super::{StudyError, tangent_options};
 use crate::prelude::*;
 use frictionsim_case::{Frf, FrfMethod};
@@ -203,7 +203,7 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         }
         (_, FrfBoundary::Sliding) => {
             refuse_rest(case)?;
-            let waves = sector_tangent(case, &tangent_options(case, frf.mass))?;
+            let waves = wave_tangent(case, &tangent_options(case, frf.mass))?;
             let waves = waves.expect("a body of equal sectors");
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
@@ -218,9 +218,9 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
 
 /// The harmonics of a body of equal sectors that touches nothing.
 fn apart(case: &Case, frf: &Frf, strip: &Strip) -> CyclicSystem {
-    let is_held = frf.boundary == FrfBoundary::Clamped;
-    let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
-    CyclicSystem::sliding(&WaveTangent::of_free(strip, materials, frf.mass, rayleigh, is_held), 0.0)
+    let (materials, is_held) = (case.materials(), frf.boundary == FrfBoundary::Clamped);
+    let waves = WaveTangent::of_free(strip, materials, frf.mass, case.damping.rayleigh, is_held);
+    CyclicSystem::sliding(&waves, 0.0)
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.
@@ -238,9 +238,8 @@ fn whole(case: &Case, frf: &Frf, method: FrfMethod) -> Result<System, StudyError
     let port = |terminal, key| {
         system.port(&mesh, axis, terminal, key).map_err(|error| at_node(case, &error))
     };
-    let force = port(frf.force, "force_node")?;
-    let response = port(frf.response, "response_node")?;
-    Ok(System::Whole { system: Box::new(system), ports: Box::new([force, response]), method })
+    let ports = [port(frf.force, "force_node")?, port(frf.response, "response_node")?];
+    Ok(System::Whole { system: Box::new(system), ports: Box::new(ports), method })
 }
 
 /// A body as it is held, with its mesh: sliding, or its parts as they are tied, without their contacts.

@@ -2,6 +2,7 @@
 
 use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND, check_frequencies};
 use super::{Direction, FrfError, NodeFault, Terminal};
+use crate::fem::RayleighDamping;
 use crate::fem::fold::WaveDofs;
 use crate::linalg::LinalgError;
 use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes, multiply_band};
@@ -132,6 +133,8 @@ pub fn cyclic_response(
 /// One harmonic with what it has to do with force and response.
 struct Wave {
     bands: MovingHarmonic,
+    /// Where `C = alpha_R M + beta_R K`.
+    proportional: Option<RayleighDamping>,
     /// No other harmonic is the mirror image of this one.
     is_standing: bool,
     force: usize,
@@ -144,7 +147,8 @@ struct Wave {
 
 impl Wave {
     fn new(system: &CyclicSystem, n: usize, force: Place, response: Place) -> Self {
-        let bands = system.tangent.harmonic(n).at(system.friction_coefficient);
+        let harmonic = system.tangent.harmonic(n);
+        let bands = harmonic.at(system.friction_coefficient);
         let sectors = system.dofs.sectors;
         // Modulo a full turn, so that high harmonics lose no digits.
         let steps = response.half_steps + 2 * sectors - force.half_steps;
@@ -159,7 +163,8 @@ impl Wave {
         }
         let is_real = bands.matrices.each().flatten().all(|value| value.im == 0.0);
         Self {
-            is_standing: system.tangent.is_standing(n),
+            is_standing: harmonic.is_standing,
+            proportional: harmonic.damping.is_none().then_some(harmonic.rayleigh),
             is_real,
             force: force.unknown,
             response: response.unknown,
@@ -218,9 +223,18 @@ impl<'a> Lines<'a> {
         let lane_frequency = |lane: usize| frequencies[lane.min(frequencies.len() - 1)];
         let omega = |lane: usize| sign * TAU * lane_frequency(lane);
         let MovingHarmonic { half_bandwidth, matrices } = &wave.bands;
-        // Factors of each matrix in K + i omega C - omega^2 M, lane by lane.
-        let of_lanes: [_; LANES] =
-            std::array::from_fn(|lane| matrices.terms(c64::new(0.0, omega(lane))));
+        // Factors of K, M and C in K + i omega C - omega^2 M, lane by lane.
+        let of_lanes: [_; LANES] = std::array::from_fn(|lane| {
+            let root = c64::new(0.0, omega(lane));
+            let mut terms = matrices.terms(root);
+            terms.swap(1, 2);
+            if let Some(own) = &wave.proportional {
+                terms[0].0 += root * own.stiffness_coefficient; // C = alpha M + beta K.
+                terms[1].0 += root * own.mass_coefficient;
+                terms.remove(2);
+            }
+            terms
+        });
         let terms = of_lanes[0]
             .iter()
             .enumerate()

@@ -1,8 +1,9 @@
 //! The contact state by complementarity: which points are pressed, over a range of friction coefficients.
 
 use super::contact_system::ContactSystem;
+use super::polynomials::{LEAST_RANGE, polynomial_state};
 use super::pressed_range::{CHANGE_WIDTH, PressedRange};
-use super::pressed_state::{ContactState, LEAST_RANGE, polynomial_state};
+use super::pressed_state::ContactState;
 use super::{PrestressError, Result};
 use crate::linalg::Bracket;
 

@@ -1,7 +1,7 @@
 //! Bodies on their contact points: sparse, for many thousands of points.
 
 use super::joined_points::{Inverse, JoinedPoints};
-use super::pressed_state::{ContactState, LEAST_RANGE, Pressing, SHORT_RANGE, widened};
+use super::pressed_state::{ContactState, Pressing};
 use super::{PrestressError, Result};
 use crate::contact::{NormalLaw, Point, Row};
 use crate::linalg::dense::{add, difference, norm};
@@ -35,10 +35,6 @@ const NEARLY: f64 = 1e-6;
 /// Residual of the penetrations, over those without friction: as small as rounding lets it become, for polynomials over a short range of
 /// friction magnify it by up to a million.
 const TOLERANCE: f64 = 1e-16;
-
-/// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
-/// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1; from friction 0 on of rigid contact.
-const NODES: [usize; 3] = [6, 8, 7];
 
 /// Bodies whose contact points have springs `k_i`.
 ///
@@ -305,15 +301,6 @@ impl<'a> ContactSystem<'a> {
         }
         self.systems.take_if(|_| stiffens); // Other springs are another family.
         stiffens
-    }
-
-    /// Friction coefficients through which the polynomial of a state that holds in a range goes, where they are enough: their
-    /// interval and number.
-    pub fn usual_points(&self, [lower, upper]: [f64; 2]) -> ([f64; 2], usize) {
-        if self.springs.contains(&f64::INFINITY) {
-            return ([0.0, upper.max(LEAST_RANGE)], NODES[2]);
-        }
-        (widened([lower, upper]), NODES[usize::from(upper - lower > SHORT_RANGE)])
     }
 
     /// The state in which exactly the points of `is_pressed` touch, whatever sign their forces have.

@@ -4,9 +4,9 @@
 use super::complementarity::pressed_points;
 use super::contact_system::ContactSystem;
 use super::elimination::Elimination;
+use super::face::{FaceRule, OverRings, face_points, node_point};
 use super::pressed_state::Pressing;
-use super::solid::{FaceRule, OverRings, face_points, node_point};
-use super::{PrestressError, Result, SolidSliding};
+use super::{PrestressError, Result, SectorSliding, SolidSliding};
 use crate::contact::{
     ContactInterface, ContactStiffness, NormalLaw, Point, PressedState, SlidingContact, Turning,
     scaled,
@@ -20,26 +20,6 @@ const SETS: usize = 200;
 
 /// Change of `delta - u_n` relative to the largest at which springs are settled: Newton's method, whose next change is its square.
 const SETTLED: f64 = 1e-10;
-
-/// The state of steady sliding of a body of equal sectors, the same in each, whose normal forces do not depend on friction.
-///
-/// It is the state of [`super::Assembly::of_edge`] for the annulus: harmonic zero of the stiffness, whose radial and tangential
-/// parts do not mix. Per metre of thickness in the plane; vectors are over the dofs of the sector.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SectorSliding {
-    /// Displacement, normal forces and springs of the contact nodes of the sector.
-    pub state: PressedState,
-    /// The contact nodes of the sector as contact points.
-    pub points: Vec<Point>,
-    /// How these turn.
-    pub turnings: Vec<Turning>,
-    /// The points at which the law of the contact acts, with their state, where they are others than the nodes.
-    pub on_face: Option<(Vec<Point>, PressedState)>,
-    /// Nodes of each place of the contact, a node or a ring of them, the other body's behind its own.
-    pub places: Vec<Vec<usize>>,
-    /// Whether each of these is pressed.
-    pub is_pressed: Vec<bool>,
-}
 
 impl SectorSliding {
     /// Solves the equilibrium of one sector of an annulus with its [`Strip::stiffness_alike`], on contact that stiffens with
@@ -68,12 +48,6 @@ impl SectorSliding {
             state,
             points,
         })
-    }
-
-    /// The state of the whole body of `count` sectors: the same in the polar frames of each.
-    pub fn repeated(&self, count: usize) -> PressedState {
-        let points: Vec<usize> = (0..self.points.len()).collect();
-        self.state.repeated(count, &points.repeat(count))
     }
 }
 

@@ -129,7 +129,7 @@ impl Model {
     ) -> Result<(Solution, Option<WaveSweep>), CeaError> {
         match self {
             Self::Waves(options) => {
-                let tangent = sector_tangent(case, options)?.expect("a body of sectors");
+                let tangent = wave_tangent(case, options)?.expect("a body of sectors");
                 let mut found = cyclic::wave_sweep(tangent, request, waves_at)?;
                 let is_reduced = found.reduction_error > 0.0;
                 let notes = is_reduced.then(|| reduction_note(&found, request));
@@ -151,7 +151,7 @@ impl Model {
 ///
 /// # Errors
 /// A sector that cannot be built; no state of steady sliding.
-pub fn sector_tangent(
+pub fn wave_tangent(
     case: &Case,
     options: &TangentOptions,
 ) -> Result<Option<WaveTangent>, CeaError> {
