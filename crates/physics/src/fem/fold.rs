@@ -21,7 +21,7 @@ const STEPS: usize = 8;
 const TURNS: usize = 4 * STEPS;
 
 /// A matrix over the dofs of one sector, `d k + c` for component `c` of sector node `k`, `d` components a node, that couples
-/// them to dofs of sectors beside it too. Its columns are [`TURNS`] times those of the sector plus the turn of the entry.
+/// them to dofs of sectors beside it too. Its columns are 32 times those of the sector plus the turn of the entry.
 ///
 /// Component 1 is tangential: a mirror along a radius turns it over.
 pub type SectorMatrix = Triplets;

@@ -319,7 +319,7 @@ impl Terms<Triplets> {
         }
     }
 
-    /// [`Self::of_elastic`] of a mesh over all its dofs.
+    /// Those of a mesh over all its dofs without stress and rotation.
     pub fn of_mesh(
         (mesh, material): (&Mesh, &dyn MaterialField),
         is_free: bool,
@@ -328,8 +328,7 @@ impl Terms<Triplets> {
         Self::of_elastic((mesh, material), region_stiffnesses(mesh, material), is_free, options)
     }
 
-    /// Those of a mesh without stress and rotation, with the stiffness of each region: regions, supports unless all of it is free,
-    /// and modifications.
+    /// [`Self::of_mesh`] with the stiffness of each region: regions, supports unless all of it is free, and modifications.
     pub(super) fn of_elastic(
         (mesh, material): (&Mesh, &dyn MaterialField),
         elastic: Vec<Triplets>,
