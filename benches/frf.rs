@@ -25,11 +25,12 @@ fn options() -> TangentOptions {
 fn cyclic_system(boundary: &str) -> CyclicSystem {
     let sector = Strip::of_annulus(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
-        let tangent =
-            SectorTangent::of_annulus(&sector, &POLYCARBONATE, &options(), &contact(610.0));
-        return CyclicSystem::sliding(&tangent.expect("contact stays closed").waves(), 0.3);
+        let tangent = WaveTangent::of_annulus(&sector, &POLYCARBONATE, &options(), &contact(610.0));
+        return CyclicSystem::sliding(&tangent.expect("contact stays closed"), 0.3);
     }
-    CyclicSystem::body(&sector, &POLYCARBONATE, Consistent, DAMPING, boundary == "clamped")
+    let is_held = boundary == "clamped";
+    let free = WaveTangent::of_free(&sector, &POLYCARBONATE, Consistent, DAMPING, is_held);
+    CyclicSystem::sliding(&free, 0.0)
 }
 
 fn whole_system(boundary: &str) -> FrfSystem {

@@ -16,40 +16,35 @@ pub type AnnulusModel<M = ElasticMaterial> = WaveModel<AnnulusSpecification, M>;
 
 /// What a body is made from by equal sectors.
 pub trait Sectors: Clone {
-    /// The small motions of one sector of a model.
-    fn sector<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<SectorTangent, CeaError>;
+    /// The small motions of a model.
+    fn waves<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError>;
 }
 
 impl Sectors for AnnulusSpecification {
-    fn sector<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<SectorTangent, CeaError> {
+    fn waves<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError> {
         let WaveModel { specification, material, options, contact } = model;
         let sector = Strip::of_annulus(specification)?;
-        Ok(SectorTangent::of_annulus(&sector, material, options, contact)?)
+        Ok(WaveTangent::of_annulus(&sector, material, options, contact)?)
     }
 }
 
 impl Sectors for SolidSpecification {
-    fn sector<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<SectorTangent, CeaError> {
+    fn waves<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError> {
         let WaveModel { specification, material, options, contact } = model;
         let sector = SolidSector::generate(specification)?;
-        Ok(SectorTangent::of_revolution(&sector, material, options, contact)?)
+        Ok(WaveTangent::of_revolution(&sector, material, options, contact)?)
     }
 }
 
 impl<S: Sectors, M: MaterialField + Clone> WaveModel<S, M> {
-    /// The small motions of one sector of it.
-    pub fn sector(&self) -> SectorTangent {
-        S::sector(self).unwrap()
-    }
-
     /// Its small motions.
     pub fn tangent(&self) -> WaveTangent {
-        self.sector().waves()
+        S::waves(self).unwrap()
     }
 
     /// Its eigenvalues over friction.
     pub fn sweep(&self, request: &SweepRequest<'_>) -> Result<WaveSweep, CeaError> {
-        wave_sweep(S::sector(self)?.waves(), request, &[])
+        wave_sweep(S::waves(self)?, request, &[])
     }
 
     /// The modes of a limit at some friction coefficients.

@@ -43,8 +43,8 @@ fn annulus_speed(n: usize) -> c64 {
     let options = TangentOptions { damping: undamped, ..TANGENT };
     let contact = sliding_at(FRICTION, 1e-6, 1.0);
     let sector = Strip::of_annulus(&specification).unwrap();
-    let tangent = SectorTangent::of_annulus(&sector, &material, &options, &contact).unwrap();
-    let harmonic = tangent.waves().harmonic(n);
+    let tangent = WaveTangent::of_annulus(&sector, &material, &options, &contact).unwrap();
+    let harmonic = tangent.harmonic(n);
     let dense = |terms: &[BandedMatrix]| {
         let size = terms[0].dimension();
         Mat::from_fn(size, size, |i, j| {

@@ -15,7 +15,7 @@ pub fn pairs(tangent: &WaveTangent, branches: &[ModeBranch], friction: f64) -> V
 }
 
 /// Their derivatives by a parameter, of which `at` has the model where it is so much more.
-pub fn rates(pairs: &[WavePair], step: f64, at: &dyn Fn(f64) -> SectorTangent) -> Vec<c64> {
+pub fn rates(pairs: &[WavePair], step: f64, at: &dyn Fn(f64) -> WaveTangent) -> Vec<c64> {
     let sides = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)].map(|(steps, weight)| {
         Beside { weight: weight / (12.0 * step), tangent: at(steps * step), friction_shift: 0.0 }
     });
@@ -159,7 +159,7 @@ impl Differences {
             let Some(scale) = scale else { continue };
             let changed = |offset: f64| model.with(|own| change(own, offset));
             let step_of_rate = STEP * if name == "nu" { 0.1 } else { scale };
-            let own = rates(&all, step_of_rate, &|offset| changed(offset).sector());
+            let own = rates(&all, step_of_rate, &|offset| changed(offset).tangent());
             let (worst, _) = self.worst((&all, &own), [scale, self.factor * step], &|offset| {
                 self.eigenvalues(&changed(offset), Self::FRICTION)
             });

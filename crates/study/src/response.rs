@@ -11,7 +11,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::eigenvalues::{WholeMesh, sector_tangent};
+use super::eigenvalues::{WholeMesh, wave_tangent};
 use super::{StudyError, tangent_options};
 use crate::prelude::*;
 use frictionsim_case::{Frf, FrfMethod};
@@ -21,7 +21,7 @@ use frictionsim_physics::frf::{
 };
 use frictionsim_physics::linalg::GaussianNoise;
 use frictionsim_physics::mesh::{BoundaryCondition, Strip};
-use frictionsim_physics::prestress::BaseChoice;
+use frictionsim_physics::prestress::{BaseChoice, WaveTangent};
 use frictionsim_results::ResponseSummary;
 
 /// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
@@ -203,8 +203,8 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         }
         (_, FrfBoundary::Sliding) => {
             refuse_rest(case)?;
-            let sector = sector_tangent(case, &tangent_options(case, frf.mass))?;
-            let waves = sector.expect("a body of equal sectors").waves();
+            let waves = wave_tangent(case, &tangent_options(case, frf.mass))?;
+            let waves = waves.expect("a body of equal sectors");
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
         (BodyKind::Annulus(own), _) => apart(case, frf, &Strip::of_annulus(own)?),
@@ -218,8 +218,9 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
 
 /// The harmonics of a body of equal sectors that touches nothing.
 fn apart(case: &Case, frf: &Frf, strip: &Strip) -> CyclicSystem {
-    let is_held = frf.boundary == FrfBoundary::Clamped;
-    CyclicSystem::body(strip, case.materials(), frf.mass, case.damping.rayleigh, is_held)
+    let (materials, is_held) = (case.materials(), frf.boundary == FrfBoundary::Clamped);
+    let waves = WaveTangent::of_free(strip, materials, frf.mass, case.damping.rayleigh, is_held);
+    CyclicSystem::sliding(&waves, 0.0)
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.
@@ -237,9 +238,8 @@ fn whole(case: &Case, frf: &Frf, method: FrfMethod) -> Result<System, StudyError
     let port = |terminal, key| {
         system.port(&mesh, axis, terminal, key).map_err(|error| at_node(case, &error))
     };
-    let force = port(frf.force, "force_node")?;
-    let response = port(frf.response, "response_node")?;
-    Ok(System::Whole { system: Box::new(system), ports: Box::new([force, response]), method })
+    let ports = [port(frf.force, "force_node")?, port(frf.response, "response_node")?];
+    Ok(System::Whole { system: Box::new(system), ports: Box::new(ports), method })
 }
 
 /// A body as it is held, with its mesh: sliding, or its parts as they are tied, without their contacts.
@@ -266,7 +266,7 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
     }
     let assembly = apart.assembled(case.materials(), frf.mass)?;
     let tangent = assembly.tangent(&assembly.state(0.0)?, &options)?;
-    Ok((FrfSystem::tied(&tangent), Arc::clone(&body.mesh)))
+    Ok((FrfSystem::sliding(&tangent, 0.0), Arc::clone(&body.mesh)))
 }
 
 /// A counterface at rest sticks: there is no steady sliding to respond around.

@@ -70,7 +70,7 @@ fn tied_halves_respond_like_the_whole() {
             Assembly::new(&mesh, &STEEL, (&ties, &[]), (&[], BaseChoice::Closed), Consistent)
                 .unwrap();
         let tangent = tangent_at(&assembly, 0.0, &DAMPED);
-        let system = FrfSystem::tied(&tangent);
+        let system = FrfSystem::sliding(&tangent, 0.0);
         let tip = terminal(node_at(&mesh, [0.12, 0.02, 0.02]), Direction::Z);
         let middle = terminal(node_at(&mesh, [0.08, 0.0, 0.0]), Direction::Y);
         let force = system.port(&mesh, None, tip, "force_node").unwrap();
@@ -97,7 +97,7 @@ fn a_turning_ring_responds_like_the_dense_system_of_its_matrices() {
     for frame in [RotationFrame::Rest, RotationFrame::Turning] {
         let (mesh, seam) = ring([2, 24, 1], Clamped);
         let tangent = tangent_at(&spinning(&mesh, &seam, 300.0, frame), 0.0, &OPTIONS);
-        let system = FrfSystem::tied(&tangent);
+        let system = FrfSystem::sliding(&tangent, 0.0);
         let node = node_at(&mesh, [0.0, 0.15, 0.005]);
         let ports = [Direction::X, Direction::Y].map(|direction| {
             let terminal = terminal(node, direction);

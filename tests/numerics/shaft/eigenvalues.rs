@@ -46,7 +46,7 @@ fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
     ];
     for (name, h, change) in checks {
         let moved = |factor: f64| own.with(|model| change(model, factor));
-        let rates = rates(&found, STEP, &|share| moved(1.0 + share).sector());
+        let rates = rates(&found, STEP, &|share| moved(1.0 + share).tangent());
         let sides = [1.0 + h, 1.0 - h].map(|factor| solve(&moved(factor)));
         for like in [1, 4] {
             let [above, below] = sides.each_ref().map(|branches| {

@@ -6,7 +6,9 @@ use crate::solids::whole_ring::WholeRing;
 pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let options = &model.options;
-    CyclicSystem::body(&sector.strip, &model.material, options.mass, options.damping, is_clamped)
+    let body = (&sector.strip, &model.material);
+    let tangent = WaveTangent::of_free(body.0, body.1, options.mass, options.damping, is_clamped);
+    CyclicSystem::sliding(&tangent, 0.0)
 }
 
 pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {

@@ -13,12 +13,12 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
     let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
     let options = &model.options;
     let (flat, thick) = if is_sliding {
-        let tangent = SectorTangent::of_annulus(&plane, &material, options, &model.contact);
-        let flat = CyclicSystem::sliding(&tangent.unwrap().waves(), 0.3);
+        let tangent = WaveTangent::of_annulus(&plane, &material, options, &model.contact);
+        let flat = CyclicSystem::sliding(&tangent.unwrap(), 0.3);
         (flat, sliding(&model, 0.3))
     } else {
-        let flat = CyclicSystem::body(&plane, &material, options.mass, options.damping, true);
-        (flat, body(&model, true))
+        let flat = WaveTangent::of_free(&plane, &material, options.mass, options.damping, true);
+        (CyclicSystem::sliding(&flat, 0.0), body(&model, true))
     };
     let mut pairs = Vec::new();
     let motions = [(1, 0, Tangential), (3, 3, Radial), (7, 4, Tangential), (11, 2, Radial)];

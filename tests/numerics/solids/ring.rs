@@ -65,7 +65,7 @@ fn a_layer_shares_the_distance_with_the_contact_that_presses_it() {
         for (model, exact, tolerance) in linear.into_iter().chain(stiffens) {
             let contact = model.options.contact;
             let (sector, base) = base(&model).unwrap();
-            assert!(base.is_pressed.iter().all(|pressed| *pressed));
+            assert!(base.sliding.is_pressed.iter().all(|pressed| *pressed));
             let nodal: f64 = base.normal_forces().map(|(_, force)| force).sum();
             let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
             for pressure in base.pressures.iter().chain(&[nodal / area]) {
@@ -103,7 +103,9 @@ fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_ow
         let mut model = ringed(Quad8, [24, radial, 2]);
         compliant(&mut model, 3e11);
         let (sector, base) = base(&model).unwrap();
-        assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
+        assert!(
+            base.sliding.is_pressed.contains(&true) && base.sliding.is_pressed.contains(&false)
+        );
         let force: f64 = base.normal_forces().map(|(_, force)| force).sum();
         let modes = modes(&model, 0.5, 4000.0);
         let rate = modes.iter().map(|mode| mode.growth_rate());
@@ -136,9 +138,11 @@ fn stiff_springs_pull_nothing_where_the_middle_of_an_element_is_open() {
 fn a_ring_on_a_bending_plate_opens_and_keeps_the_contact_conditions() {
     for element in [Quad4, Quad8] {
         let (sector, base) = base(&ringed(element, [24, 14, 2])).unwrap();
-        assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
+        assert!(
+            base.sliding.is_pressed.contains(&true) && base.sliding.is_pressed.contains(&false)
+        );
         for ((ring, &pressed), pressure) in
-            sector.rings.iter().zip(&base.is_pressed).zip(&base.pressures)
+            sector.rings.iter().zip(&base.sliding.is_pressed).zip(&base.pressures)
         {
             let depth = -base.sliding.state.displacements[0][3 * ring.nodes[0] + 2];
             let is_held = *pressure > 0.0 && (depth - 5e-6).abs() < 1e-18;

@@ -107,7 +107,7 @@ fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
         model.material = elastic(modulus, 0.3, 7850.0, ThreeDimensional);
         let found = model.swept(&[0.0, 0.4], MaxFrequency(3e3));
         let all = pairs(&model.tangent(), &found.branches, Differences::FRICTION);
-        let changed = |offset: f64| model.with(|own| own.contact.interference += offset).sector();
+        let changed = |offset: f64| model.with(|own| own.contact.interference += offset).tangent();
         rates(&all, step * 1e-5, &changed).iter().map(|rate| rate.im).collect()
     };
     let own = own_rates(2.1e11, STEP);

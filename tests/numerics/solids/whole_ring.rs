@@ -46,7 +46,7 @@ impl WholeRing {
         let drag = friction * face.inward_sign();
         let per_sector = sector.node_count();
         ring.add_dashpots(&base, across, friction * model.contact.rotation_speed.recip());
-        let rings = sector.rings.iter().zip(&base.is_pressed);
+        let rings = sector.rings.iter().zip(&base.sliding.is_pressed);
         let pressed = rings.filter(|(_, pressed)| **pressed).flat_map(|(ring, _)| {
             let share = ring.area / ring.nodes.len() as f64;
             ring.nodes.iter().map(move |node| (*node, share))

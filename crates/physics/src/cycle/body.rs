@@ -1,7 +1,6 @@
 //! The body as the harmonics of a rotating wave see it: a 2 x 2 receptance at the contact edge.
 
 use super::CycleError;
-use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::{
     ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_mass, assemble_stiffness,
     assemble_supports,
@@ -110,9 +109,8 @@ impl WaveBody {
         let strip = Strip::of_annulus(specification)?;
         let stiffness = strip.folded(&assemble_stiffness(&strip.mesh, material));
         let dofs = strip.wave_dofs();
-        let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
         let mass = assemble_mass(&strip.mesh, material, MassKind::Lumped);
-        let mass = fold(0, &strip.folded(&mass)); // A lumped mass couples no sectors: that of n = 0 serves every n.
+        let mass = dofs.fold(0, 0, &strip.folded(&mass)); // A lumped mass couples no sectors: that of n = 0 serves every n.
         let block = |matrix: Triplets| {
             let mut block = Matrix2::zeros();
             matrix.entries.iter().for_each(|&(i, j, value)| block[(i % 2, j % 2)] = value);
@@ -123,9 +121,9 @@ impl WaveBody {
             _ => None,
         };
         // Neighbours turn the node's own stiffness by `cos(2 pi n / N)`: opposite at n = 0 and N / 2.
-        let own = [0, strip.count / 2].map(|n| fold(n, &stiffness).get(0, 0));
+        let own = [0, strip.count / 2].map(|n| dofs.fold(n, 0, &stiffness).get(0, 0));
         let node_frequency = (0.5 * (own[0] + own[1]) / mass.get(0, 0)).sqrt();
-        let of = |n: isize| fold(n.rem_euclid(strip.count as isize) as usize, &stiffness);
+        let of = |n: isize| dofs.fold(n.rem_euclid(strip.count as isize) as usize, 0, &stiffness);
         let all = circumferential_harmonics.into_iter().map(|n| HarmonicStiffness::new(&of(n)));
         Ok(Self {
             harmonics: all.collect(),

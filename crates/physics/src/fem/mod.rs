@@ -17,7 +17,6 @@ pub mod operator;
 mod orthotropy;
 mod recovery;
 mod rotation;
-pub mod sector;
 mod stress;
 mod support;
 mod triplets;

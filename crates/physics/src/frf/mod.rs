@@ -6,8 +6,6 @@
 //! [`reduced_response`] projects the system on a few Krylov spaces first, and states the error that direct solutions at check lines find.
 //! [`GaussianNoise`](crate::linalg::GaussianNoise) turns a computed response into a synthetic measurement.
 
-mod cyclic;
-mod cyclic_system;
 mod direct;
 mod driven;
 mod error;
@@ -17,12 +15,12 @@ mod port;
 mod reduction;
 mod system;
 mod terminal;
+mod waves;
 
-pub use cyclic::{CyclicResponse, cyclic_response};
-pub use cyclic_system::CyclicSystem;
 pub use direct::direct_response;
 pub use error::{FrfError, NodeFault};
 pub use port::Port;
 pub use reduction::{ReducedResponse, reduced_response};
 pub use system::FrfSystem;
 pub use terminal::{Axis, Direction, FrfBoundary, Terminal};
+pub use waves::{CyclicResponse, CyclicSystem, cyclic_response};

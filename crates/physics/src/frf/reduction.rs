@@ -144,21 +144,17 @@ fn extended(driven: &Driven<'_>, mut basis: Mat<f64>, shift_hz: f64) -> Result<M
 
 /// The projected system.
 struct ReducedModel {
-    /// Mass, damping and stiffness.
-    matrices: [Mat<f64>; 3],
+    matrices: MotionMatrices<Mat<f64>>,
     force: Vec<f64>,
     response: Vec<f64>,
 }
 
 impl ReducedModel {
     fn project(driven: &Driven<'_>, basis: &Mat<f64>) -> Self {
-        let system = driven.system;
-        let count = basis.ncols();
-        let MotionMatrices { mass, damping, stiffness, .. } = &system.matrices;
-        let matrices = [mass, damping, stiffness].map(|values| {
-            let mut image = Mat::<f64>::zeros(basis.nrows(), count);
-            for j in 0..count {
-                let y = system.multiply(values, basis.col_as_slice(j));
+        let matrices = driven.system.matrices.map(|values| {
+            let mut image = Mat::<f64>::zeros(basis.nrows(), basis.ncols());
+            for j in 0..basis.ncols() {
+                let y = driven.system.multiply(values, basis.col_as_slice(j));
                 image.col_as_slice_mut(j).copy_from_slice(&y);
             }
             transpose_product(basis.as_ref(), image.as_ref())
@@ -171,14 +167,12 @@ impl ReducedModel {
     }
 
     fn receptance(&self, frequency_hz: f64) -> c64 {
-        let (omega, [mass, damping, stiffness]) = (TAU * frequency_hz, &self.matrices);
+        let terms = self.matrices.terms(c64::new(0.0, TAU * frequency_hz)); // K + i omega C - omega^2 M.
         let n = self.force.len();
-        let matrix = Mat::<c64>::from_fn(n, n, |i, j| {
-            let real = stiffness[(i, j)] - omega * omega * mass[(i, j)];
-            c64::new(real, omega * damping[(i, j)])
-        });
+        let entry =
+            |i: usize, j: usize| terms.iter().map(|(factor, own)| factor * own[(i, j)]).sum();
         let mut x = Mat::from_fn(n, 1, |i, _| c64::new(self.force[i], 0.0));
-        ComplexDenseLu::factorize(matrix).solve_in_place(x.as_mut());
+        ComplexDenseLu::factorize(Mat::<c64>::from_fn(n, n, entry)).solve_in_place(x.as_mut());
         (0..n).map(|i| x[(i, 0)] * self.response[i]).sum()
     }
 }

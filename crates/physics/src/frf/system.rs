@@ -48,7 +48,7 @@ impl FrfSystem {
         let basis = Elimination::holding(mesh.dof_count(), held);
         let none = ContactDofs::default();
         let tangent = SlidingTangent::assemble(terms, &[], basis, none, &options);
-        Self::tied(&tangent.expect("bodies without contact are held once"))
+        Self::sliding(&tangent.expect("bodies without contact are held once"), 0.0)
     }
 
     /// Small motions around steady sliding at a friction coefficient.
@@ -63,11 +63,6 @@ impl FrfSystem {
             unknowns: tangent.unknowns.clone(),
             followers: tangent.distances.clone(),
         }
-    }
-
-    /// Bodies without contact from their tangent.
-    pub fn tied(tangent: &SlidingTangent) -> Self {
-        Self::sliding(tangent, 0.0)
     }
 
     /// Number of unknowns.

@@ -19,7 +19,6 @@ mod refinement;
 mod repetition;
 mod revolution;
 mod rim;
-mod sectors;
 mod solid;
 mod solid_body;
 mod solid_refinement;

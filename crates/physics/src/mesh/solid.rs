@@ -1,7 +1,7 @@
 //! One sector of a body of revolution in three dimensions.
 
+use super::annulus::{graded_radii, radius_at};
 use super::revolution::{SheetElement, SheetNode, Strip, elements_between, revolved};
-use super::sectors::{graded_radii, radius_at};
 use super::specification::{at_least, validate};
 use super::{
     AnnulusMesh, AnnulusSpecification, Boundary, BoundaryCondition, ElementKind, Mesh, MeshError,

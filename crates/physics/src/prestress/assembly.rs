@@ -1,6 +1,7 @@
 //! Bodies of one mesh that slide: on each other or on a counterface, solid ones tied together.
 
-use super::elimination::{Elimination, factorized};
+use super::contact_system::ContactSystem;
+use super::elimination::Elimination;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
@@ -213,28 +214,27 @@ impl<'a> Assembly<'a> {
         if contacts.is_empty() {
             return self.without_contact(&stiffness, &load, friction_coefficients);
         }
-        // What each point has along its normal: springs or none, and how far it is pushed in.
-        let springs =
-            of_points().map(|(own, point)| own.base_stiffness().map(|k| k * point.weight));
+        // How far each point is pushed in along its normal.
         let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap); // p_i = delta - g_i.
         // An edge is the only contact of its body, and has no section with a name.
         let named = contacts.iter().filter(|(own, _)| !own.is_edge());
         let named = named.map(|(own, surface)| (own.section(), surface.points.len()));
         let pressing = Pressing {
-            laws: of_points().map(|(own, _)| own.stiffness.law).collect(),
+            laws: of_points().map(|(own, _)| own.base_law()).collect(),
             stiffness: &stiffness,
             load,
             elimination: self.joined.basis.clone(),
             contacts: named.collect(),
+            together: Vec::new(),
             pushed: pushed.collect(),
-            stiffnesses: springs.collect(),
             points: &points,
             known,
         };
         if !self.mesh.is_cyclic {
             return pressing.states(self.mesh, friction_coefficients);
         }
-        let state = pressing.pressed_all_round(&ContactInterface::of(self.mesh), 1)?;
+        let state = ContactSystem::new(&pressing)?.unaltered_state(vec![true; points.len()])?;
+        let state = state.pressed_all_round((&ContactInterface::of(self.mesh), &points), 1)?;
         Ok(PressedRange::of_one(state, friction_coefficients))
     }
 
@@ -252,20 +252,15 @@ impl<'a> Assembly<'a> {
             return Err(PrestressError::NothingHolds);
         } else {
             let basis = &self.joined.basis;
-            let unknowns = basis.unknowns();
             let held = basis.congruent(stiffness);
-            let solver = factorized(&held, &unknowns).or_else(|error| {
+            basis.displacement_under(load, &held).or_else(|error| match &self.joined.rotation {
                 // A centrifugal load alone is in balance by itself.
-                match &self.joined.rotation {
-                    Some(own) if own.centrifugal == load => {
-                        let body = (self.mesh, self.materials);
-                        factorized(&grounded(held.into_owned(), body, basis), &unknowns)
-                    }
-                    _ => Err(error),
+                Some(own) if own.centrifugal == load => {
+                    let body = (self.mesh, self.materials);
+                    basis.displacement_under(load, &grounded(held.into_owned(), body, basis))
                 }
-            })?;
-            let right = unknowns.restrict(&basis.transposed_forces(load)); // T^T K T y = T^T f, u = T y.
-            basis.displacement(&unknowns.expand(&solver.solve(right)))
+                _ => Err(error),
+            })?
         };
         let displacements = vec![displacement];
         let state = PressedState { displacements, ..PressedState::default() };
@@ -274,8 +269,8 @@ impl<'a> Assembly<'a> {
 
     /// The matrices of the bodies without stress and contact over all dofs.
     pub fn terms(&self, options: &TangentOptions) -> Terms<Triplets> {
-        let (bodies, elastic) = ((self.mesh, self.materials), self.joined.elastic.clone());
-        let mut terms = Terms::of_elastic(bodies, elastic, false, options);
+        let elastic = self.joined.elastic.clone();
+        let mut terms = Terms::of_elastic((self.mesh, self.materials), elastic, false, options);
         if options.mass == MassKind::Lumped {
             // A lumped mass stays diagonal where dofs follow others.
             let masses = terms.all.iter_mut().filter(|term| term.kind == Kind::Mass);

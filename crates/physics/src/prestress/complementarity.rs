@@ -1,8 +1,9 @@
 //! The contact state by complementarity: which points are pressed, over a range of friction coefficients.
 
 use super::contact_system::ContactSystem;
+use super::polynomials::{LEAST_RANGE, polynomial_state};
 use super::pressed_range::{CHANGE_WIDTH, PressedRange};
-use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, polynomial_state};
+use super::pressed_state::ContactState;
 use super::{PrestressError, Result};
 use crate::linalg::Bracket;
 
@@ -13,7 +14,7 @@ const MAX_SETS: usize = 200;
 const SHORTEST_RANGE: f64 = 1e-3;
 
 /// Share of the largest force up to which a violated condition is round-off.
-pub(super) const ROUND_OFF: f64 = 1e-12;
+const ROUND_OFF: f64 = 1e-12;
 
 /// States at every one of `friction_coefficients`, each from the state at friction 0, of which there is one: it is the same whatever other
 /// values are asked for.
@@ -76,7 +77,7 @@ fn follow(
     for (k, set) in sets.iter().enumerate() {
         let [lower, upper] = found.span(k);
         // The first set holds below what is asked, too: as far as its polynomial needs.
-        let own_range = |bodies: &mut _, set: &[bool]| {
+        let own_range = |bodies: &mut ContactSystem<'_>| {
             let begin = match k.checked_sub(1) {
                 Some(before) => found.begins[before],
                 None => {
@@ -96,7 +97,7 @@ fn follow(
 
 /// The pressed points at one friction coefficient, by the primal-dual active set (a semismooth Newton iteration on
 /// the complementarity) from `start`; where that runs in circles, one point at a time.
-fn pressed_points(
+pub(super) fn pressed_points(
     bodies: &mut ContactSystem<'_>,
     friction_coefficient: f64,
     start: &[bool],
@@ -127,21 +128,23 @@ fn pressed_points(
         was_circling |= is_circling;
         seen.push(set.clone());
         // All wrong points at once; from a set met before on the worst alone.
-        let turned = wrong.filter(|(i, _)| !is_circling || *i == worst);
+        let worst = bodies.pressing().together_with(worst);
+        let turned = wrong.filter(|(i, _)| !is_circling || worst.contains(i));
         turned.for_each(|(i, _)| set[i] = !set[i]);
     }
     Err(PrestressError::NoState { friction_coefficient })
 }
 
 /// How far each point violates its condition, N: the pull on a pressed one, the force of the point's own stiffness over
-/// the penetration of an open one; negative where the condition holds.
+/// the penetration of an open one; negative where the condition holds. Points that touch together have their sum.
 fn excesses(bodies: &ContactSystem<'_>, state: &ContactState, is_pressed: &[bool]) -> Vec<f64> {
     let pushed = &bodies.pressing().pushed;
     let excess = |i: usize| match is_pressed[i] {
         true => -state.normal_forces[i],
         false => (pushed[i] - state.separations[i]) * bodies.stiffness_at(i),
     };
-    (0..is_pressed.len()).map(excess).collect()
+    let of_all = |i: usize| bodies.pressing().together_with(i).map(excess).sum();
+    (0..is_pressed.len()).map(of_all).collect()
 }
 
 /// What may be round-off: it must not flip a point that just touches.

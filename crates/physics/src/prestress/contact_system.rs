@@ -1,11 +1,9 @@
 //! Bodies on their contact points: sparse, for many thousands of points.
 
 use super::joined_points::{Inverse, JoinedPoints};
-use super::pressed_state::{
-    ContactState, LEAST_RANGE, PressedBodies, Pressing, SHORT_RANGE, widened,
-};
+use super::pressed_state::{ContactState, Pressing};
 use super::{PrestressError, Result};
-use crate::contact::Row;
+use crate::contact::{NormalLaw, Point, Row};
 use crate::linalg::dense::{add, difference, norm};
 use crate::linalg::{LinearFamily, Mat};
 use std::collections::BTreeSet;
@@ -37,10 +35,6 @@ const NEARLY: f64 = 1e-6;
 /// Residual of the penetrations, over those without friction: as small as rounding lets it become, for polynomials over a short range of
 /// friction magnify it by up to a million.
 const TOLERANCE: f64 = 1e-16;
-
-/// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
-/// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1; from friction 0 on of rigid contact.
-const NODES: [usize; 3] = [6, 8, 7];
 
 /// Bodies whose contact points have springs `k_i`.
 ///
@@ -154,8 +148,11 @@ impl<'a> ContactSystem<'a> {
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn new(pressing: &'a Pressing<'a>) -> Result<Self> {
         let points = JoinedPoints::new(pressing);
-        let springs = pressing.stiffnesses.iter().map(|own| own.unwrap_or(f64::INFINITY));
-        let springs: Vec<f64> = springs.collect();
+        let spring = |(law, point): (&Option<NormalLaw>, &Point)| match law {
+            Some(law) => point.weight * law.stiffness(0.0), // Without pressure where it stiffens.
+            None => f64::INFINITY,
+        };
+        let springs: Vec<f64> = pressing.laws.iter().zip(pressing.points).map(spring).collect();
         let of_springs = points.normals.iter().zip(&springs).filter(|own| own.1.is_finite());
         let moved = of_springs.clone().flat_map(|own| own.0).map(|own| own.0);
         let are_many = of_springs.count() > moved.collect::<BTreeSet<usize>>().len();
@@ -292,7 +289,7 @@ impl<'a> ContactSystem<'a> {
     fn follow_laws(&mut self, normal_forces: &[f64]) -> bool {
         let (pressing, mut stiffens) = (self.points.pressing, false);
         for (i, (law, point)) in pressing.laws.iter().zip(pressing.points).enumerate() {
-            if let Some(law) = law {
+            if let Some(law) = law.filter(|law| *law != NormalLaw::linear(law.stiffness(0.0))) {
                 stiffens = true;
                 let force = normal_forces[i].max(0.0);
                 // The tangent N = k (p' - c) at the approach g of the force, p' = p - g + N / k.
@@ -305,17 +302,16 @@ impl<'a> ContactSystem<'a> {
         self.systems.take_if(|_| stiffens); // Other springs are another family.
         stiffens
     }
-}
 
-impl PressedBodies for ContactSystem<'_> {
-    fn usual_points(&self, [lower, upper]: [f64; 2]) -> ([f64; 2], usize) {
-        if self.springs.contains(&f64::INFINITY) {
-            return ([0.0, upper.max(LEAST_RANGE)], NODES[2]);
-        }
-        (widened([lower, upper]), NODES[usize::from(upper - lower > SHORT_RANGE)])
-    }
-
-    fn state_of(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> Result<ContactState> {
+    /// The state in which exactly the points of `is_pressed` touch, whatever sign their forces have.
+    ///
+    /// # Errors
+    /// [`PrestressError::NoState`] where none is found, [`PrestressError::Singular`].
+    pub fn state_of(
+        &mut self,
+        friction_coefficient: f64,
+        is_pressed: &[bool],
+    ) -> Result<ContactState> {
         let (mut before, mut last) = (None::<Vec<f64>>, f64::INFINITY); // Forces, and their change.
         for _ in 0..MOST_TANGENTS {
             self.follow(is_pressed)?;
@@ -347,7 +343,8 @@ impl PressedBodies for ContactSystem<'_> {
         Err(PrestressError::NoState { friction_coefficient })
     }
 
-    fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {
+    /// Displacement of every dof from the state of the contact points.
+    pub fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {
         self.points.displacement((&self.solver, &self.held), friction_coefficient, state)
     }
 }

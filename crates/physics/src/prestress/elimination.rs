@@ -18,9 +18,7 @@ const SMALLEST_PIVOT: f64 = 0.3;
 #[derive(Clone, Debug)]
 pub struct Elimination {
     /// `u[pivot]` as a combination of `y`; every other dof is itself.
-    combined: BTreeMap<usize, Row>,
-    /// Whether each dof is one: most are none, and entries of matrices ask.
-    is_combined: Vec<bool>,
+    combined: Vec<Option<Row>>,
     /// Pivots whose combination has this dof.
     used_in: BTreeMap<usize, BTreeSet<usize>>,
     is_dropped: Vec<bool>,
@@ -47,12 +45,7 @@ impl Elimination {
     pub fn holding(total: usize, held: impl IntoIterator<Item = usize>) -> Self {
         let mut is_dropped = vec![false; total];
         held.into_iter().for_each(|dof| is_dropped[dof] = true);
-        Self {
-            combined: BTreeMap::new(),
-            is_combined: vec![false; total],
-            used_in: BTreeMap::new(),
-            is_dropped,
-        }
+        Self { combined: vec![None; total], used_in: BTreeMap::new(), is_dropped }
     }
 
     /// Makes `row . u` an entry of `y`, and returns which: that of the row's first dof that is free and not small in it.
@@ -60,7 +53,7 @@ impl Elimination {
     pub fn take(&mut self, row: &Row) -> Option<usize> {
         // g over y, with all forms that were taken before.
         let own: BTreeMap<usize, f64> = self.transposed(row).iter().copied().collect();
-        let is_free = |dof: usize| !self.is_dropped[dof] && !self.combined.contains_key(&dof);
+        let is_free = |dof: usize| !self.is_dropped[dof] && self.combined[dof].is_none();
         let free = || own.iter().filter(|(dof, _)| is_free(**dof));
         let largest = free().fold(0.0_f64, |m, (_, value)| m.max(value.abs()));
         let size = row.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
@@ -91,13 +84,12 @@ impl Elimination {
                 true => scaled(&combination, value),
                 false => vec![(dof, value)],
             };
-            let row = summed(self.combined[&earlier].iter().flat_map(part)); // Of u_e = ... + v u_pivot the part v u_pivot is v times the combination.
+            let row = summed(self.combined[earlier].iter().flatten().flat_map(part)); // Of u_e = ... + v u_pivot the part v u_pivot is v times the combination.
             self.record(earlier, &row);
-            self.combined.insert(earlier, row);
+            self.combined[earlier] = Some(row);
         }
         self.record(pivot, &combination);
-        self.is_combined[pivot] = true;
-        self.combined.insert(pivot, combination);
+        self.combined[pivot] = Some(combination);
     }
 
     fn record(&mut self, pivot: usize, row: &Row) {
@@ -119,12 +111,12 @@ impl Elimination {
 
     /// Dofs that are combinations of `y`, with these.
     pub fn combinations(&self) -> impl Iterator<Item = (usize, &Row)> {
-        self.combined.iter().map(|(&dof, row)| (dof, row))
+        self.combined.iter().enumerate().filter_map(|(dof, row)| Some((dof, row.as_ref()?)))
     }
 
     /// `T^T g`: the form `g . u` over `y`, sorted, those that vanish included.
     pub fn transposed(&self, row: &[(usize, f64)]) -> Row {
-        summed(row.iter().flat_map(|&(dof, value)| match self.combined.get(&dof) {
+        summed(row.iter().flat_map(|&(dof, value)| match &self.combined[dof] {
             None => vec![(dof, value)],
             Some(combination) => scaled(combination, value),
         }))
@@ -139,11 +131,9 @@ impl Elimination {
     /// `T^T f` of forces over all dofs.
     pub fn transposed_forces(&self, forces: &[f64]) -> Vec<f64> {
         let mut result = forces.to_vec();
-        for &pivot in self.combined.keys() {
-            result[pivot] = 0.0;
-        }
+        self.combinations().for_each(|(pivot, _)| result[pivot] = 0.0);
         // (T^T f)_j = f_j + sum_p T_pj f_p, nothing at the pivots themselves but their own share.
-        for (&pivot, row) in &self.combined {
+        for (pivot, row) in self.combinations() {
             for &(dof, share) in row {
                 result[dof] += share * forces[pivot];
             }
@@ -154,15 +144,30 @@ impl Elimination {
     /// `u = T y`.
     pub fn displacement(&self, y: &[f64]) -> Vec<f64> {
         let mut u = y.to_vec();
-        for (&pivot, row) in &self.combined {
+        for (pivot, row) in self.combinations() {
             u[pivot] = row.iter().map(|&(dof, share)| share * y[dof]).sum();
         }
         u
     }
 
+    /// The displacement under a `load` on bodies of a stiffness `T^T K T`: `u = T y` with `T^T K T y = T^T f`.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`] unless it is positive definite.
+    pub(super) fn displacement_under(
+        &self,
+        load: &[f64],
+        stiffness: &Triplets,
+    ) -> Result<Vec<f64>> {
+        let unknowns = self.unknowns();
+        let solver = factorized(stiffness, &unknowns)?;
+        let y = solver.solve(unknowns.restrict(&self.transposed_forces(load)));
+        Ok(self.displacement(&unknowns.expand(&y)))
+    }
+
     /// `T^T A T` over `y`.
     pub fn congruent<'a>(&self, matrix: &'a Triplets) -> Cow<'a, Triplets> {
-        match self.combined.is_empty() {
+        match self.used_in.is_empty() {
             true => Cow::Borrowed(matrix),
             false => Cow::Owned(self.transposed_product(&self.transposed_product(matrix))),
         }
@@ -173,11 +178,11 @@ impl Elimination {
         let mut product = Triplets { entries: Vec::with_capacity(matrix.entries.len()) };
         for &(row, column, value) in &matrix.entries {
             // Zeros stay: nonzeros are the same for all values of a parameter.
-            if self.is_combined[column] {
-                let own = self.combined[&column].iter();
-                own.for_each(|&(dof, share)| product.push(dof, row, share * value));
-            } else {
-                product.push(column, row, value);
+            match &self.combined[column] {
+                Some(own) => {
+                    own.iter().for_each(|&(dof, share)| product.push(dof, row, share * value))
+                }
+                None => product.push(column, row, value),
             }
         }
         product.merge();
@@ -228,9 +233,6 @@ impl Elimination {
             for (at, factor) in weights.times_mu(power) {
                 projected[at].push_product(-factor, &slip, &force);
             }
-        }
-        if !friction.is_empty() {
-            projected.iter_mut().for_each(Triplets::merge);
         }
         projected
     }

@@ -1,6 +1,8 @@
 //! What ties surfaces of bodies, and what slides on them.
 
-use crate::contact::{ContactStiffness, Counterpart, PairFriction, SlidingContact, Topography};
+use crate::contact::{
+    ContactStiffness, Counterpart, NormalLaw, PairFriction, SlidingContact, Topography,
+};
 use crate::mesh::Mesh;
 use std::sync::Arc;
 
@@ -68,13 +70,11 @@ impl SlidingSurfaces {
         self.is_edge() || self.stiffness.normal_stiffness.is_none()
     }
 
-    /// Stiffness without pressure that carries the base state, Pa/m; `None` is rigid contact. That of an edge is rigid whatever
-    /// constant stiffness small motions have.
-    pub(super) fn base_stiffness(&self) -> Option<f64> {
-        match self.counter {
-            Counterpart::Edge(_) => self.stiffness.law.map(|law| law.stiffness(0.0)), // dp / dg where nothing presses yet.
-            Counterpart::Surface(_) | Counterpart::Rigid(_) => self.stiffness.normal_stiffness,
-        }
+    /// The springs that carry the base state; `None` is rigid contact. That of an edge is rigid whatever constant stiffness small
+    /// motions have.
+    pub(super) fn base_law(&self) -> Option<NormalLaw> {
+        let linear = self.stiffness.normal_stiffness.filter(|_| !self.is_edge());
+        self.stiffness.law.or(linear.map(NormalLaw::linear))
     }
 
     /// Its section in the case.

@@ -1,30 +1,14 @@
-//! Bodies pressed together at their contact points, and their state under one set of pressed points as polynomials in the friction
-//! coefficient.
+//! Bodies pressed together at their contact points, and the state of these.
 
+use super::PrestressError;
 use super::elimination::Elimination;
-use super::friction_polynomial::{evaluate, interpolated};
-use super::pressed_range::{PressedRange, RESOLVED};
-use super::{PrestressError, Result};
-use crate::contact::{NormalLaw, Point, PressedState};
+use super::pressed_range::PressedRange;
+use crate::contact::{NormalLaw, Point, PressedState, Turning};
 use crate::fem::Triplets;
-
-/// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is followed from there.
-pub(super) const LEAST_RANGE: f64 = 0.05;
-
-/// What follows the last two terms of a series that falls by a factor of three or more from one to the next, beside the larger of them.
-const FOLLOWING: f64 = 0.2;
-
-/// Points that are enough over a short range, and the share that they may leave out: every power is a matrix more.
-pub(super) const SHORT_RANGE: f64 = 0.1;
-const FEW_NODES: [usize; 2] = [3, 5];
-const EXACT: f64 = 1e-11;
+use std::ops::Range;
 
 /// Share of all contact forces that round-off leaves of a sum that is zero.
 const UNPRESSED: f64 = 1e-9;
-
-/// Points through which it goes where the usual ones leave out more, over the range of the set and over their own.
-const MOST_USUAL: usize = 12;
-const MORE_NODES: [usize; 6] = [3, 5, 8, 12, 18, 24];
 
 /// What presses bodies together.
 #[derive(Clone, Debug)]
@@ -37,13 +21,13 @@ pub struct Pressing<'a> {
     pub elimination: Elimination,
     /// The contact points.
     pub points: &'a [Point],
+    /// Numbers of points that touch together or not at all; empty where each is by itself.
+    pub together: Vec<usize>,
     /// Section and name of each contact and its number of points, in their order; empty where there is one contact.
     pub contacts: Vec<(String, usize)>,
     /// How far the counterface is pushed in at each, `delta_i - g_i`, m.
     pub pushed: Vec<f64>,
-    /// Stiffness of the contact of each, N/m, without pressure where it stiffens; `None` is rigid contact.
-    pub stiffnesses: Vec<Option<f64>>,
-    /// Contact that stiffens, of each point; `None` is linear or rigid.
+    /// Law of the contact of each; `None` is rigid contact.
     pub laws: Vec<Option<NormalLaw>>,
     /// Their states at some friction coefficients, as found before.
     pub known: Option<&'a PressedRange>,
@@ -66,6 +50,18 @@ impl Pressing<'_> {
         )))
     }
 
+    /// The points that touch together with one of them.
+    pub(super) fn together_with(&self, point: usize) -> Range<usize> {
+        let mut first = 0;
+        for count in &self.together {
+            if point < first + count {
+                return first..first + count;
+            }
+            first += count;
+        }
+        point..point + 1
+    }
+
     pub(super) fn gap_everywhere(&self) -> PrestressError {
         let distances = self.pushed.iter().map(|pushed| -pushed);
         let gaps = self.points.iter().zip(&self.pushed);
@@ -86,28 +82,35 @@ pub(super) struct ContactState {
     pub stiffnesses: Option<Vec<f64>>,
 }
 
-/// The values of its polynomials.
+/// The state of steady sliding of a body of equal sectors, the same in each, whose normal forces do not depend on friction.
+///
+/// It is the state of [`super::Assembly::of_edge`] for the annulus: harmonic zero of the stiffness, whose radial and tangential
+/// parts do not mix. Per metre of thickness in the plane; vectors are over the dofs of the sector.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectorSliding {
+    /// Displacement, normal forces and springs of the contact nodes of the sector.
+    pub state: PressedState,
+    /// The contact nodes of the sector as contact points.
+    pub points: Vec<Point>,
+    /// How these turn.
+    pub turnings: Vec<Turning>,
+    /// The points at which the law of the contact acts, with their state, where they are others than the nodes.
+    pub on_face: Option<(Vec<Point>, PressedState)>,
+    /// Nodes of each place of the contact, a node or a ring of them, the other body's behind its own.
+    pub places: Vec<Vec<usize>>,
+    /// Whether each of these is pressed.
+    pub is_pressed: Vec<bool>,
+}
+
+impl SectorSliding {
+    /// The state of the whole body of `count` sectors: the same in the polar frames of each.
+    pub fn repeated(&self, count: usize) -> PressedState {
+        let points: Vec<usize> = (0..self.points.len()).collect();
+        self.state.repeated(count, &points.repeat(count))
+    }
+}
+
 impl PressedState {
-    /// `mu - a`, and 0 below `a`.
-    fn beyond(&self, friction_coefficient: f64) -> f64 {
-        (friction_coefficient - self.frozen_below).max(0.0)
-    }
-
-    /// Displacement over all dofs at a friction coefficient, m.
-    pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.displacements, self.beyond(friction_coefficient))
-    }
-
-    /// Normal force on each contact point, N; none of a state that is free of stress.
-    pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.normal_forces, self.beyond(friction_coefficient))
-    }
-
-    /// Stiffness of each contact point, N/m; none where no contact stiffens.
-    pub fn springs(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.stiffnesses, self.beyond(friction_coefficient))
-    }
-
     /// That of a body of `count` sectors alike, from this one of a sector; of each point of the body its copy in the sector.
     pub(super) fn repeated(&self, count: usize, copy_of: &[usize]) -> Self {
         let of_points = |powers: &[Vec<f64>]| -> Vec<Vec<f64>> {
@@ -120,228 +123,5 @@ impl PressedState {
             is_pressed: copy_of.iter().map(|&i| self.is_pressed[i]).collect(),
             frozen_below: self.frozen_below,
         }
-    }
-}
-
-/// Bodies whose state of one set of pressed points becomes a polynomial.
-pub(super) trait PressedBodies {
-    /// Friction coefficients through which the polynomial of a state that holds in `range` goes, where they are enough: their
-    /// interval and number.
-    fn usual_points(&self, range: [f64; 2]) -> ([f64; 2], usize);
-
-    /// The state in which exactly the points of `is_pressed` touch, whatever sign their forces have.
-    fn state_of(&mut self, friction_coefficient: f64, is_pressed: &[bool]) -> Result<ContactState>;
-
-    /// Displacement of every dof from the state of the contact points.
-    fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64>;
-}
-
-/// Finds the friction coefficients between which a set of pressed points holds.
-pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2]> + 'a;
-
-/// The state of one set of pressed points as a polynomial in the friction coefficient.
-///
-/// Where the usual points leave out too much, as near a friction coefficient at which sliding jams, other numbers of points over the
-/// range in which the set is the one that holds, as `own_range` finds it, are tried: the polynomial is taken that leaves out least, the
-/// friction coefficients `asked` for included. With it comes the share of the largest force that it leaves out.
-pub(super) fn polynomial_state<B: PressedBodies>(
-    bodies: &mut B,
-    is_pressed: &[bool],
-    (range, own_range): ([f64; 2], &OwnRange<'_, B>),
-    asked: &[f64],
-) -> Result<EstimatedState> {
-    let (usual, count) = bodies.usual_points(range);
-    // The usual points may be continued to friction 0, others may not, and what stiffens neither.
-    let begin = |interval: [f64; 2]| range[0].max(interval[0]);
-    let own = |interval: [f64; 2]| match interval[0] <= 0.0 {
-        true => [0.0, begin(interval)],
-        false => [begin(interval); 2],
-    };
-    // Over a short range a few points hold the state to the last digits.
-    if range[1] - range[0] <= SHORT_RANGE {
-        let [lower, upper] = widened(range);
-        let interval = [lower.max(0.0), upper];
-        for count in FEW_NODES {
-            let points = (interval, count);
-            let found = EstimatedState::through(bodies, is_pressed, points, own(interval))?;
-            if found.left_out <= EXACT {
-                return Ok(found);
-            }
-        }
-    }
-    // The usual points, and where they leave out too much others, held to exact states.
-    let origins = [0.0, begin(usual)];
-    let mut best = EstimatedState::through(bodies, is_pressed, (usual, count), origins)?;
-    if best.left_out > RESOLVED {
-        let exact = asked.iter().map(|&friction| bodies.state_of(friction, is_pressed));
-        let exact = exact.collect::<Result<Vec<ContactState>>>()?;
-        best.compare(asked, &exact);
-        // Beyond the range in which the set holds there may be no state.
-        let within = own_range(bodies, is_pressed).unwrap_or(range);
-        let more = MORE_NODES.map(|count| (within, count));
-        for points in more.into_iter().chain([(usual, MOST_USUAL)]) {
-            let other = EstimatedState::through(bodies, is_pressed, points, own(points.0));
-            if let Ok(mut other) = other {
-                other.compare(asked, &exact);
-                best = if other.left_out < best.left_out { other } else { best };
-            }
-            if best.left_out <= RESOLVED {
-                break;
-            }
-        }
-    }
-    Ok(best)
-}
-
-/// The state of one set of pressed points in an interval of friction coefficients.
-pub(super) struct EstimatedState {
-    pub state: PressedState,
-    /// Share of the largest force that its polynomials leave out, estimated.
-    pub left_out: f64,
-}
-
-impl EstimatedState {
-    /// That through the states at Chebyshev points of an interval, from the first of two origins, or the second where contact stiffens.
-    fn through(
-        bodies: &mut impl PressedBodies,
-        is_pressed: &[bool],
-        (interval, count): ([f64; 2], usize),
-        origins: [f64; 2],
-    ) -> Result<Self> {
-        let nodes = chebyshev_points(count, interval);
-        let [mut displacements, mut normal_forces, mut stiffnesses] = [const { Vec::new() }; 3];
-        // Exact states, whose values are one column of each polynomial.
-        for &friction in &nodes {
-            let state = bodies.state_of(friction, is_pressed)?;
-            displacements.push(bodies.whole_displacement(friction, &state));
-            normal_forces.push(state.normal_forces);
-            stiffnesses.extend(state.stiffnesses);
-        }
-        let left_out = FOLLOWING * last_terms(&normal_forces); // What follows the last terms is smaller than they are.
-        let origin = origins[usize::from(!stiffnesses.is_empty())];
-        let beyond: Vec<f64> = nodes.iter().map(|mu| mu - origin).collect(); // mu - a.
-        // The origin may be either end of the interval.
-        let reach = interval.iter().map(|mu| (mu - origin).abs()).fold(0.0, f64::max);
-        let through = |values: Vec<Vec<f64>>| match values.is_empty() {
-            true => values,
-            false => interpolated(&beyond, values, reach),
-        };
-        let state = PressedState {
-            displacements: through(displacements),
-            normal_forces: through(normal_forces),
-            stiffnesses: through(stiffnesses),
-            is_pressed: is_pressed.to_vec(),
-            frozen_below: origin,
-        };
-        Ok(Self { state, left_out })
-    }
-
-    /// Takes note of what its forces are wrong by at friction coefficients with known states.
-    fn compare(&mut self, frictions: &[f64], exact: &[ContactState]) {
-        for (friction, state) in frictions.iter().zip(exact) {
-            let beyond = friction - self.state.frozen_below;
-            let forces = evaluate(&self.state.normal_forces, beyond);
-            let largest = largest(std::slice::from_ref(&state.normal_forces));
-            for (own, exact) in forces.iter().zip(&state.normal_forces) {
-                self.left_out = self.left_out.max((own - exact).abs() / largest);
-            }
-        }
-    }
-}
-
-fn largest(values: &[Vec<f64>]) -> f64 {
-    values.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()))
-}
-
-/// The largest of the last two coefficients of the Chebyshev series through `values` at Chebyshev points,
-/// `c_n = 2 / N sum_k f(x_k) cos(n theta_k)`, beside the largest value.
-fn last_terms(values: &[Vec<f64>]) -> f64 {
-    let count = values.len();
-    let coefficient = |n: usize, component: usize| -> f64 {
-        let term = |k: usize| {
-            let angle = std::f64::consts::PI * (k as f64 + 0.5) / count as f64;
-            values[k][component] * (n as f64 * angle).cos()
-        };
-        2.0 / count as f64 * (0..count).map(term).sum::<f64>()
-    };
-    let components = 0..values[0].len();
-    let last = components.flat_map(|i| [count - 1, count - 2].map(|n| coefficient(n, i).abs()));
-    let largest = largest(values);
-    if largest > 0.0 { last.fold(0.0_f64, f64::max) / largest } else { 0.0 }
-}
-
-/// A range of friction coefficients, made as wide as a polynomial needs.
-pub(super) fn widened([lower, upper]: [f64; 2]) -> [f64; 2] {
-    let wider = 0.5 * (LEAST_RANGE - (upper - lower)).max(0.0);
-    [lower - wider, upper + wider]
-}
-
-/// `count` Chebyshev points of a range.
-fn chebyshev_points(count: usize, [lower, upper]: [f64; 2]) -> Vec<f64> {
-    let point = |k: usize| {
-        let turn = std::f64::consts::PI * (k as f64 + 0.5) / count as f64;
-        lower + 0.5 * (upper - lower) * (1.0 - turn.cos()) // -cos(theta) rises from -1 to 1.
-    };
-    (0..count).map(point).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// One point whose force `1 / (jam - mu)` grows without bound at a friction coefficient.
-    struct Jamming {
-        jam: f64,
-    }
-
-    impl PressedBodies for Jamming {
-        fn usual_points(&self, [_, upper]: [f64; 2]) -> ([f64; 2], usize) {
-            ([0.0, upper], 7)
-        }
-
-        fn state_of(&mut self, friction_coefficient: f64, _: &[bool]) -> Result<ContactState> {
-            Ok(ContactState {
-                separations: vec![0.0],
-                normal_forces: vec![1.0 / (self.jam - friction_coefficient)],
-                stiffnesses: None,
-            })
-        }
-
-        fn whole_displacement(&self, _: f64, state: &ContactState) -> Vec<f64> {
-            state.normal_forces.clone()
-        }
-    }
-
-    /// Closed form: far from jamming few points are enough, from friction 0 on; nearer to it those of the range of the state serve.
-    #[test]
-    fn forces_are_those_of_the_friction_asked_for_near_jamming_too() {
-        let (range, asked) = ([0.3, 0.6], [0.3, 0.45, 0.6]);
-        let cases = [(19.0, 0.0, 1e-7), (1.8, 0.3, 1e-7), (0.75, 0.3, 1e-6)];
-        for (jam, frozen_below, bound) in cases {
-            let bodies = &mut Jamming { jam };
-            let own = |_: &mut Jamming, _: &[bool]| Ok(range);
-            let found = polynomial_state(bodies, &[true], (range, &own), &asked);
-            let EstimatedState { state, left_out } = found.unwrap();
-            assert!(left_out < bound, "{jam} {left_out:e}");
-            assert_eq!(state.frozen_below, frozen_below, "{jam}");
-            for friction in asked {
-                let exact = 1.0 / (jam - friction);
-                let error = (state.normal_forces(friction)[0] / exact - 1.0).abs();
-                assert!(error < bound, "{jam} {friction} {error:e}");
-            }
-        }
-    }
-
-    /// Closed form: of one friction coefficient alone, at the end of the range of its state, the force has its slope too.
-    #[test]
-    fn forces_of_one_friction_coefficient_follow_it() {
-        let (jam, asked) = (0.75, 0.6);
-        let own = |_: &mut Jamming, _: &[bool]| Ok([0.3, asked]);
-        let (bodies, range) = (&mut Jamming { jam }, ([asked; 2], &own as &OwnRange<'_, _>));
-        let EstimatedState { state, .. } =
-            polynomial_state(bodies, &[true], range, &[asked]).unwrap();
-        let [force, next] = [asked, asked + 1e-6].map(|friction| state.normal_forces(friction)[0]);
-        let slope = (next - force) / 1e-6;
-        assert!((slope * (jam - asked).powi(2) - 1.0).abs() < 1e-3, "{slope}");
     }
 }

@@ -1,21 +1,129 @@
-//! Pressed equilibrium of a body of revolution in steady sliding: rigid contact ring by ring, or springs over the face.
+//! Pressed equilibrium of a body of equal sectors in steady sliding, from one of them: of an annulus, and of a body of revolution on
+//! rigid contact ring by ring, or on springs over the face.
 
-use super::complementarity::ROUND_OFF;
+use super::complementarity::pressed_points;
 use super::contact_system::ContactSystem;
 use super::elimination::Elimination;
-use super::pressed_state::{PressedBodies, Pressing};
-use super::solid::{FaceRule, OverRings, face_points, node_point};
+use super::face::{FaceRule, OverRings, face_points, node_point};
+use super::pressed_state::Pressing;
 use super::{PrestressError, Result, SectorSliding, SolidSliding};
-use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
+use crate::contact::{
+    ContactInterface, ContactStiffness, NormalLaw, Point, PressedState, SlidingContact, Turning,
+    scaled,
+};
 use crate::fem::{MassKind, Triplets};
 use crate::linalg::dense::{difference, norm};
-use crate::mesh::{ContactRing, SolidSector};
+use crate::mesh::{ContactRing, SolidSector, Strip};
 
 /// Choices of what is pressed that are tried before the search is given up.
 const SETS: usize = 200;
 
 /// Change of `delta - u_n` relative to the largest at which springs are settled: Newton's method, whose next change is its square.
 const SETTLED: f64 = 1e-10;
+
+impl SectorSliding {
+    /// Solves the equilibrium of one sector of an annulus with its [`Strip::stiffness_alike`], on contact that stiffens with
+    /// pressure, if there is a `law`.
+    ///
+    /// # Errors
+    /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a stiffness that is not positive definite.
+    pub fn solve(
+        strip: &Strip,
+        stiffness: &Triplets,
+        contact: &SlidingContact,
+        law: Option<NormalLaw>,
+    ) -> Result<Self> {
+        let edge = ContactInterface::of_sector(strip);
+        let points = edge.points(contact);
+        let all = vec![true; points.len()];
+        let on_edge = (&points[..], Vec::new(), law);
+        let state = of_sector((strip, stiffness), on_edge, contact.interference, |_| Ok(all))?;
+        let state = state.pressed_all_round((&edge, &points), strip.count)?;
+        let nodes = |point: &Point| point.normal.iter().map(|own| own.0 / 2).collect(); // Two dofs a node.
+        Ok(Self {
+            places: points.iter().map(nodes).collect(),
+            is_pressed: state.is_pressed.clone(),
+            on_face: None,
+            turnings: edge.turnings(),
+            state,
+            points,
+        })
+    }
+}
+
+/// The state of those points of one sector that `pressed` finds to be, some `together`, pushed in by `delta` on a law or rigid contact.
+fn of_sector(
+    (strip, stiffness): (&Strip, &Triplets),
+    (points, together, law): (&[Point], Vec<usize>, Option<NormalLaw>),
+    delta: f64,
+    pressed: impl FnOnce(&mut ContactSystem<'_>) -> Result<Vec<bool>>,
+) -> Result<PressedState> {
+    let size = strip.dof_count();
+    // Neighbours move as this sector does.
+    let points: Vec<Point> = points.iter().map(|own| own.folded(size)).collect();
+    let pressing = Pressing {
+        stiffness,
+        load: strip.pressure_load(),
+        elimination: Elimination::holding(size, strip.held_dofs()),
+        contacts: Vec::new(),
+        pushed: vec![delta; points.len()],
+        laws: vec![law; points.len()],
+        points: &points,
+        together,
+        known: None,
+    };
+    let mut system = ContactSystem::new(&pressing)?;
+    let set = pressed(&mut system)?;
+    let mut state = system.unaltered_state(set)?;
+    // Friction alone turns the sectors about their axis, and nothing but that: the rest is round-off.
+    for (power, own) in state.displacements.iter_mut().enumerate() {
+        let is_turn = |dof: usize| dof % strip.mesh.dimension == 1;
+        let others = own.iter_mut().enumerate().filter(|own| is_turn(own.0) != (power == 1));
+        others.for_each(|(_, value)| *value = 0.0);
+    }
+    Ok(state)
+}
+
+impl ContactSystem<'_> {
+    /// The state of pressed points whose forces friction does not alter: `u(mu) = u_0 + mu u_1`.
+    pub(super) fn unaltered_state(&mut self, is_pressed: Vec<bool>) -> Result<PressedState> {
+        let state = self.state_of(0.0, &is_pressed)?;
+        let [pressed, sheared] = [0.0, 1.0].map(|mu| self.whole_displacement(mu, &state));
+        let sheared = difference(&sheared, &pressed);
+        Ok(PressedState {
+            displacements: vec![pressed, sheared],
+            normal_forces: vec![state.normal_forces],
+            stiffnesses: state.stiffnesses.into_iter().collect(),
+            is_pressed,
+            ..PressedState::default()
+        })
+    }
+}
+
+impl PressedState {
+    /// The state of the points on the `edge` of an annulus, or of one of its equal `sectors`, all of which must be pressed.
+    ///
+    /// # Errors
+    /// [`PrestressError::Separation`] where a node would open.
+    pub(super) fn pressed_all_round(
+        self,
+        (edge, points): (&ContactInterface, &[Point]),
+        sectors: usize,
+    ) -> Result<Self> {
+        let forces = &self.normal_forces[0];
+        let is_open = |i: &usize| !(forces[*i] > 0.0);
+        match (0..forces.len()).find(is_open) {
+            None => Ok(self),
+            Some(first) => Err(PrestressError::Separation {
+                count: (0..forces.len()).filter(is_open).count() * sectors,
+                total: forces.len() * sectors,
+                node: edge.nodes[first] as usize + 1,
+                angle_degrees: edge.angles[first].to_degrees(),
+                pressure: forces[first] / points[first].weight,
+            }),
+        }
+    }
+}
 
 impl SolidSliding {
     /// Solves the equilibrium of one sector with its [`Strip::stiffness_alike`](crate::mesh::Strip::stiffness_alike) under its face
@@ -39,11 +147,13 @@ impl SolidSliding {
         let face = Face { sector, elastic, contact, law, rule };
         let (points, state) = if law.is_some() { face.on_springs() } else { face.on_rings() }?;
 
-        // What the rings have.
+        // What nodes and rings have.
         let approaches = face.approaches(&points, &state.displacements[0]);
-        let forces = face.node_forces(&points, &state.normal_forces[0]);
+        let (nodes, on_nodes) = face.on_nodes(&points, &state);
         let force = |ring: &ContactRing| -> f64 {
-            forces.iter().filter(|own| ring.nodes.contains(&own.0)).map(|own| own.1).sum()
+            let forces = nodes.iter().zip(&on_nodes.normal_forces[0]);
+            let own = forces.filter(|own| ring.nodes.contains(&(own.0.normal[0].0 / 3)));
+            own.map(|own| own.1).sum()
         };
         let ring_forces: Vec<f64> = rings.iter().map(force).collect();
         let pressing = if law.is_some() { &approaches } else { &ring_forces };
@@ -60,24 +170,32 @@ impl SolidSliding {
             None => own / ring.area, // p = N / A.
             Some(law) => law.pressure(own.max(0.0)),
         });
-        let on_nodes = PressedState {
-            displacements: state.displacements.clone(),
-            is_pressed: vec![true; forces.len()],
-            normal_forces: vec![forces.iter().map(|own| own.1).collect()],
-            ..PressedState::default()
-        };
+        let pressures: Vec<f64> = pressures.collect();
+
+        let on_face = if law.is_some() { (points, state) } else { face.under(&pressures) };
         Ok(Self {
-            pressures: pressures.collect(),
             sliding: SectorSliding {
                 state: on_nodes,
-                points: forces.iter().map(|own| node_point(sector, own.0, contact)).collect(),
+                turnings: nodes.iter().map(|point| turning(sector, point)).collect(),
+                on_face: Some(on_face),
+                places: rings.iter().map(|ring| ring.nodes.clone()).collect(),
+                is_pressed,
+                points: nodes,
             },
-            springs: law.map(|_| SectorSliding { state, points }),
-            rule,
+            pressures,
+            law,
             contact: *contact,
-            is_pressed,
             approaches,
         })
+    }
+}
+
+/// How a node of the face turns: about the axis on a cylinder, while on a face it is the sliding that does.
+fn turning(sector: &SolidSector, point: &Point) -> Turning {
+    let curvature = 1.0 / sector.nodes[point.normal[0].0 / 3].radius;
+    match sector.specification.contact.face().normal_component() {
+        0 => Turning::along(curvature, Default::default()),
+        _ => Turning { veer: scaled(&point.slip, -curvature), ..Turning::default() },
     }
 }
 
@@ -98,37 +216,33 @@ impl Face<'_> {
         (face.inward_sign(), face.normal_component())
     }
 
-    /// The state of those of some points that `pressed` finds to be.
+    /// [`of_sector`] of some points of the face.
     fn state(
         &self,
         points: &[Point],
+        together: Vec<usize>,
         pressed: impl FnOnce(&mut ContactSystem<'_>) -> Result<Vec<bool>>,
     ) -> Result<PressedState> {
-        let (strip, size) = (&self.sector.strip, self.sector.strip.dof_count());
-        // Neighbours move as this sector does.
-        let points: Vec<Point> = points.iter().map(|own| own.folded(size)).collect();
-        let own = points.iter().map(|own| Some(own.weight * self.law?.stiffness(0.0)));
-        let pressing = Pressing {
-            stiffness: self.elastic,
-            load: strip.pressure_load(),
-            elimination: Elimination::holding(size, strip.held_dofs()),
-            contacts: Vec::new(),
-            pushed: vec![self.contact.interference; points.len()],
-            stiffnesses: own.collect(),
-            laws: vec![self.law; points.len()],
-            points: &points,
-            known: None,
-        };
-        let mut system = ContactSystem::new(&pressing)?;
-        let set = pressed(&mut system)?;
-        let mut state = system.unaltered_state(set)?;
-        // Friction alone turns the sectors about their axis, and nothing but that: the rest is round-off.
-        for (power, own) in state.displacements.iter_mut().enumerate() {
-            let others =
-                own.iter_mut().enumerate().filter(|(dof, _)| (dof % 3 == 1) != (power == 1));
-            others.for_each(|(_, value)| *value = 0.0);
+        let on_face = (points, together, self.law);
+        let delta = self.contact.interference;
+        of_sector((&self.sector.strip, self.elastic), on_face, delta, pressed)
+    }
+
+    /// The points of the whole face under some pressures of the rings, and their state.
+    fn under(&self, pressures: &[f64]) -> (Vec<Point>, PressedState) {
+        let sector = self.sector;
+        let over = OverRings { sector, values: pressures, held: 0.0 };
+        let (mut points, mut forces) = (Vec::new(), Vec::new());
+        for element in sector.contact_elements() {
+            for (along, point) in
+                face_points(sector, (&element, [-1.0, 1.0]), self.contact, self.rule)
+            {
+                forces.push(point.weight * over.along(&element, along).max(0.0)); // N = A p.
+                points.push(point);
+            }
         }
-        Ok(state)
+        let is_pressed = forces.iter().map(|force| *force > 0.0).collect();
+        (points, PressedState { is_pressed, normal_forces: vec![forces], ..Default::default() })
     }
 
     /// `delta - u_n` at each ring, the mean over its nodes, m: what the points see of it, less than all on a cylinder.
@@ -153,49 +267,33 @@ impl Face<'_> {
         along.map(move |(dof, along)| (dof / 3 % count, *along))
     }
 
-    /// The nodes that points push, those that something else holds along the normal, too, and their forces, N.
-    fn node_forces(&self, points: &[Point], forces: &[f64]) -> Vec<(usize, f64)> {
+    /// The nodes that points of a state push, those that something else holds along the normal, too, and their state.
+    fn on_nodes(&self, points: &[Point], state: &PressedState) -> (Vec<Point>, PressedState) {
         let mut on_nodes = vec![0.0; self.sector.node_count()];
-        for (point, force) in points.iter().zip(forces) {
+        for (point, force) in points.iter().zip(&state.normal_forces[0]) {
             self.on_normals(point).for_each(|(node, along)| on_nodes[node] += along * force);
         }
         let signed = on_nodes.into_iter().map(|force| self.normal().0 * force).enumerate();
-        signed.filter(|own| own.1 != 0.0).collect()
+        let pushed = signed.filter(|own| own.1 != 0.0);
+        let own = pushed.map(|(node, force)| (node_point(self.sector, node, self.contact), force));
+        let (nodes, forces): (Vec<Point>, Vec<f64>) = own.unzip();
+        let state = PressedState {
+            displacements: state.displacements.clone(),
+            is_pressed: vec![true; forces.len()],
+            normal_forces: vec![forces],
+            ..PressedState::default()
+        };
+        (nodes, state)
     }
 
     /// Signorini's conditions ring by ring, `N >= 0` of its nodes together and `u_n = delta` of each where it is pressed.
     fn on_rings(&self) -> Result<(Vec<Point>, PressedState)> {
-        let rings = &self.sector.rings;
+        let nodes = self.sector.rings.iter().flat_map(|ring| &ring.nodes);
         let point = |&node: &usize| node_point(self.sector, node, self.contact);
-        let points: Vec<Point> = rings.iter().flat_map(|ring| &ring.nodes).map(point).collect();
-        let state = self.state(&points, |system| {
-            let delta = self.contact.interference;
-            let mut is_pressed = vec![true; rings.len()];
-            for _ in 0..SETS {
-                let both = rings.iter().zip(&is_pressed);
-                let set =
-                    both.flat_map(|(ring, own)| vec![*own; ring.nodes.len()]).collect::<Vec<_>>();
-                let state = system.state_of(0.0, &set)?;
-                let scale = state.normal_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-                // Pressed rings must push, open ones must not have come nearer than delta.
-                let mut first = 0;
-                let next = rings.iter().zip(&is_pressed).map(|(ring, is_pressed)| {
-                    let own = first..first + ring.nodes.len();
-                    first = own.end;
-                    if *is_pressed {
-                        return state.normal_forces[own].iter().sum::<f64>() > ROUND_OFF * scale;
-                    }
-                    let approach: f64 = own.map(|i| delta - state.separations[i]).sum();
-                    approach > ROUND_OFF * delta.abs()
-                });
-                let next: Vec<bool> = next.collect();
-                if next == is_pressed {
-                    return Ok(set);
-                }
-                is_pressed = next;
-            }
-            Err(PrestressError::NoState { friction_coefficient: 0.0 })
-        })?;
+        let points: Vec<Point> = nodes.map(point).collect();
+        let together = self.sector.rings.iter().map(|ring| ring.nodes.len()).collect();
+        let all = vec![true; points.len()];
+        let state = self.state(&points, together, |system| pressed_points(system, 0.0, &all))?;
         Ok((points, state))
     }
 
@@ -214,7 +312,8 @@ impl Face<'_> {
                     points.extend(own.into_iter().map(|own| own.1));
                 }
             }
-            let state = self.state(&points, |_| Ok(vec![true; points.len()]))?;
+            let all = vec![true; points.len()];
+            let state = self.state(&points, Vec::new(), |_| Ok(all))?;
             let found = self.approaches(&points, &state.displacements[0]);
             if norm(&difference(&found, &values)) <= SETTLED * norm(&found) {
                 return Ok((points, state));

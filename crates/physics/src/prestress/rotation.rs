@@ -1,6 +1,6 @@
 //! Rotation of regions of an assembly.
 
-use super::elimination::{Elimination, factorized};
+use super::elimination::Elimination;
 use super::{PrestressError, Result};
 use crate::contact::Motion;
 use crate::fem::{
@@ -55,11 +55,8 @@ impl Rotation {
         let mut terms = assemble_rotation(mesh, materials, &of_region);
 
         // The stress of the centrifugal load alone.
-        let unknowns = basis.unknowns();
-        let solver = factorized(&grounded(held(), (mesh, materials), basis), &unknowns)?;
-        let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal)); // T^T f_c.
-        let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
-        let bases = [displacement];
+        let held = grounded(held(), (mesh, materials), basis);
+        let bases = [basis.displacement_under(&terms.centrifugal, &held)?];
         // Stress stiffens, and the strain that comes with it changes the centrifugal load itself.
         let of =
             [ElementGeometry::geometric_stiffnesses, ElementGeometry::displacement_stiffnesses];

@@ -286,23 +286,37 @@ impl<M: Default + PartialEq> Terms<M> {
     }
 }
 
-impl Terms<Triplets> {
-    /// Difference quotients of all matrices ([`Triplets::quotient`]); `None` where factors differ, or a side lacks a term.
-    pub(super) fn quotient(sides: &[(f64, &Self)]) -> Option<Self> {
-        let first = sides.first()?.1;
-        let name = |own: &Term<_>| (own.part, own.kind, own.power);
+impl Terms<Vec<Triplets>> {
+    /// Difference quotients of all matrices ([`Triplets::quotient`]) of sides, itself one of them; `false` where factors differ, or
+    /// a side lacks a term.
+    pub(super) fn set_quotient(&mut self, sides: &[(f64, &Self)]) -> bool {
+        let name = |own: &Term<Vec<_>>| (own.part, own.kind, own.power, own.matrix.len());
         let is_alike = |own: &Self| {
-            (own.bodies == first.bodies && own.contacts == first.contacts)
-                && own.tangent_damping == first.tangent_damping
-                && own.all.iter().map(name).eq(first.all.iter().map(name))
+            (own.bodies == self.bodies && own.contacts == self.contacts)
+                && own.tangent_damping == self.tangent_damping
+                && own.all.iter().map(name).eq(self.all.iter().map(name))
         };
-        let mut sum = sides.iter().all(|(_, own)| is_alike(own)).then(|| first.clone())?;
-        for (k, term) in sum.all.iter_mut().enumerate() {
-            let own = sides.iter().map(|(weight, own)| (*weight, &own.all[k].matrix));
-            term.matrix = Triplets::quotient(&own.collect::<Vec<_>>());
+        if !sides.iter().all(|(_, own)| is_alike(own)) {
+            return false;
         }
-        sum.all.retain(|term| !term.matrix.entries.is_empty());
-        Some(sum)
+        for (k, term) in self.all.iter_mut().enumerate() {
+            for (power, matrix) in term.matrix.iter_mut().enumerate() {
+                let own = sides.iter().map(|(weight, own)| (*weight, &own.all[k].matrix[power]));
+                *matrix = Triplets::quotient(&own.collect::<Vec<_>>());
+            }
+        }
+        self.all.retain(|term| term.matrix.iter().any(|own| !own.entries.is_empty()));
+        true
+    }
+}
+
+impl Terms<Triplets> {
+    /// Adds the stress of a base state in each region.
+    pub(super) fn add_stress(&mut self, bodies: (&Mesh, &dyn MaterialField), state: &PressedState) {
+        for region in 0..self.regions().len() {
+            let powers = geometric_stiffness(bodies, state, region);
+            self.add(Part::Body(region), Kind::Prestress, powers);
+        }
     }
 
     /// Those of a mesh over all its dofs without stress and rotation.
@@ -312,14 +326,6 @@ impl Terms<Triplets> {
         options: &TangentOptions,
     ) -> Self {
         Self::of_elastic((mesh, material), region_stiffnesses(mesh, material), is_free, options)
-    }
-
-    /// Adds the stress of a base state in each region.
-    pub(super) fn add_stress(&mut self, bodies: (&Mesh, &dyn MaterialField), state: &PressedState) {
-        for region in 0..self.regions().len() {
-            let powers = geometric_stiffness(bodies, state, region);
-            self.add(Part::Body(region), Kind::Prestress, powers);
-        }
     }
 
     /// [`Self::of_mesh`] with the stiffness of each region: regions, supports unless all of it is free, and modifications.

@@ -4,9 +4,10 @@ use super::terms::{Kind, Part, Term, Terms, of_kind};
 use super::{FrictionPolynomial, HarmonicTangent, RigidFriction, TabledGain, TangentOptions};
 use crate::contact::Row;
 use crate::fem::ModulusTable;
-use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::fold::{SectorMatrix, WaveDofs};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
+use std::collections::BTreeSet;
 
 /// [`super::SlidingTangent`] of a body of equal sectors that are their own mirror images, from the matrices of one of them.
 ///
@@ -51,14 +52,12 @@ pub struct WaveTangent {
 /// The contact of one sector, by its dofs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WaveContact {
-    /// Component along the normal.
-    pub normal: usize,
     /// Dofs of each contact node, or ring of them, the other body's behind its own.
     pub places: Vec<Vec<usize>>,
     /// Whether each of these is pressed.
     pub is_pressed: Vec<bool>,
-    /// Pressed nodes.
-    pub pressed_nodes: Vec<usize>,
+    /// Dofs of pressed nodes, along the sliding, in space across it, and along the normal.
+    pub pressed: Vec<usize>,
     /// Rows of the distances of two bodies, unknowns in place of the normal dofs of the first.
     pub distances: Vec<Row>,
     /// Friction of rigid contact.
@@ -97,53 +96,45 @@ impl WaveTangent {
 
     /// Unknowns of motion across the sliding at contact nodes, ascending; none in the plane.
     pub fn sideways_unknowns(&self) -> Vec<usize> {
-        let side = self.tangential_components().nth(1);
-        let dofs = self.contact.places.iter().flatten().copied();
-        self.ascending(dofs.filter(|dof| Some(dof % self.components) == side))
+        let across = self.contact.pressed.get(1).filter(|_| self.components == 3);
+        let component = across.map(|dof| dof % 3);
+        let dofs = self.contact.places.iter().flatten();
+        self.ascending(dofs.copied().filter(|dof| Some(dof % self.components) == component))
     }
 
     /// Unknown of the tangential displacement of each contact node.
     pub fn tangential_unknowns(&self) -> Vec<usize> {
-        let dofs = self.contact.places.iter().map(|dofs| dofs[1]);
-        dofs.filter_map(|dof| self.dofs.unknown_of[dof]).collect()
+        self.unknowns(self.contact.places.iter().map(|dofs| dofs[1]))
     }
 
     /// Unknowns along and across the sliding and along the normal of pressed nodes.
     pub fn pressed_unknowns(&self) -> Vec<usize> {
-        let own = self.contact.pressed_nodes.iter().flat_map(|node| {
-            let components = self.tangential_components().chain([self.contact.normal]);
-            components.map(move |c| self.components * node + c)
-        });
-        own.filter_map(|dof| self.dofs.unknown_of[dof]).collect()
+        self.unknowns(self.contact.pressed.iter().copied())
     }
 
     /// Unknowns of each contact node, or ring of them, of one sector.
     pub fn contact_unknowns(&self) -> Vec<Vec<usize>> {
-        let place = |dof: &usize| self.dofs.unknown_of[*dof];
         let contact = self.contact.places.iter();
-        contact.map(|dofs| dofs.iter().filter_map(place).collect()).collect()
+        contact.map(|dofs| self.unknowns(dofs.iter().copied())).collect()
     }
 
     /// The terms of regions and supports in the unknowns of harmonic `n`; those of power one come with `i mu`.
     pub fn body_terms(&self, n: usize) -> Vec<Term<CompactRows>> {
         let bodies = self.terms.all.iter().filter(|own| matches!(own.part, Part::Body(_)));
         let folded = bodies.map(|term| {
-            let own = self.dofs.fold(n, mirrored(term.power).0, &[&term.matrix[term.power]]);
+            let own = self.dofs.fold(n, term.power, &term.matrix[term.power]);
             term.with(CompactRows::new(&own))
         });
         folded.collect()
     }
 
-    /// Along the sliding, and in space across it.
-    fn tangential_components(&self) -> impl Iterator<Item = usize> + use<> {
-        [1].into_iter().chain((self.components == 3).then_some(2 - self.contact.normal)) // e_z on a cylinder, e_r on a face.
+    fn unknowns(&self, dofs: impl Iterator<Item = usize>) -> Vec<usize> {
+        dofs.filter_map(|dof| self.dofs.unknown_of[dof]).collect()
     }
 
     fn ascending(&self, dofs: impl Iterator<Item = usize>) -> Vec<usize> {
-        let mut unknowns: Vec<usize> = dofs.filter_map(|dof| self.dofs.unknown_of[dof]).collect();
-        unknowns.sort_unstable();
-        unknowns.dedup();
-        unknowns
+        let unknowns: BTreeSet<usize> = self.unknowns(dofs).into_iter().collect();
+        unknowns.into_iter().collect()
     }
 
     /// Moduli over frequency of regions.
@@ -212,45 +203,42 @@ impl WaveTangent {
 
     /// What comes with a power of friction of the mass and the stiffness that there are without it.
     fn of_power(&self, n: usize, power: usize) -> [BandedMatrix; 2] {
-        let sum = |factor: &dyn Fn(&Term<Vec<SectorMatrix>>) -> f64| {
-            let mut sum = self.dofs.zeros();
-            for own in self.terms.all.iter().filter(|own| own.power == 0) {
-                if let Some(matrix) = own.matrix.get(power) {
-                    self.dofs.add(&mut sum, n, mirrored(power).0, (factor(own), matrix));
-                }
-            }
-            sum
-        };
-        [sum(&of_kind(Kind::Mass)), sum(&|term| self.terms.factors(term)[0])]
+        let is_first = |term: &Term<_>| f64::from(u8::from(term.power == 0));
+        let mass = |term: &Term<_>| is_first(term) * of_kind(Kind::Mass)(term);
+        let stiffness = |term: &Term<_>| is_first(term) * self.terms.factors(term)[0];
+        [self.coefficient((n, power), &mass), self.coefficient((n, power), &stiffness)]
     }
 
-    /// Harmonic `n` of the terms, each times its factor; the matrix of an odd power, `i` times this, is the coefficient of that of
-    /// `i mu`. The dashpots of friction have one power less here.
+    /// Harmonic `n` of the terms, each times its factor.
     fn polynomial(
         &self,
         n: usize,
         factor: impl Fn(&Term<Vec<SectorMatrix>>) -> f64,
     ) -> FrictionPolynomial {
-        let mut sums = vec![self.dofs.zeros()];
-        for own in &self.terms.all {
-            let (factor, less) = (factor(own), usize::from(own.kind == Kind::FrictionDashpots));
-            for (power, matrix) in own.matrix.iter().skip(less).enumerate() {
-                let (parity, sign) = mirrored(power); // mu^p A = sign (i mu)^p R with a real R.
-                if factor != 0.0 && *matrix != SectorMatrix::default() {
-                    sums.resize_with(sums.len().max(power + 1), || self.dofs.zeros());
-                    self.dofs.add(&mut sums[power], n, parity, (sign * factor, matrix));
-                }
-            }
-        }
+        let own = self.terms.all.iter().filter(|own| factor(own) != 0.0);
+        let count = own.map(|own| own.matrix.len()).max().unwrap_or(0).max(1);
+        let sums = (0..count).map(|power| self.coefficient((n, power), &factor));
+        let mut sums: FrictionPolynomial = sums.collect();
         while sums.len() > 1 && sums.last().is_some_and(BandedMatrix::is_zero) {
             sums.pop();
         }
         sums
     }
-}
 
-/// What a mirror does to what comes with `mu^p`, and its sign with `(i mu)^p`: `mu^p A = +-(i mu)^p R` of a real `R`, `A = R` or `i R`.
-fn mirrored(power: usize) -> (MirrorParity, f64) {
-    let parity = [MirrorParity::Even, MirrorParity::Odd][power % 2];
-    (parity, [1.0, 1.0, -1.0, -1.0][power % 4])
+    /// The coefficient of a power of `i mu` of [`Self::polynomial`]. The dashpots of friction have one power less here.
+    fn coefficient(
+        &self,
+        (n, power): (usize, usize),
+        factor: &dyn Fn(&Term<Vec<SectorMatrix>>) -> f64,
+    ) -> BandedMatrix {
+        let mut sum = self.dofs.zeros();
+        for own in &self.terms.all {
+            let at = power + usize::from(own.kind == Kind::FrictionDashpots);
+            let (factor, matrix) = (factor(own), own.matrix.get(at));
+            if let Some(matrix) = matrix.filter(|_| factor != 0.0) {
+                self.dofs.add(&mut sum, (n, power), (factor, matrix));
+            }
+        }
+        sum
+    }
 }

@@ -104,7 +104,7 @@ impl SolidState {
             let ((speed, friction), pressure) = (base.friction(ring.radius), base.pressures[i]);
             // Along the sliding, as that of points of a mesh.
             let shear = friction_coefficient * friction.drag.abs() * pressure;
-            ContactState { place, speed, pressure, shear, is_pressed: base.is_pressed[i] }
+            ContactState { place, speed, pressure, shear, is_pressed: base.sliding.is_pressed[i] }
         };
         sector.rings.iter().enumerate().map(state).collect()
     }
@@ -137,7 +137,7 @@ pub(super) fn mean_friction(solid: &SolidState) -> (f64, SteadyFriction, f64) {
 /// What an open part of the contact means.
 pub(super) fn open_note(solid: &SolidState) -> Option<String> {
     let SolidState { sector, base } = solid;
-    let rings = sector.rings.iter().zip(&base.is_pressed);
+    let rings = sector.rings.iter().zip(&base.sliding.is_pressed);
     let pressed: Vec<_> = rings.filter(|(_, pressed)| **pressed).map(|(ring, _)| ring).collect();
     let open = sector.rings.len() - pressed.len();
     let is_edge = sector.specification.contact.face().normal_component() == 0;
@@ -145,7 +145,7 @@ pub(super) fn open_note(solid: &SolidState) -> Option<String> {
     let word = if is_edge { "height" } else { "radius" };
     match pressed.as_slice() {
         _ if open == 0 => None,
-        [only] if base.springs.is_none() => Some(format!(
+        [only] if base.law.is_none() => Some(format!(
             "the contact has shrunk to the ring of nodes at {word} {:.6} m, a line. Its pressure is spread over the \
              width of the mesh, {:.2e} m2 in all, and contact.normal_stiffness acts on that alone. With \
              contact.base_state = \"compliant\" the stiffness of the interface gives the contact a width of its own",

@@ -24,7 +24,7 @@ mod states;
 mod whole;
 
 pub use contact::{SolidState, SteadyState};
-pub use model::{Model, Solver, asked_modes, sector_tangent};
+pub use model::{Model, Solver, asked_modes, wave_tangent};
 pub use sensitivity::body_sensitivities;
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};
 pub use sliding::{SlidingModel, dampings};
@@ -95,7 +95,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
             whole.tangent(case, first)?.referred_to(limit_hz)
         }
         Model::Waves(options) => {
-            let waves = sector_tangent(case, options)?.expect("a body of sectors").waves();
+            let waves = wave_tangent(case, options)?.expect("a body of sectors");
             let has_modes = |n: usize| {
                 let [mass, stiffness] = waves.at_rest(n);
                 BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0

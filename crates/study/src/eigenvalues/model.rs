@@ -6,7 +6,7 @@ use crate::prelude::*;
 use crate::tangent_options;
 use frictionsim_physics::cea::{ModeLimit, cyclic};
 use frictionsim_physics::mesh::Strip;
-use frictionsim_physics::prestress::SectorTangent;
+use frictionsim_physics::prestress::WaveTangent;
 
 /// The eigenvalue solver that a body gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,7 +129,7 @@ impl Model {
     ) -> Result<(Solution, Option<WaveSweep>), CeaError> {
         match self {
             Self::Waves(options) => {
-                let tangent = sector_tangent(case, options)?.expect("a body of sectors").waves();
+                let tangent = wave_tangent(case, options)?.expect("a body of sectors");
                 let mut found = cyclic::wave_sweep(tangent, request, waves_at)?;
                 let is_reduced = found.reduction_error > 0.0;
                 let notes = is_reduced.then(|| reduction_note(&found, request));
@@ -151,17 +151,17 @@ impl Model {
 ///
 /// # Errors
 /// A sector that cannot be built; no state of steady sliding.
-pub fn sector_tangent(
+pub fn wave_tangent(
     case: &Case,
     options: &TangentOptions,
-) -> Result<Option<SectorTangent>, CeaError> {
+) -> Result<Option<WaveTangent>, CeaError> {
     let (sliding, materials) = (&case.contact.sliding, &case.body.materials);
     Ok(Some(match &case.body.kind {
         BodyKind::Annulus(own) => {
-            SectorTangent::of_annulus(&Strip::of_annulus(own)?, materials, options, sliding)?
+            WaveTangent::of_annulus(&Strip::of_annulus(own)?, materials, options, sliding)?
         }
         BodyKind::Revolution(own) => {
-            SectorTangent::of_revolution(&SolidSector::generate(own)?, materials, options, sliding)?
+            WaveTangent::of_revolution(&SolidSector::generate(own)?, materials, options, sliding)?
         }
         BodyKind::Imported(_) | BodyKind::Assembly(_) => return Ok(None),
     }))

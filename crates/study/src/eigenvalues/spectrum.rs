@@ -1,7 +1,7 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
 use super::StudyError;
-use super::model::{Model, Solver, sector_tangent};
+use super::model::{Model, Solver, wave_tangent};
 use crate::prelude::*;
 use crate::tangent_options;
 use frictionsim_physics::cea::{ModeLimit, cyclic};
@@ -108,8 +108,8 @@ pub fn unstable_intervals(
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;
     if let (Some(harmonics), Model::Waves(options)) = (harmonics, &model)
-        && let Ok(Some(tangent)) = sector_tangent(case, options)
-        && let Ok(Some(found)) = cyclic::onsets(tangent.waves(), &request, harmonics)
+        && let Ok(Some(tangent)) = wave_tangent(case, options)
+        && let Ok(Some(found)) = cyclic::onsets(tangent, &request, harmonics)
     {
         return Ok(OnsetSearch::of(found, Vec::new()));
     }

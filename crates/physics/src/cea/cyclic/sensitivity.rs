@@ -9,7 +9,7 @@ use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;
 use crate::linalg::vectors::dot;
-use crate::prestress::{MotionMatrices, MovingHarmonic, SectorTangent, WaveTangent};
+use crate::prestress::{MotionMatrices, MovingHarmonic, WaveTangent};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.
@@ -59,7 +59,7 @@ pub struct Beside {
     /// Weight in the quotient.
     pub weight: f64,
     /// Its linearisation.
-    pub tangent: SectorTangent,
+    pub tangent: WaveTangent,
     /// What its friction coefficient has more than that of the eigenpairs.
     pub friction_shift: f64,
 }
@@ -80,8 +80,8 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
     // Where matrices alone change, it is their quotient that has harmonics.
     let sides: Vec<_> = quotient.iter().map(|own| (own.weight, &own.tangent)).collect();
     let is_shifted = quotient.iter().any(|own| own.friction_shift != 0.0);
-    let side = |own: &Beside| (own.weight, own.tangent.clone().waves(), own.friction_shift);
-    let sides = match SectorTangent::quotient(&sides).filter(|_| !is_shifted) {
+    let side = |own: &Beside| (own.weight, own.tangent.clone(), own.friction_shift);
+    let sides = match WaveTangent::quotient(&sides).filter(|_| !is_shifted) {
         Some(sum) => vec![(1.0, sum, 0.0)],
         None => quotient.iter().map(side).collect(),
     };

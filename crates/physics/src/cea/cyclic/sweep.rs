@@ -11,7 +11,7 @@ use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeLimit, SweepRequest
 use crate::contact::SlidingContact;
 use crate::fem::{MaterialField, ModulusTable};
 use crate::mesh::{AnnulusSpecification, Strip};
-use crate::prestress::{SectorTangent, TangentOptions, WaveTangent};
+use crate::prestress::{TangentOptions, WaveTangent};
 use std::f64::consts::TAU;
 
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
@@ -32,7 +32,7 @@ pub fn sweep(
     request: &SweepRequest<'_>,
 ) -> Result<WaveSweep, CeaError> {
     let sector = Strip::of_annulus(specification)?;
-    let tangent = SectorTangent::of_annulus(&sector, material, options, contact)?.waves();
+    let tangent = WaveTangent::of_annulus(&sector, material, options, contact)?;
     wave_sweep(tangent, request, &[])
 }
 
@@ -222,8 +222,8 @@ mod tests {
                 contact: ContactStiffness { tangential_damping, ..ContactStiffness::default() },
             };
             let sector = Strip::of_annulus(&specification).unwrap();
-            let tangent = SectorTangent::of_annulus(&sector, &material, &options, &contact);
-            let mut tangent = tangent.unwrap().waves();
+            let tangent = WaveTangent::of_annulus(&sector, &material, &options, &contact);
+            let mut tangent = tangent.unwrap();
             let (found, _) = follow(&mut tangent, &wanted, MARGIN, None).unwrap();
             let (mut followed, limit) = (found.followed, found.limit);
             let missed =

@@ -202,7 +202,7 @@ impl TransientModel<'_> {
         let face = sector.specification.contact.face();
         let normal = base.sliding.state.displacements[0][3 * node + face.normal_component()];
         // What the springs of a compliant base state have given way already is in its displacement.
-        let given_way = match base.springs {
+        let given_way = match base.law {
             Some(_) => self.contact.interference - face.inward_sign() * normal,
             None => 0.0,
         };

@@ -1,7 +1,7 @@
 //! Derivatives of eigenpairs by one parameter: difference quotients of the matrices.
 
 use super::{Pairs, Place};
-use crate::eigenvalues::model::sector_tangent;
+use crate::eigenvalues::model::wave_tangent;
 use crate::eigenvalues::whole::WholeMesh;
 use crate::prelude::*;
 use crate::tangent_options;
@@ -118,7 +118,7 @@ pub(crate) fn rates_of_waves(
     let friction = case.contact.sliding.friction_coefficient;
     let beside = |offset: f64| {
         let moved = moved(offset)?;
-        let tangent = sector_tangent(&moved, &tangent_options(&moved, cea.mass));
+        let tangent = wave_tangent(&moved, &tangent_options(&moved, cea.mass));
         let tangent = tangent.map_err(|error| error.to_string())?;
         let tangent = tangent.ok_or_else(|| "the body loses its symmetry with it".to_owned())?;
         if tangent.contact.is_pressed != pressed {

@@ -43,8 +43,8 @@ impl Pressing<'_> {
             elimination: Elimination::holding(size, held),
             points: &points,
             contacts: Vec::new(),
+            together: Vec::new(),
             pushed: firsts.iter().map(|&i| self.pushed[i]).collect(),
-            stiffnesses: firsts.iter().map(|&i| self.stiffnesses[i]).collect(),
             laws: firsts.iter().map(|&i| self.laws[i]).collect(),
             known: None,
         };

@@ -1,7 +1,7 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
 use super::SectorSliding;
-use crate::contact::{Point, PressedState, Row, SlidingContact, SteadyFriction, row_along, scaled};
+use crate::contact::{NormalLaw, Point, Row, SlidingContact, SteadyFriction, row_along, scaled};
 use crate::mesh::{FaceElement, SolidSector, face_quadrature};
 
 /// The state of steady sliding of a body of revolution, the same in every sector.
@@ -21,16 +21,12 @@ pub struct SolidSliding {
     /// Displacements, and the nodes of the contact that have a normal force; it is negative at corners of faces with mid-side nodes,
     /// where it is the force of a pressure that is not.
     pub sliding: SectorSliding,
-    /// Whether each ring of the contact is pressed.
-    pub is_pressed: Vec<bool>,
     /// Pressure at each ring, Pa: its force over its tributary area, or that of the spring.
     pub pressures: Vec<f64>,
     /// `delta - u_n` at each ring, m: below zero it is a gap.
     pub approaches: Vec<f64>,
-    /// The springs that carry the base state, over the points of the face with their forces; `None` is rigid contact.
-    pub springs: Option<SectorSliding>,
-    /// How linear elements of the face take contact along the normal.
-    pub rule: FaceRule,
+    /// The springs that carry the base state; `None` is rigid contact.
+    pub law: Option<NormalLaw>,
     /// The rotor.
     pub contact: SlidingContact,
 }
@@ -43,7 +39,7 @@ impl SolidSliding {
 
     /// Sector node and normal force of each pressed node, N.
     pub fn normal_forces(&self) -> impl Iterator<Item = (usize, f64)> {
-        let SectorSliding { points, state } = &self.sliding;
+        let SectorSliding { points, state, .. } = &self.sliding;
         points.iter().map(|point| point.normal[0].0 / 3).zip(state.normal_forces[0].iter().copied())
     }
 
@@ -64,23 +60,6 @@ impl SolidSliding {
     /// Pressure along an element of the face, -1 to 1, Pa. Nodes that are held along the normal have none.
     pub fn pressure_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
         OverRings { sector, values: &self.pressures, held: 0.0 }.along(element, along).max(0.0)
-    }
-
-    /// The points of the face at which the law of the contact acts, and their state.
-    pub(super) fn points(&self, sector: &SolidSector) -> (Vec<Point>, PressedState) {
-        if let Some(SectorSliding { points, state }) = &self.springs {
-            return (points.clone(), state.clone());
-        }
-        let (mut points, mut forces) = (Vec::new(), Vec::new());
-        for element in sector.contact_elements() {
-            let whole = face_points(sector, (&element, [-1.0, 1.0]), &self.contact, self.rule);
-            for (along, point) in whole {
-                forces.push(point.weight * self.pressure_along(sector, &element, along)); // N = A p.
-                points.push(point);
-            }
-        }
-        let is_pressed = forces.iter().map(|force| *force > 0.0).collect();
-        (points, PressedState { is_pressed, normal_forces: vec![forces], ..Default::default() })
     }
 }
 
@@ -125,8 +104,7 @@ pub(super) fn face_points(
         let ends = (0..nodes.len()).map(|a| (a, [-1.0, 1.0][a / 2]));
         let free = ends.filter(|&(a, along)| span.contains(&along) && is_free(face.nodes[a].0));
         let own = free.map(|(a, along)| {
-            let rows = [0, 1, 2].map(|component| vec![(3 * nodes[a] + component, 1.0)]);
-            (along, point(areas[a], face.radius_at(sector, [0.0, along]), rows))
+            (along, Point { weight: areas[a], ..node_point(sector, nodes[a], contact) })
         });
         return own.collect();
     }
@@ -198,12 +176,14 @@ impl OverRings<'_> {
 pub(crate) fn node_point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
     let face = sector.specification.contact.face();
     let normal = vec![(3 * node + face.normal_component(), face.inward_sign())];
+    let radius = sector.nodes[node % sector.node_count()].radius;
     Point {
         lift: normal.clone(),
         normal,
         slip: vec![(3 * node + 1, 1.0)],
         across: vec![(3 * node + face.across_component(), 1.0)],
-        friction: friction(contact, sector.nodes[node % sector.node_count()].radius),
+        speed: contact.rotation_speed.abs() * radius,
+        friction: friction(contact, radius),
         ..Point::default()
     }
 }

@@ -1,18 +1,84 @@
-//! Direct solution of each harmonic at each frequency.
+//! Harmonics of a body of equal sectors in the state that is excited, each solved directly at each frequency.
 
-use super::cyclic_system::Place;
 use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND, check_frequencies};
-use super::{CyclicSystem, FrfError, Terminal};
+use super::{Direction, FrfError, NodeFault, Terminal};
 use crate::fem::RayleighDamping;
+use crate::fem::fold::WaveDofs;
 use crate::linalg::LinalgError;
 use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes, multiply_band};
 use crate::linalg::c64;
-use crate::prestress::MovingHarmonic;
+use crate::prestress::{MovingHarmonic, WaveTangent};
 use std::f64::consts::{PI, TAU};
 
 /// Harmonics held in memory at a time, and the entries of their bands where those are wide.
 const HARMONICS_AT_ONCE: usize = 16;
 const ENTRIES_AT_ONCE: usize = 1 << 21;
+
+/// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
+#[derive(Clone, Debug)]
+pub struct CyclicSystem {
+    tangent: WaveTangent,
+    friction_coefficient: f64,
+    /// Dofs of the sector that can be excited and observed.
+    dofs: WaveDofs,
+}
+
+/// Where a terminal lies.
+#[derive(Clone, Copy)]
+struct Place {
+    unknown: usize,
+    /// Angle in halves of a sector.
+    half_steps: usize,
+    is_tangential: bool,
+}
+
+impl CyclicSystem {
+    /// Small motions around steady sliding at a friction coefficient, in space the dashpot `mu p_0 / V` across the sliding included.
+    ///
+    /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
+    /// body, not through the contact. A distance between two bodies is no place to strike or to observe.
+    pub fn sliding(tangent: &WaveTangent, friction_coefficient: f64) -> Self {
+        Self { tangent: tangent.clone(), friction_coefficient, dofs: tangent.places() }
+    }
+
+    /// Number of unknowns of the annulus.
+    pub fn dimension(&self) -> usize {
+        self.dofs.count * self.dofs.sectors
+    }
+
+    /// Checks that a terminal can move; `key` is the case key of its node.
+    ///
+    /// # Errors
+    /// [`FrfError::Node`], [`FrfError::NoAxes`].
+    pub fn check(&self, terminal: Terminal, key: &'static str) -> Result<(), FrfError> {
+        self.place(terminal, key).map(|_| ())
+    }
+
+    /// Place of a terminal; `key` is the case key of its node.
+    ///
+    /// # Errors
+    /// [`FrfError::Node`], [`FrfError::NoAxes`].
+    fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
+        let per_sector = self.tangent.halves.len();
+        let count = per_sector * self.dofs.sectors;
+        if terminal.node >= count {
+            return Err(terminal.refused(key, NodeFault::Missing(count)));
+        }
+        let component = terminal.direction.component();
+        let component =
+            component.ok_or(FrfError::NoAxes { key, direction: terminal.direction.name() })?;
+        if component >= self.tangent.components {
+            return Err(terminal.refused(key, NodeFault::InPlane));
+        }
+        let (sector, node) = (terminal.node / per_sector, terminal.node % per_sector);
+        let unknown = self.dofs.unknown_of[self.tangent.components * node + component];
+        Ok(Place {
+            unknown: unknown.ok_or_else(|| terminal.constrained(key))?,
+            half_steps: 2 * sector + self.tangent.halves[node],
+            is_tangential: terminal.direction == Direction::Tangential,
+        })
+    }
+}
 
 /// A response summed over all harmonics.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +115,8 @@ pub fn cyclic_response(
     let mut receptance = vec![c64::ZERO; frequencies_hz.len()];
     let mut backward_error = 0.0_f64;
     let all: Vec<usize> = (0..=system.tangent.largest_harmonic()).collect();
-    for numbers in all.chunks(system.harmonics_at_once(HARMONICS_AT_ONCE, ENTRIES_AT_ONCE)) {
+    let entries = system.dofs.count * (2 * system.dofs.half_bandwidth + 1);
+    for numbers in all.chunks((ENTRIES_AT_ONCE / entries.max(1)).clamp(1, HARMONICS_AT_ONCE)) {
         let waves: Vec<Wave> =
             crate::parallel::map(numbers, |&n| Wave::new(system, n, force, response));
         let lines = receptance.chunks_mut(LANES).zip(frequencies_hz.chunks(LANES));
@@ -80,7 +147,8 @@ struct Wave {
 
 impl Wave {
     fn new(system: &CyclicSystem, n: usize, force: Place, response: Place) -> Self {
-        let (bands, proportional) = system.harmonic(n);
+        let harmonic = system.tangent.harmonic(n);
+        let bands = harmonic.at(system.friction_coefficient);
         let sectors = system.dofs.sectors;
         // Modulo a full turn, so that high harmonics lose no digits.
         let steps = response.half_steps + 2 * sectors - force.half_steps;
@@ -93,18 +161,14 @@ impl Wave {
         if force.is_tangential {
             factor *= -c64::I;
         }
-        let is_real = {
-            // Proportional damping is as real as what it is proportional to.
-            let mut all = bands.matrices.each().flatten();
-            all.all(|value| value.im == 0.0)
-        };
+        let is_real = bands.matrices.each().flatten().all(|value| value.im == 0.0);
         Self {
-            is_standing: system.tangent.is_standing(n),
+            is_standing: harmonic.is_standing,
+            proportional: harmonic.damping.is_none().then_some(harmonic.rayleigh),
             is_real,
             force: force.unknown,
             response: response.unknown,
             bands,
-            proportional,
             factor,
         }
     }
@@ -158,22 +222,24 @@ impl<'a> Lines<'a> {
         // Lanes left over repeat the last frequency.
         let lane_frequency = |lane: usize| frequencies[lane.min(frequencies.len() - 1)];
         let omega = |lane: usize| sign * TAU * lane_frequency(lane);
-        let lanes = |factor: &dyn Fn(f64) -> c64| Lanes::from_fn(|lane| factor(omega(lane)));
         let MovingHarmonic { half_bandwidth, matrices } = &wave.bands;
-        let (alpha, beta) = match &wave.proportional {
-            Some(own) => (own.mass_coefficient, own.stiffness_coefficient),
-            None => (0.0, 0.0),
-        };
-        let mut terms: Vec<(Lanes, &[c64])> = vec![
-            (lanes(&|w| c64::new(1.0, w * beta)), &matrices.stiffness),
-            (lanes(&|w| c64::new(-w * w, w * alpha)), &matrices.mass),
-        ];
-        if wave.proportional.is_none() {
-            terms.push((lanes(&|w| c64::new(0.0, w)), &matrices.damping));
-        }
-        for (gain, values) in &matrices.losses {
-            terms.push((lanes(&|w| gain.at(c64::new(0.0, w))), values));
-        }
+        // Factors of K, M and C in K + i omega C - omega^2 M, lane by lane.
+        let of_lanes: [_; LANES] = std::array::from_fn(|lane| {
+            let root = c64::new(0.0, omega(lane));
+            let mut terms = matrices.terms(root);
+            terms.swap(1, 2);
+            if let Some(own) = &wave.proportional {
+                terms[0].0 += root * own.stiffness_coefficient; // C = alpha M + beta K.
+                terms[1].0 += root * own.mass_coefficient;
+                terms.remove(2);
+            }
+            terms
+        });
+        let terms = of_lanes[0]
+            .iter()
+            .enumerate()
+            .map(|(k, (_, values))| (Lanes::from_fn(|lane| of_lanes[lane][k].0), &values[..]));
+        let terms: Vec<(Lanes, &[c64])> = terms.collect();
         self.batch.assemble(&terms);
         let quality = self.batch.solve(wave.force);
         let mut result = [c64::ZERO; LANES];
