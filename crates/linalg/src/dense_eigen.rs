@@ -1,7 +1,7 @@
 //! Eigenvalue decomposition of dense real matrices.
 
-use super::dense::{column, column_mut, product, random_columns};
-use super::vectors::{dot, length};
+use super::dense::{column, column_mut, orthogonalize, product, random_columns};
+use super::vectors::{length, normalize};
 use super::{ComplexDenseLu, LinalgError, interruption};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -253,7 +253,7 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
         // |A x - lambda x|, and what x has beyond sound vectors of the same lambda.
         let error = pairs.map(|(a, x)| (a - values[j] * x).norm_sqr()).sum::<f64>().sqrt();
         let mut beyond = vector.clone();
-        project_out(&mut beyond, &orthonormal(alike(values, vectors, &sound, j)));
+        orthogonalize(&mut beyond, &orthonormal(alike(values, vectors, &sound, j)));
         let is_independent = length(&beyond) > INDEPENDENT * length(&vector);
         if is_independent && error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector) {
             sound.push(j);
@@ -300,15 +300,16 @@ fn inverse_iteration(
     for _ in 0..3 {
         // (A - s)^-1 of what is orthogonal to the known ones.
         let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
-        project_out(&mut vector, known);
-        let vector = normalized(vector);
+        orthogonalize(&mut vector, known);
+        normalize(&mut vector);
         (0..n).for_each(|i| x[(i, 0)] = vector[i]);
         lu.solve_in_place(x.as_mut());
     }
     // The last step is a solution, not a projection: it leaves nothing of other eigenvectors, and within
     // the eigenspace it only scales, so the vector stays independent of the known ones.
-    let vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
-    normalized(vector)
+    let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
+    normalize(&mut vector);
+    vector
 }
 
 fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
@@ -323,23 +324,11 @@ fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
 fn orthonormal(vectors: Vec<Vec<c64>>) -> Vec<Vec<c64>> {
     let mut basis: Vec<Vec<c64>> = Vec::new();
     for mut vector in vectors {
-        project_out(&mut vector, &basis);
-        basis.push(normalized(vector));
+        orthogonalize(&mut vector, &basis);
+        normalize(&mut vector);
+        basis.push(vector);
     }
     basis
-}
-
-fn project_out(vector: &mut [c64], basis: &[Vec<c64>]) {
-    for direction in basis {
-        let overlap = dot(direction, vector);
-        vector.iter_mut().zip(direction).for_each(|(v, d)| *v -= overlap * d);
-    }
-}
-
-fn normalized(mut vector: Vec<c64>) -> Vec<c64> {
-    let norm = length(&vector);
-    vector.iter_mut().for_each(|v| *v /= norm);
-    vector
 }
 
 #[cfg(test)]

@@ -9,23 +9,15 @@ use faer::{Mat, MatRef};
 /// round-off of a Gram matrix of unit columns.
 const DEPENDENT: f64 = 1e-6;
 
-/// `w = q within`, with orthonormal columns `q`.
-pub struct GramFactors {
-    /// `q`.
-    pub columns: Mat<f64>,
-    /// Coefficients, `q.ncols() x w.ncols()`; zero for columns left out.
-    pub within: Mat<f64>,
-}
-
-/// Orthonormalizes the columns of `w`, longest remainder first, by the pivoted Cholesky factor of `w^T w`, twice; gives
-/// them back where the remainder of one beyond the others is shorter than a millionth of its length.
+/// Orthonormal columns `q` and coefficients `r` of `w = q r`, longest remainder first, by the pivoted Cholesky factor of `w^T w`, twice;
+/// gives `w` back where the remainder of one column beyond the others is shorter than a millionth of its length.
 ///
 /// # Errors
 /// The columns given, if they depend on one another.
 ///
 /// Source: Y. Yamamoto, Y. Nakatsukasa, Y. Yanagisawa, T. Fukaya, Roundoff error analysis of the CholeskyQR2 algorithm,
 /// Electron. Trans. Numer. Anal. 44 (2015); here with pivots.
-pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
+pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<[Mat<f64>; 2], Mat<f64>> {
     // w = Q_1 R_1, Q_1 = Q_2 R_2: w = Q_2 (R_2 R_1), orthonormal to round-off.
     let first = Pass::of(w.as_ref(), 0.0);
     if first.kept.len() < w.ncols() {
@@ -34,7 +26,7 @@ pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
     combine(&mut w, first.coefficients.as_ref());
     let second = Pass::of(w.as_ref(), 0.0);
     combine(&mut w, second.coefficients.as_ref());
-    Ok(GramFactors { columns: w, within: product(second.within.as_ref(), first.within.as_ref()) })
+    Ok([w, product(second.within.as_ref(), first.within.as_ref())])
 }
 
 /// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`: remainders shorter than `shortest`,
@@ -145,16 +137,16 @@ mod tests {
             w[(i, 2)] *= 1e-9;
             w[(i, 4)] = w[(i, 1)] + 1e-4 * w[(i, 4)];
         }
-        let factors = orthonormal_columns(w.clone()).unwrap();
-        assert_eq!(factors.columns.ncols(), 6);
-        assert!(deviation_from_orthonormal(&factors.columns) < 1e-14);
-        let back = product(factors.columns.as_ref(), factors.within.as_ref());
+        let [columns, within] = orthonormal_columns(w.clone()).unwrap();
+        assert_eq!(columns.ncols(), 6);
+        assert!(deviation_from_orthonormal(&columns) < 1e-14);
+        let back = product(columns.as_ref(), within.as_ref());
         assert!((back - w).norm_max() < 1e-14);
     }
 
     #[test]
     fn complement_leaves_out_dependent_short_and_known_columns() {
-        let basis = orthonormal_columns(random_columns(60, 5, 2)).unwrap().columns;
+        let [basis, _] = orthonormal_columns(random_columns(60, 5, 2)).unwrap();
         let mut w = random_columns(60, 5, 3);
         for i in 0..60 {
             w[(i, 1)] = 2.0 * w[(i, 0)] - basis[(i, 3)];
@@ -169,17 +161,17 @@ mod tests {
 
     #[test]
     fn round_off_of_long_columns_along_the_basis_is_no_direction() {
-        let all = orthonormal_columns(random_columns(60, 6, 4)).unwrap();
-        let basis = all.columns.get(.., ..5);
+        let [all, _] = orthonormal_columns(random_columns(60, 6, 4)).unwrap();
+        let basis = all.get(.., ..5);
         // What round-off leaves of the first is longer than the bound; the other is new.
         let w = Mat::from_fn(60, 2, |i, j| match j {
             0 => 1e15 * basis[(i, 0)] + 3e14 * basis[(i, 1)],
-            _ => all.columns[(i, 5)] + 1e3 * basis[(i, 2)],
+            _ => all[(i, 5)] + 1e3 * basis[(i, 2)],
         });
         let new = complement(basis, w, 1e-3);
         assert!(deviation_from_orthonormal(&new) < 1e-14);
         assert!(transpose_product(basis, new.as_ref()).norm_max() < 1e-14);
-        let kept = transpose_product(new.as_ref(), all.columns.get(.., 5..));
+        let kept = transpose_product(new.as_ref(), all.get(.., 5..));
         // Round-off of unit length may take a part of it along.
         assert!(kept.norm_l2() > 0.9, "{}", kept.norm_l2());
     }

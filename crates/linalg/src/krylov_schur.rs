@@ -275,9 +275,7 @@ fn orthonormalize_block(basis: MatRef<'_, f64>, mut w: Mat<f64>) -> Orthonormali
         against += overlap;
     }
     match orthonormal_columns(w) {
-        Ok(factors) => {
-            Orthonormalized { columns: factors.columns, against, within: factors.within }
-        }
+        Ok([columns, within]) => Orthonormalized { columns, against, within },
         Err(w) => {
             let mut rest = orthonormalize(basis, w, 1e-14); // Columns that depend on one another, one by one.
             rest.against += against;

@@ -162,24 +162,6 @@ impl SparsityPattern {
         self.factors.get_or_init(|| self.analysed().map(Arc::new)).clone()
     }
 
-    /// The same in that order but for the unknowns that are `last`; nothing where there are none.
-    pub(super) fn symbolic_cholesky_with_last(
-        &self,
-        last: &[bool],
-    ) -> Result<Option<SymbolicCholesky<usize>>, LinalgError> {
-        if !last.contains(&true) {
-            return Ok(None);
-        }
-        let order = match self.symbolic_cholesky()?.perm() {
-            Some(order) => order.arrays().0.to_vec(),
-            None => (0..self.dimension()).collect(),
-        };
-        // The same order, in which the last ones come last.
-        let (mut unknowns, end): (Vec<_>, Vec<_>) = order.into_iter().partition(|&own| !last[own]);
-        unknowns.extend(end);
-        self.analysed_in(unknowns).map(Some)
-    }
-
     fn analysed(&self) -> Result<SymbolicCholesky<usize>, LinalgError> {
         let by_degree = self.analysed_by(SymmetricOrdering::Amd)?;
         if by_degree.len_val() < LARGE {
@@ -188,16 +170,11 @@ impl SparsityPattern {
         let Some(unknowns) = nested_dissection(self) else {
             return Ok(by_degree);
         };
-        let dissected = self.analysed_in(unknowns)?;
-        Ok(if dissected.len_val() < by_degree.len_val() { dissected } else { by_degree })
-    }
-
-    /// Eliminates `unknowns` in this order.
-    fn analysed_in(&self, unknowns: Vec<usize>) -> Result<SymbolicCholesky<usize>, LinalgError> {
         let mut places = vec![0; unknowns.len()];
         unknowns.iter().enumerate().for_each(|(place, &unknown)| places[unknown] = place); // The inverse permutation.
         let order = PermRef::new_checked(&unknowns, &places, unknowns.len());
-        self.analysed_by(SymmetricOrdering::Custom(order))
+        let dissected = self.analysed_by(SymmetricOrdering::Custom(order))?;
+        Ok(if dissected.len_val() < by_degree.len_val() { dissected } else { by_degree })
     }
 
     fn analysed_by(

@@ -11,13 +11,13 @@
 //! of unsymmetric sets of linear equations, SIAM J. Sci. Stat. Comput. 5 (1984).
 //!
 //! Real fronts are symmetric until those are reached where friction acts: `P F11 P^T = L B L^T` with blocks of one or two rows in `B`
-//! (Bunch and Kaufman), `U = B L^T P` and `right = B below^T`. In a family of friction coefficients they are the same.
+//! (Bunch and Kaufman), `U = B L^T P` and `right = B below^T`.
 
 mod front;
 mod order;
 
 use super::dense::{column, column_blocks, trial_right_side};
-use super::{LinalgError, MatrixPolynomial, SparsityPattern, interruption};
+use super::{LinalgError, SparsityPattern, interruption};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
@@ -27,7 +27,7 @@ use faer::traits::math_utils::abs;
 use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 use front::{Eliminated, Remainder, Scalar};
 use order::Order;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// Right-hand sides solved together: enough to stream the factors once for many of them, few enough that a block of them stays in cache.
 const BLOCK: usize = 32;
@@ -37,18 +37,6 @@ const BLOCK: usize = 32;
 pub struct LuAnalysis {
     pattern: Arc<SparsityPattern>,
     fronts: Arc<Vec<Front>>,
-    /// Of a family, what its first matrix made of the fronts that all have alike.
-    shared: Arc<OnceLock<Shared<f64>>>,
-}
-
-/// Fronts eliminated once for a family of matrices.
-#[derive(Debug)]
-struct Shared<T> {
-    /// Nonzeros of the matrix that they are of.
-    values: Vec<T>,
-    /// Factors of these fronts, and what those below others leave to them.
-    factors: Vec<Option<Arc<Eliminated<T>>>>,
-    left: Vec<Option<Remainder<T>>>,
 }
 
 /// Unknowns that are eliminated together, and those that they leave coupled.
@@ -64,8 +52,6 @@ struct Front {
     children: Vec<usize>,
     /// Places in the parent of the unknowns that remain.
     places: Vec<usize>,
-    /// Whether it and all below it are the same in a family.
-    is_shared: bool,
 }
 
 impl LuAnalysis {
@@ -74,85 +60,34 @@ impl LuAnalysis {
     /// # Errors
     /// If the analysis runs out of memory or index range.
     pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
-        Self::analysed(pattern, None)
+        let fronts = Arc::new(Order::of(pattern)?.fronts(pattern));
+        Ok(Self { pattern: Arc::clone(pattern), fronts })
     }
 
-    /// Analyses a family: unknowns that its parameter touches come last, and fronts that it leaves alone are eliminated once for all
-    /// real matrices that agree on them.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn of_family(family: &MatrixPolynomial) -> Result<Self, LinalgError> {
-        let changes = family.coefficients().iter().skip(1);
-        let mut varies = vec![false; family.pattern().nonzero_count()];
-        for own in changes {
-            varies.iter_mut().zip(own).for_each(|(varies, own)| *varies |= *own != 0.0);
-        }
-        Self::analysed(family.pattern(), Some(varies))
-    }
-
-    /// Where the nonzeros that vary in a family are known some fronts are shared.
-    fn analysed(
-        pattern: &Arc<SparsityPattern>,
-        varies: Option<Vec<bool>>,
-    ) -> Result<Self, LinalgError> {
-        let mut fronts = Order::of(pattern, varies.as_deref())?.fronts(pattern);
-        let all = 0..fronts.len();
-        for (s, varies) in all.flat_map(|s| varies.iter().map(move |own| (s, own))) {
-            let Front { children, entries, .. } = &fronts[s];
-            fronts[s].is_shared = children.iter().all(|&child| fronts[child].is_shared)
-                && !entries.iter().any(|entry| varies[entry[0] as usize]); // Children come before their parent.
-        }
-        let (pattern, fronts) = (Arc::clone(pattern), Arc::new(fronts));
-        Ok(Self { pattern, fronts, shared: Arc::default() })
-    }
-
-    /// The fronts that a matrix shares with the first one of its family, if it does.
-    fn shared_with(&self, values: &[f64]) -> Option<&Shared<f64>> {
-        let shared = self.shared.get_or_init(|| {
-            let (own, mut factors) =
-                (|front: &Front| front.is_shared, vec![None; self.fronts.len()]);
-            let left = self.eliminate(values, (None, false), own, |k, own| factors[k] = Some(own));
-            Shared { values: values.to_vec(), factors, left }
-        });
-        let fronts = self.fronts.iter().filter(|front| front.is_shared);
-        let mut entries = fronts.flat_map(|front| &front.entries).map(|entry| entry[0] as usize);
-        entries.all(|at| shared.values[at] == values[at]).then_some(shared) // Where its own values are those of the first one.
-    }
-
-    /// Eliminates front by front those that `is_wanted` holds for and hands each one on, also those that are `shared`; what they leave to
-    /// others. Whether a front is symmetric is told by its entries, unless all are.
+    /// Eliminates front by front and hands each one on. Whether a front is symmetric is told by its entries, unless all are.
     fn eliminate<T: Scalar>(
         &self,
         values: &[T],
-        (shared, are_symmetric): (Option<&Shared<T>>, bool),
-        is_wanted: impl Fn(&Front) -> bool,
-        mut take: impl FnMut(usize, Arc<Eliminated<T>>),
-    ) -> Vec<Option<Remainder<T>>> {
+        are_symmetric: bool,
+        mut take: impl FnMut(Eliminated<T>),
+    ) {
         interruption::check();
         let mut left: Vec<Option<Remainder<T>>> = self.fronts.iter().map(|_| None).collect();
-        for (k, front) in self.fronts.iter().enumerate().filter(|(_, own)| is_wanted(own)) {
-            if let Some(known) = shared.and_then(|own| own.factors[k].as_ref()) {
-                take(k, Arc::clone(known));
-                continue;
-            }
-            let known = |child: usize| shared.and_then(|own| own.left[child].as_ref());
-            let left_by = |child: usize| left[child].as_ref().or(known(child));
-            let (own, rest) = self.front(k, values, are_symmetric, left_by);
+        for (k, front) in self.fronts.iter().enumerate() {
+            let (own, rest) = self.front(k, values, are_symmetric, &left);
             front.children.iter().for_each(|&child| left[child] = None); // Taken up: their memory is free.
             left[k] = Some(rest);
-            take(k, Arc::new(own));
+            take(own);
         }
-        left
     }
 
     /// Eliminates one front, of which the children `left` these; what it leaves itself.
-    fn front<'a, T: Scalar + 'a>(
+    fn front<T: Scalar>(
         &self,
         k: usize,
         values: &[T],
         are_symmetric: bool,
-        left: impl Fn(usize) -> Option<&'a Remainder<T>>,
+        left: &[Option<Remainder<T>>],
     ) -> (Eliminated<T>, Remainder<T>) {
         let front = &self.fronts[k];
         // Entries of the matrix.
@@ -161,7 +96,8 @@ impl LuAnalysis {
         for &[at, row, column] in &front.entries {
             matrix[(row as usize, column as usize)] = values[at as usize];
         }
-        let of_child = |&child: &usize| left(child).expect("a front comes after those it takes up");
+        let of_child =
+            |&child: &usize| left[child].as_ref().expect("a front comes after those it takes up");
         let is_alike = || T::IS_REAL && front::is_symmetric(matrix.as_ref(), front.width);
         let is_symmetric = (are_symmetric || is_alike())
             && front.children.iter().map(of_child).all(|own| own.is_symmetric);
@@ -227,12 +163,12 @@ fn subtract<T: Scalar>(
 }
 
 macro_rules! sparse_lu {
-    ($(#[$doc:meta])* $name:ident, $scalar:ty, $shared:expr) => {
+    ($(#[$doc:meta])* $name:ident, $scalar:ty) => {
         $(#[$doc])*
         #[derive(Debug)]
         pub struct $name {
             analysis: LuAnalysis,
-            fronts: Vec<Arc<Eliminated<$scalar>>>,
+            fronts: Vec<Eliminated<$scalar>>,
             values: Vec<$scalar>,
         }
 
@@ -245,17 +181,16 @@ macro_rules! sparse_lu {
                 analysis: &LuAnalysis,
                 values: Vec<$scalar>,
             ) -> Result<Self, LinalgError> {
-                let known = ($shared(analysis, &values), false);
-                Self::eliminated(analysis, values, known)
+                Self::eliminated(analysis, values, false)
             }
 
             fn eliminated(
                 analysis: &LuAnalysis,
                 values: Vec<$scalar>,
-                known: (Option<&Shared<$scalar>>, bool),
+                are_symmetric: bool,
             ) -> Result<Self, LinalgError> {
                 let mut fronts = Vec::with_capacity(analysis.fronts.len());
-                analysis.eliminate(&values, known, |_| true, |_, own| fronts.push(own));
+                analysis.eliminate(&values, are_symmetric, |own| fronts.push(own));
                 let lu = Self { analysis: analysis.clone(), fronts, values };
                 lu.check()?;
                 Ok(lu)
@@ -272,8 +207,7 @@ macro_rules! sparse_lu {
                 values: &[$scalar],
             ) -> Result<c64, LinalgError> {
                 let (mut sum, mut largest) = (c64::new(0.0, 0.0), 0.0_f64);
-                let known = ($shared(analysis, values), false);
-                analysis.eliminate(values, known, |_| true, |_, own| {
+                analysis.eliminate(values, false, |own| {
                     sum += own.ln_determinant();
                     largest = largest.max(own.largest());
                 });
@@ -396,14 +330,12 @@ macro_rules! sparse_lu {
 sparse_lu!(
     /// Factors of a real sparse matrix.
     SparseLu,
-    f64,
-    LuAnalysis::shared_with
+    f64
 );
 sparse_lu!(
     /// LU factors of a complex sparse matrix, on the analysis that also serves real ones.
     ComplexSparseLu,
-    c64,
-    |_, _| None
+    c64
 );
 
 impl SparseLu {
@@ -412,7 +344,7 @@ impl SparseLu {
     /// # Errors
     /// As [`Self::factorize`].
     pub fn symmetric(analysis: &LuAnalysis, values: Vec<f64>) -> Result<Self, LinalgError> {
-        Self::eliminated(analysis, values, (None, true))
+        Self::eliminated(analysis, values, true)
     }
 
     /// Order of elimination of its pattern, which serves others.
@@ -429,6 +361,7 @@ impl SparseLu {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::MatrixPolynomial;
     use crate::dense::{product, random_columns, transpose_product};
     use std::f64::consts::TAU;
 
@@ -473,40 +406,28 @@ mod tests {
         MatrixPolynomial::from_triplets(n, &[springs.collect(), friction.collect()])
     }
 
-    /// Exact: factors of a family solve its matrices, transposed or not, definite or not, as if each stood alone, and so do its
-    /// determinants; most fronts are eliminated once where a few unknowns are coupled.
+    /// Exact: factors of a family solve its matrices, transposed or not, definite or not, and so do its determinants, whether friction
+    /// couples a few unknowns without symmetry, many or all.
     #[test]
-    fn matrices_of_a_family_share_the_fronts_that_are_alike() {
+    fn matrices_that_friction_makes_unsymmetric_in_part_are_solved_both_ways() {
         let n = 400;
         let (few, all) = ([17, 18, 19, 201], (0..n).collect::<Vec<_>>());
         let x = random_columns(n, 5, 3);
         for (coupled, shift) in [(&few[..], 0.0), (&few, 2.0), (&all[..40], 0.0), (&all, 0.0)] {
             let family = family(n, shift, coupled);
-            let [analysis, plain] =
-                [LuAnalysis::of_family(&family), LuAnalysis::new(family.pattern())]
-                    .map(Result::unwrap);
-            let shared = analysis.fronts.iter().filter(|front| front.is_shared).count();
-            assert_eq!(2 * shared > analysis.fronts.len(), coupled.len() < n, "{shared}");
-            // The last is none of the family.
-            let members = [0.3, 0.0, 0.8].map(|mu| family.evaluate(mu));
-            let other = members[0].iter().map(|v| 2.0 * v).collect();
-            for values in members.into_iter().chain([other]) {
+            let analysis = LuAnalysis::new(family.pattern()).unwrap();
+            for values in [0.3, 0.0, 0.8].map(|mu| family.evaluate(mu)) {
                 let matrix = family.pattern().multiply(&values, Mat::identity(n, n).as_ref());
-                let alone = LuAnalysis::of_family(&family).unwrap();
-                let [found, again] = [&analysis, &alone].map(|own| {
-                    let lu = SparseLu::factorize(own, values.clone()).unwrap();
-                    let [mut right, mut left] = [product, transpose_product]
-                        .map(|times| times(matrix.as_ref(), x.as_ref()));
-                    lu.solve_in_place(right.as_mut());
-                    lu.solve_transpose_in_place(left.as_mut());
-                    [right, left]
-                });
-                assert_eq!(found, again);
+                let lu = SparseLu::factorize(&analysis, values.clone()).unwrap();
+                let [mut right, mut left] =
+                    [product, transpose_product].map(|times| times(matrix.as_ref(), x.as_ref()));
+                lu.solve_in_place(right.as_mut());
+                lu.solve_transpose_in_place(left.as_mut());
                 let bound = 1e-12 * x.norm_max() * n as f64;
-                assert!(found.iter().all(|own| (own - &x).norm_max() < bound), "{shift}");
+                assert!([right, left].iter().all(|own| (own - &x).norm_max() < bound), "{shift}");
                 let ln = SparseLu::ln_determinant(&analysis, &values).unwrap();
                 let complex: Vec<c64> = values.into_iter().map(c64::from).collect();
-                let exact = ComplexSparseLu::ln_determinant(&plain, &complex).unwrap();
+                let exact = ComplexSparseLu::ln_determinant(&analysis, &complex).unwrap();
                 assert!((ln.re - exact.re).abs() < 1e-9 * exact.re.abs());
                 assert!((ln.im.cos() - exact.im.cos()).abs() < 1e-6);
             }

@@ -4,10 +4,6 @@ use super::Front;
 use crate::{LinalgError, SparsityPattern};
 use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
 use std::borrow::Cow;
-use std::sync::Arc;
-
-/// Entries of factors with the unknowns of a contact last, over those of the best order, up to which these are eliminated last.
-const MOST_FILL: f64 = 1.25;
 
 /// Which unknowns are eliminated together.
 pub(super) struct Order {
@@ -21,28 +17,16 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// That of the Cholesky factors of the symmetric hull of a pattern, neighbours of alike structure in one front. Unknowns with a
-    /// nonzero that `varies` are the last ones, unless that fills the factors.
-    pub fn of(pattern: &SparsityPattern, varies: Option<&[bool]>) -> Result<Self, LinalgError> {
+    /// That of the Cholesky factors of the symmetric hull of a pattern, neighbours of alike structure in one front.
+    pub fn of(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
         let n = pattern.dimension();
-        let mut touched = vec![false; n];
-        for (j, varies) in varies.iter().flat_map(|own| (0..n).map(move |j| (j, own))) {
-            for (_, i) in pattern.column(j).filter(|(at, _)| varies[*at]) {
-                (touched[i], touched[j]) = (true, true); // A nonzero touches its row and its column.
-            }
-        }
         let nonzeros = (0..n).flat_map(|j| pattern.column(j).map(move |(_, i)| (i, j)));
         let hull = nonzeros.flat_map(|(i, j)| [(i, j), (j, i)]);
         let hull = match pattern.is_symmetric() {
             true => Cow::Borrowed(pattern),
             false => Cow::Owned(SparsityPattern::from_positions(n, hull)),
         };
-        let mut symbolic = hull.symbolic_cholesky()?;
-        let most = MOST_FILL * symbolic.len_val() as f64;
-        match hull.symbolic_cholesky_with_last(&touched)? {
-            Some(last) if last.len_val() as f64 <= most => symbolic = Arc::new(last),
-            _ => touched.fill(false), // Too much fill: nothing is shared then.
-        }
+        let symbolic = hull.symbolic_cholesky()?;
         let in_order = || [(); 2].map(|()| (0..n).collect());
         let arrays = symbolic.perm().map(|order| order.arrays());
         let [unknown_at, place_of]: [Vec<usize>; 2] =
@@ -56,20 +40,12 @@ impl Order {
                 place_of,
             });
         };
-        let is_touched = |place: &usize| touched[unknown_at[*place]];
         let (mut unknowns, mut ends) = (Vec::new(), Vec::new());
         for s in 0..blocks.n_supernodes() {
             let (begin, end) = (blocks.supernode_begin()[s], blocks.supernode_end()[s]);
             let mut own: Vec<usize> = (begin..end).collect();
             own.extend_from_slice(blocks.supernode(s).pattern()); // Those eliminated here, and those left coupled.
             own.sort_unstable();
-            // What is touched ends a block.
-            let first = (begin..end).find(is_touched).unwrap_or(end);
-            if begin < first && first < end {
-                unknowns.push(own.clone());
-                ends.push(first);
-                own.retain(|place| *place >= first);
-            }
             unknowns.push(own);
             ends.push(end);
         }
@@ -84,7 +60,6 @@ impl Order {
             entries: Vec::new(),
             children: Vec::new(),
             places: Vec::new(),
-            is_shared: false,
         });
         let mut fronts: Vec<Front> = fronts.collect();
         // What a front leaves goes to the one that eliminates the first of it.

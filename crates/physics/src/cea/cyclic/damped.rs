@@ -4,7 +4,7 @@
 //! lead from one end of the range to the other. So all eigenvalues of the reduced problem are
 //! computed at every friction coefficient; branches are what leads from one to the next.
 
-use super::follow::{Follower, StepControl};
+use super::follow::Follower;
 use super::path::{Eigenpair, Path, Waves};
 use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
@@ -136,7 +136,14 @@ impl Course<'_> {
         }
         let slow = all.iter().filter(|value| self.is_overdamped(value)).chain(&creeping);
         let slow = slow.filter(|value| value.norm() <= self.largest);
-        Ok(Overdamped::joined(friction, slow.map(|value| Overdamped::one(friction, -value.re))))
+        Ok(Overdamped::joined(
+            friction,
+            slow.map(|value| Overdamped {
+                friction_coefficient: friction,
+                count: 1,
+                decay: [-value.re; 2],
+            }),
+        ))
     }
 
     /// Eigenvalues with the stiffness of their own frequencies: those that branches have come to, and what others with the
@@ -176,9 +183,8 @@ impl Course<'_> {
         for tracked in self.paths.iter_mut().filter(|tracked| tracked.is_open) {
             tracked.reached = tracked.path.points.len();
             let points = &mut tracked.path.points;
-            let control = shortened([before, friction]);
-            let has_come = self.follower.walk(points, friction, control, &mut matrices);
-            tracked.is_open = has_come && !problem.is_ending(tracked.last().theta);
+            let shortest = SHORTEST * (friction - before);
+            tracked.is_open = self.follower.walk(points, friction, shortest, &mut matrices);
         }
     }
 
@@ -197,7 +203,7 @@ impl Course<'_> {
         let (problem, friction) = (self.problem, found.parameter);
         let mut back = vec![found];
         let mut matrices = |value: f64| Rc::new(problem.at(value));
-        self.follower.walk(&mut back, before, shortened([before, friction]), &mut matrices);
+        self.follower.walk(&mut back, before, SHORTEST * (friction - before), &mut matrices);
         back.reverse();
         let joined = was_open.iter().copied().find(|&index| {
             let tracked = &self.paths[index];
@@ -237,11 +243,6 @@ impl Course<'_> {
             describe(self.problem, &at, &mut tracked.path.points, kept);
         }
     }
-}
-
-/// Steps no shorter than a share of the step of friction.
-fn shortened([before, friction]: [f64; 2]) -> StepControl {
-    StepControl { shortest: SHORTEST * (friction - before), ..StepControl::NORMAL }
 }
 
 /// All eigenvalues of the quadratic problem, from those of `(lambda - sigma)^-1` with `sigma > 0`:

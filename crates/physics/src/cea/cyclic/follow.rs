@@ -8,21 +8,12 @@ use crate::linalg::c64;
 use crate::linalg::vectors::{dot, normalize};
 use std::rc::Rc;
 
-/// How far apart two successive points of a path may lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct StepControl {
-    /// Least `|x_0^H x_1|` of the unit right vectors.
-    pub least_overlap: f64,
-    /// Largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both points and slopes could hide.
-    pub largest_defect: f64,
-    /// Steps below this length of the parameter are given up.
-    pub shortest: f64,
-}
-
-impl StepControl {
-    pub const NORMAL: Self = Self { least_overlap: 0.8, largest_defect: 1e-4, shortest: 1e-6 };
-    pub const FINE: Self = Self { least_overlap: 0.97, largest_defect: 1e-7, shortest: 1e-6 };
-}
+/// Least `|x_0^H x_1|` of the unit right vectors of two successive points of a path.
+const LEAST_OVERLAP: f64 = 0.8;
+/// Their largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both points and slopes could hide.
+const LARGEST_DEFECT: f64 = 1e-4;
+/// Steps of the parameter below which a branch is lost.
+pub(super) const SHORTEST: f64 = 1e-6;
 
 /// Solves and follows eigenpairs of one harmonic.
 pub(super) struct Follower<'a> {
@@ -77,7 +68,6 @@ impl<'a> Follower<'a> {
             theta = next;
             // Each iteration leaves far less than the square of the change it made.
             if change <= MULTIPLE * theta.norm() {
-                theta = self.problem.without_round_off(theta);
                 let residual = self.problem.residual(at, theta, &x);
                 if residual > 1e-14 && change > ROUND_OFF * theta.norm() {
                     continue; // Not yet at round-off: once more.
@@ -125,13 +115,13 @@ impl<'a> Follower<'a> {
         Eigenpair::new(0.0, [theta, rate], [x, y], residual)
     }
 
-    /// Follows `path` (its last point) to `target`, above or below, appending every accepted point; `matrices` gives the problem
-    /// along the way. `false` where the eigenpair is lost.
+    /// Follows `path` (its last point) to `target`, above or below, in steps no shorter than `shortest`, appending every accepted point;
+    /// `matrices` gives the problem along the way. `false` where the eigenpair is lost or stops to oscillate.
     pub fn walk(
         &mut self,
         path: &mut Vec<Eigenpair>,
         target: f64,
-        control: StepControl,
+        shortest: f64,
         matrices: &mut impl FnMut(f64) -> Rc<Matrices>,
     ) -> bool {
         let mut step = f64::INFINITY;
@@ -146,7 +136,7 @@ impl<'a> Follower<'a> {
             let guess = extrapolate(path, goal);
             let at = matrices(goal);
             let found = self.refine(&at, goal, guess, &last.x, &last.y);
-            match found.filter(|next| is_continuation(last, next, control)) {
+            match found.filter(|next| is_continuation(last, next)) {
                 Some(next) => {
                     // Twice as far after a step that held, half as far after one that did not.
                     step = 2.0 * (goal - last.parameter).abs();
@@ -154,22 +144,21 @@ impl<'a> Follower<'a> {
                 }
                 None => {
                     step = 0.5 * (goal - last.parameter).abs();
-                    if step < control.shortest {
+                    if step < shortest {
                         return false;
                     }
                 }
             }
         }
-        true
+        path.last().is_some_and(|last| !self.problem.is_ending(last.theta))
     }
 }
 
-fn is_continuation(last: &Eigenpair, next: &Eigenpair, control: StepControl) -> bool {
+fn is_continuation(last: &Eigenpair, next: &Eigenpair) -> bool {
     let step = next.parameter - last.parameter;
     // What the trapezoid of the rates misses.
     let defect = (next.theta - last.theta - (last.rate + next.rate) * (0.5 * step)).norm();
-    dot(&last.x, &next.x).norm() >= control.least_overlap
-        && defect <= control.largest_defect * next.theta.norm()
+    dot(&last.x, &next.x).norm() >= LEAST_OVERLAP && defect <= LARGEST_DEFECT * next.theta.norm()
 }
 
 /// Cubic through the last two points and slopes; the tangent of the last where it is alone, or the one before so close that their

@@ -12,7 +12,6 @@
 
 mod across;
 mod branch;
-mod collision;
 mod completeness;
 mod damped;
 mod definite;

@@ -24,31 +24,23 @@ fn pencil(tangent: &WaveTangent, n: usize) -> Result<Pencil, CeaError> {
     Pencil::new(mass, stiffness).ok_or(CeaError::Prestress(PrestressError::Singular))
 }
 
-/// A bound of `kappa` at rest of the modes wanted, from above, and the lowest harmonics as far as they were needed for it.
-pub(super) fn bound(
-    tangent: &WaveTangent,
-    limit: ModeLimit,
-) -> Result<(f64, Vec<Pencil>), CeaError> {
+/// A bound of `kappa` at rest of the modes wanted, from above.
+pub(super) fn bound(tangent: &WaveTangent, limit: ModeLimit) -> Result<f64, CeaError> {
     let asked = match limit {
-        ModeLimit::MaxFrequency(value) => return Ok(((TAU * value).powi(2), Vec::new())),
+        ModeLimit::MaxFrequency(value) => return Ok((TAU * value).powi(2)),
         ModeLimit::Lowest(asked) => asked,
     };
-    let (mut pencils, mut few) = (Vec::new(), tangent.largest_harmonic().min(BATCH - 1));
+    let largest = tangent.largest_harmonic();
+    let mut few = largest.min(BATCH - 1);
     loop {
-        let more: Result<Vec<Pencil>, CeaError> =
-            crate::parallel::map(pencils.len()..=few, |n| pencil(tangent, n));
-        pencils.extend(more?);
         // Each harmonic has two waves of each mode: so many of each are enough to begin with.
         let count = asked.div_ceil(2 * few.max(1)) + 1;
-        let found: Vec<Vec<f64>> =
-            crate::parallel::map(pencils.iter().enumerate(), |(n, pencil)| {
-                of_all_waves(tangent, n, &pencil.lowest(count))
-            });
-        // Of few unknowns many harmonics are needed.
-        match just_above(asked, found.concat()) {
-            Ok(bound) => return Ok((bound, pencils)),
-            Err(error) if few == tangent.largest_harmonic() => return Err(error),
-            Err(_) => few = (2 * few).min(tangent.largest_harmonic()),
+        let found: Result<Vec<Vec<f64>>, CeaError> = crate::parallel::map(0..=few, |n| {
+            Ok(of_all_waves(tangent, n, &pencil(tangent, n)?.lowest(count)))
+        });
+        match just_above(asked, found?.concat()) {
+            Err(_) if few < largest => few = (2 * few).min(largest), // Of few unknowns many harmonics are needed.
+            found => return found,
         }
     }
 }
@@ -82,10 +74,10 @@ fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
 /// The modes below `kappa` of harmonic `n` at rest; `None` where it has none.
 pub(super) fn at_rest(
     tangent: &WaveTangent,
-    (n, known): (usize, Option<Pencil>),
+    n: usize,
     kappa: f64,
 ) -> Result<Option<AtRest>, CeaError> {
-    let pencil = known.map_or_else(|| pencil(tangent, n), Ok)?;
+    let pencil = pencil(tangent, n)?;
     let counted = pencil.count_below(kappa);
     if counted == 0 {
         return Ok(None);
@@ -101,21 +93,18 @@ pub(super) fn at_rest(
     }
 }
 
-/// The harmonics that have modes below `kappa` at rest with these modes, and those counted empty; `known` are the first.
+/// The harmonics that have modes below `kappa` at rest with these modes, and those counted empty.
 pub(super) fn modes_below(
     tangent: &WaveTangent,
     kappa: f64,
-    known: Vec<Pencil>,
 ) -> Result<(Vec<AtRest>, Vec<usize>), CeaError> {
     let largest = tangent.largest_harmonic();
-    let mut known: Vec<Option<Pencil>> = known.into_iter().map(Some).collect();
     let (mut all, mut empty) = (Vec::new(), Vec::new());
     let (mut n, mut in_a_row, mut step) = (0, 0, 1);
     while n <= largest {
         let last = if step == 1 { (n + BATCH - 1).min(largest) } else { n }; // Several harmonics side by side.
-        let own = (n..=last).map(|n| (n, known.get_mut(n).and_then(Option::take)));
         let found: Result<Vec<Option<AtRest>>, CeaError> =
-            crate::parallel::map(own, |own| at_rest(tangent, own, kappa));
+            crate::parallel::map(n..=last, |n| at_rest(tangent, n, kappa));
         for (n, found) in (n..=last).zip(found?) {
             // After some empty ones in a row only samples of the rest.
             in_a_row = if found.is_some() { 0 } else { in_a_row + 1 };

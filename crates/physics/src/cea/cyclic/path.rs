@@ -3,9 +3,6 @@
 use crate::linalg::c64;
 use crate::linalg::vectors::dot;
 
-/// Relative distance up to which an eigenvalue may be the one guessed, and two branches may be about to meet.
-pub(super) const GUESSED: f64 = 1e-2;
-
 /// An eigenpair of `T(theta)` at one parameter value.
 #[derive(Clone, Debug)]
 pub(super) struct Eigenpair {

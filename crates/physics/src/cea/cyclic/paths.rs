@@ -1,7 +1,6 @@
 //! All branches of one harmonic, followed together over the friction coefficient.
 
-use super::collision;
-use super::follow::{Follower, StepControl};
+use super::follow::{Follower, SHORTEST};
 use super::path::{Eigenpair, Path, Waves};
 use super::problem::{HarmonicProblem, Matrices};
 use super::reduction::Reduction;
@@ -39,11 +38,6 @@ pub struct Overdamped {
 }
 
 impl Overdamped {
-    /// One motion.
-    pub(super) fn one(friction_coefficient: f64, decay: f64) -> Self {
-        Self { friction_coefficient, count: 1, decay: [decay; 2] }
-    }
-
     /// All of these at one friction coefficient.
     pub(super) fn joined(friction_coefficient: f64, all: impl Iterator<Item = Self>) -> Self {
         let none = Self { friction_coefficient, count: 0, decay: [f64::INFINITY, 0.0] };
@@ -91,41 +85,21 @@ impl HarmonicPaths {
     pub fn unknowns(&self, x: &[c64]) -> Vec<c64> {
         self.space.as_ref().map_or_else(|| x.to_vec(), |space| space.expand(x))
     }
-
-    /// Whether every path oscillates up to the largest friction coefficient.
-    pub fn are_whole(&self) -> bool {
-        let ends = self.paths.iter().filter_map(|path| path.points.last());
-        !ends.into_iter().any(|end| self.problem.is_ending(end.theta))
-    }
 }
 
-/// Follows the branches with these `(kappa, x)` at rest. They end early where one stops to oscillate: see [`HarmonicPaths::are_whole`].
+/// Follows the branches with these `(kappa, x)` at rest; an error where one meets another or stops to oscillate.
 pub(super) fn follow_pairs(
     problem: HarmonicProblem,
     pairs: &[(f64, Vec<f64>)],
     range: &Range<'_>,
 ) -> Result<HarmonicPaths, CeaError> {
+    let harmonic = problem.tangent.harmonic;
+    let lost = |friction: f64| CeaError::LostHarmonic { harmonic, friction };
     let mut follower = Follower::new(&problem);
-    let paths = follow_all(&mut follower, pairs, range, StepControl::NORMAL)
-        .or_else(|_| follow_all(&mut follower, pairs, range, StepControl::FINE))?; // Fine steps only where the usual ones lose a branch.
-    let factorizations = follower.factorizations;
-    Ok(HarmonicPaths::new(problem, paths, pairs, factorizations))
-}
-
-fn follow_all(
-    follower: &mut Follower<'_>,
-    pairs: &[(f64, Vec<f64>)],
-    range: &Range<'_>,
-    control: StepControl,
-) -> Result<Vec<Path>, CeaError> {
-    let problem = follower.problem;
-    let lost =
-        |friction: f64| CeaError::LostHarmonic { harmonic: problem.tangent.harmonic, friction };
-    let has_ended = |path: &Path| path.points.last().is_some_and(|p| problem.is_ending(p.theta));
-    let at_rest = Rc::new(problem.at(0.0));
-    let mut paths = Vec::new();
+    let (at_rest, mut paths) = (problem.at(0.0), Vec::new());
     for (branch, (kappa, shape)) in (1..).zip(pairs) {
-        paths.extend(start(follower, &at_rest, branch, *kappa, shape).ok_or_else(|| lost(0.0))?);
+        let started = start(&mut follower, &at_rest, branch, *kappa, shape);
+        paths.extend(started.ok_or_else(|| lost(0.0))?);
     }
     for &friction in range.grid {
         // Most branches reach the grid value in one step and share its matrices.
@@ -133,44 +107,18 @@ fn follow_all(
         let mut matrices = |value: f64| {
             if value == friction { Rc::clone(&shared) } else { Rc::new(problem.at(value)) }
         };
-        let reached: Vec<usize> = paths.iter().map(|path| path.points.len()).collect();
-        for index in 0..paths.len() {
-            while !follower.walk(&mut paths[index].points, friction, control, &mut matrices) {
-                if has_ended(&paths[index]) {
-                    return Ok(paths);
-                }
-                // In three dimensions smaller steps since the last value mostly do, where small ones all along cost many times more.
-                if !problem.is_direct && control != StepControl::FINE {
-                    let points = &mut paths[index].points;
-                    points.truncate(reached[index]);
-                    if follower.walk(points, friction, StepControl::FINE, &mut matrices) {
-                        break;
-                    }
-                    if has_ended(&paths[index]) {
-                        return Ok(paths);
-                    }
-                }
-                // One beyond it stays as it is.
-                let approach =
-                    |follower: &mut Follower<'_>, points: &mut Vec<Eigenpair>, target: f64| {
-                        if points.last().is_some_and(|last| last.parameter < target) {
-                            follower.walk(points, target, control, &mut matrices);
-                        }
-                    };
-                let may_meet = problem.tangent.is_standing && problem.is_proportional(); // Real kappa meet; complex ones pass by.
-                let passed = may_meet
-                    .then(|| collision::pass(follower, &mut paths, index, friction, approach));
-                passed.flatten().ok_or_else(|| lost(friction))?;
-            }
-        }
         for path in &mut paths {
-            describe(problem, &shared, &mut path.points, range.kept);
+            if !follower.walk(&mut path.points, friction, SHORTEST, &mut matrices) {
+                return Err(lost(friction));
+            }
+            describe(&problem, &shared, &mut path.points, range.kept);
         }
         if !are_distinct(&paths) {
             return Err(lost(friction)); // Two have come to one: another is lost.
         }
     }
-    Ok(paths)
+    let factorizations = follower.factorizations;
+    Ok(HarmonicPaths::new(problem, paths, pairs, factorizations))
 }
 
 /// Shares and uncertainty of the last point, which has the matrices `at`; the vectors of earlier ones are dropped but for those kept.
@@ -213,7 +161,7 @@ pub(super) fn start(
     let undamped = c64::new(0.0, kappa.max(0.0).sqrt()); // lambda = i omega.
     let mut damped = vec![follower.at_rest(&problem.at_damping(0.0), undamped, x)];
     let mut matrices = |share: f64| Rc::new(problem.at_damping(share));
-    if !follower.walk(&mut damped, 1.0, StepControl::NORMAL, &mut matrices) {
+    if !follower.walk(&mut damped, 1.0, SHORTEST, &mut matrices) {
         return None;
     }
     let last = damped.pop()?;

@@ -1,7 +1,6 @@
 //! The eigenproblem of one harmonic as a function of one scalar `theta`.
 
 use super::path::Eigenpair;
-use crate::cea::accuracy::SETTLED;
 use crate::cea::counted::STANDSTILL;
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
@@ -95,15 +94,11 @@ impl HarmonicProblem {
     }
 
     fn norms(&self, now: &MotionMatrices<Vec<c64>>) -> [f64; 3] {
-        let norm = |values: &[c64]| {
+        [&now.mass, &now.damping, &now.stiffness].map(|values| {
             let rows = values.chunks_exact(2 * self.half_bandwidth + 1);
             let sums = rows.map(|row| row.iter().map(|v| v.re.abs() + v.im.abs()).sum::<f64>()); // At most sqrt(2) times the sum of moduli.
             sums.fold(0.0, f64::max)
-        };
-        let (m, k) = (norm(&now.mass), norm(&now.stiffness));
-        let proportional = self.tangent.rayleigh.mass_coefficient.abs() * m
-            + self.tangent.rayleigh.stiffness_coefficient.abs() * k; // |C| <= alpha |M| + beta |K|.
-        [m, if self.is_proportional() { proportional } else { norm(&now.damping) }, k]
+        })
     }
 
     /// `C` where `kappa` does not stand for it.
@@ -189,23 +184,10 @@ impl HarmonicProblem {
         self.own_step(at, theta, [x, y], (step, slope)).unwrap_or(step)
     }
 
-    /// `T(theta) x`.
-    pub fn apply(&self, at: &Matrices, theta: c64, x: &[c64]) -> Vec<c64> {
-        let [a, b, _, _] = self.factors(theta);
-        let (stiffness, own) = (at.now.stiffness_at(theta), &at.now.matrices);
-        let terms = [(c64::ONE, &stiffness[..]), (a, &own.mass), (b, &own.damping)];
-        at.now.combine(terms, x, false)
-    }
-
     /// Residual of the quadratic problem in the largest-entry norm, see [`crate::cea::ComplexMode`].
     pub fn residual(&self, at: &Matrices, theta: c64, x: &[c64]) -> f64 {
-        let (force, lambda) = (self.apply(at, theta, x), self.eigenvalue(theta));
-        // What `T(lambda)` is over `T(theta)`: `1 + beta lambda` of `T = K - kappa M`.
-        let stretch = match self.is_proportional() {
-            true => 1.0 + self.tangent.rayleigh.stiffness_coefficient * lambda,
-            false => c64::ONE,
-        };
-        stretch.norm() * largest(&force) / (self.size(at, lambda, x) * largest(x))
+        let lambda = self.eigenvalue(theta);
+        largest(&at.now.apply(lambda, x, false)) / (self.size(at, lambda, x) * largest(x))
     }
 
     /// `|lambda|^2 |M| + |lambda| |C| + |K|`.
@@ -257,9 +239,8 @@ impl HarmonicProblem {
                 false => c64::ZERO,
             })
         };
-        let MotionMatrices { mass, stiffness, .. } = &at.now.matrices;
-        let none = vec![c64::ZERO; mass.len()];
-        [full(mass), full(self.damping(at).unwrap_or(&none)), full(stiffness)]
+        let MotionMatrices { mass, damping, stiffness, .. } = &at.now.matrices;
+        [full(mass), full(damping), full(stiffness)]
     }
 
     /// Kinetic energy of the contact's nodes, and of axial motion, over the whole, see [`crate::cea::ComplexMode`].
@@ -287,15 +268,6 @@ impl HarmonicProblem {
     /// Whether a motion hardly oscillates any more under the dashpot across the sliding, on the way to where it does not at all.
     pub fn is_ending(&self, theta: c64) -> bool {
         !self.is_direct && theta.im.abs() < STANDSTILL * theta.norm()
-    }
-
-    /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is real to round-off.
-    pub fn without_round_off(&self, theta: c64) -> c64 {
-        let is_real = theta.im.abs() <= SETTLED * theta.norm();
-        if self.tangent.is_standing && self.is_proportional() && is_real {
-            return c64::new(theta.re, 0.0);
-        }
-        theta
     }
 
     /// `d lambda / d theta`.

@@ -4,7 +4,7 @@ use super::across::Across;
 use super::damped::follow_damped;
 use super::follow::Follower;
 use super::modes_below::AtRest;
-use super::path::{Eigenpair, GUESSED};
+use super::path::Eigenpair;
 use super::paths::{HarmonicPaths, Range, are_distinct, describe, follow_pairs};
 use super::pencil::{Modes, Pencil};
 use super::problem::HarmonicProblem;
@@ -16,6 +16,9 @@ use crate::prestress::{HarmonicTangent, WaveTangent};
 
 /// Modes at rest up to this much above the followed ones span the reduced space.
 pub(super) const SPAN: f64 = 1.4;
+
+/// Relative distance up to which an eigenvalue may be the one guessed.
+const GUESSED: f64 = 1e-2;
 
 /// The branches of one harmonic up to the margin of the range, from its modes at rest up to [`SPAN`] above that.
 pub(super) fn follow(
@@ -38,7 +41,7 @@ pub(super) fn follow(
     let pairs: Modes = followed.enumerate().map(|(k, &kappa)| (kappa, reduction.mode(k))).collect();
     let oscillating = match is_damped {
         true => None,
-        false => follow_pairs(problem(), &pairs, range).ok().filter(HarmonicPaths::are_whole),
+        false => follow_pairs(problem(), &pairs, range).ok(),
     };
     // Where a branch stops to oscillate, others may begin to.
     let paths = oscillating.map_or_else(|| follow_damped(problem(), &pairs, range), Ok)?;

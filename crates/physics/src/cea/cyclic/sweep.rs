@@ -17,8 +17,8 @@ use std::f64::consts::TAU;
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
 const MARGIN: f64 = 1.2;
 
-/// How often the margin is raised, by its own factor, where a branch comes from above it, or too few modes are found.
-const MARGIN_ATTEMPTS: usize = 4;
+/// How often the margin is raised at most, by its own factor, where too few modes are found.
+const RAISES: usize = 3;
 
 /// Eigenvalues of steady sliding of a plane annulus over a range of friction coefficients.
 ///
@@ -52,33 +52,21 @@ pub fn wave_sweep(
     // What depends on frequency by a table is no analytic function of the eigenvalue.
     let is_direct = is_direct(&tangent);
     let is_verified = is_direct || request.count_modes && tangent.tables().next().is_none();
-    let mut margin = MARGIN;
-    let mut failure = None;
-    for attempt in 1..=MARGIN_ATTEMPTS {
-        let error = match follow(&mut tangent, &wanted, margin, None) {
-            // Where modes stop to oscillate, others from above the margin are among the lowest.
-            Ok((found, _)) if attempt < MARGIN_ATTEMPTS && found.is_short_of(request.limit) => None,
-            Ok((found, counted)) => {
-                let empty = match is_verified {
-                    true => verify(&tangent, &found.followed, found.limit, &wanted.grid),
-                    false => Ok([Vec::new(), counted]),
-                };
-                match empty {
-                    Ok(empty) => return Ok(found.sweep(tangent, &wanted.grid, empty, is_verified)),
-                    Err(harmonic) => Some(CeaError::Unproven { harmonic, margin }),
-                }
-            }
-            // The branch that it meets may lie above the margin.
-            Err(error @ CeaError::LostHarmonic { .. }) => Some(error),
-            Err(error) => return Err(error),
-        };
-        match error {
-            Some(error) if !is_direct => return Err(error),
-            error => failure = error.or(failure),
+    // Where modes stop to oscillate, others from above the margin are among the lowest.
+    let (mut margin, mut found) = (MARGIN, follow(&mut tangent, &wanted, MARGIN, None)?);
+    for _ in 0..RAISES {
+        if found.0.is_short_of(request.limit) {
+            margin *= MARGIN;
+            found = follow(&mut tangent, &wanted, margin, None)?;
         }
-        margin *= MARGIN;
     }
-    Err(failure.unwrap_or_else(CeaError::no_friction))
+    let (found, counted) = found;
+    let empty = match is_verified {
+        true => verify(&tangent, &found.followed, found.limit, &wanted.grid)
+            .map_err(|harmonic| CeaError::Unproven { harmonic, margin })?,
+        false => [Vec::new(), counted],
+    };
+    Ok(found.sweep(tangent, &wanted.grid, empty, is_verified))
 }
 
 /// A sweep over some harmonics, without a proof that no mode is missed: for the many samples of a model for some of which a
@@ -114,14 +102,14 @@ fn follow(
 ) -> Result<(Found, Vec<usize>), CeaError> {
     let (limit, is_direct) = (asked.request.limit, is_direct(tangent));
     let is_tabled = tangent.tables().next().is_some();
-    let (bound, known) = match is_tabled {
+    let bound = match is_tabled {
         true => {
             let stiffest = tangent.referred_to(ModulusTable::stiffest_hz);
-            let (bound, _) = modes_below::bound(&stiffest, limit)?;
+            let bound = modes_below::bound(&stiffest, limit)?;
             // As many modes lie below a frequency as with the moduli of that frequency, as long as these rise less than its square.
             let highest = bound.sqrt() * MARGIN / TAU;
             *tangent = tangent.referred_to(|_| highest);
-            (bound, Vec::new())
+            bound
         }
         false => modes_below::bound(tangent, limit)?,
     };
@@ -131,10 +119,10 @@ fn follow(
     let (mut found, counted) = match (harmonics, limit) {
         (Some(own), ModeLimit::MaxFrequency(_)) => {
             let found: Result<Vec<_>, CeaError> =
-                crate::parallel::map(own, |&n| at_rest(tangent, (n, None), kappa));
+                crate::parallel::map(own, |&n| at_rest(tangent, n, kappa));
             (found?.into_iter().flatten().collect(), Vec::new())
         }
-        _ => modes_below(tangent, kappa, known)?,
+        _ => modes_below(tangent, kappa)?,
     };
     let wanted =
         if is_tabled { bound } else { modes_below::wanted(tangent, &found, limit, bound)? };

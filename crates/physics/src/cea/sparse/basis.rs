@@ -98,7 +98,7 @@ impl<'a> BasisBuilder<'a> {
 
     /// The order of elimination of stiffness about the centre at any friction.
     pub(super) fn family(&self) -> Result<&LuAnalysis, LinalgError> {
-        let analyse = || LuAnalysis::of_family(&self.stiffness);
+        let analyse = || LuAnalysis::new(self.stiffness.pattern());
         self.family.get_or_init(analyse).as_ref().map_err(Clone::clone)
     }
 
