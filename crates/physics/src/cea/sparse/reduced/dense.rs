@@ -5,9 +5,28 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::own_frequency;
 use crate::cea::sparse::projected::ProjectedMatrices;
-use crate::linalg::dense_eigen::{complex_eigen, real_eigen, real_eigenvalues};
+use crate::cea::sparse::{HALF_THE_DIGITS, ROUND_OFF, SAME_EIGENVALUE, SEARCH_WIDTH};
+use crate::linalg::dense::{column, column_mut, product, random_columns};
+use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
+use crate::linalg::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_schur};
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError};
 use crate::linalg::{Mat, MatRef, Scale, c64};
+
+/// Columns of an operator up to which all of its pairs cost no more than an iteration for the leading ones.
+const WIDEST: usize = 600;
+
+/// A matrix that is applied to blocks of vectors.
+struct DenseOperator<'a>(MatRef<'a, f64>);
+
+impl BlockOperator for DenseOperator<'_> {
+    fn dimension(&self) -> usize {
+        self.0.ncols()
+    }
+
+    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        product(self.0, x)
+    }
+}
 
 impl ReducedModel {
     /// The modes of projected matrices, without derivatives and scale.
@@ -40,7 +59,14 @@ impl ReducedModel {
             Linearization::Companion { .. } => 2 * count, // A pair has two values, and two real vectors.
         };
         let operator = self.shift_inverted(at, &lu);
-        let eigen = real_eigen(operator.as_ref(), with_left, leading)?;
+        let eigen = match operator.ncols() > WIDEST.max(4 * leading) {
+            true => self.leading_pairs(&operator, leading, with_left)?,
+            false => None,
+        };
+        let eigen = match eigen {
+            Some(eigen) => eigen,
+            None => real_eigen(operator.as_ref(), with_left, leading)?,
+        };
         // The upper half of a left vector of the operator is K^T times that of the problem.
         let m = at.stiffness.nrows();
         let mut left = eigen.left;
@@ -67,6 +93,61 @@ impl ReducedModel {
             .collect();
         crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
         Ok(modes)
+    }
+
+    /// The leading pairs of a wide operator by an iteration, which costs far less than all of them; nothing where it leaves one short.
+    fn leading_pairs(
+        &self,
+        operator: &Mat<f64>,
+        wanted: usize,
+        with_left: bool,
+    ) -> Result<Option<RealEigen>, LinalgError> {
+        let is_companion = matches!(self.linearization, Linearization::Companion { .. });
+        let is_wanted = |s: c64| !is_companion || self.linearization.eigenvalue(s.conj()).is_some();
+        let settings = KrylovSchurSettings {
+            wanted,
+            tie: 1.0,
+            tolerance: ROUND_OFF,
+            max_applications: 10 * (wanted + 20),
+            dense_up_to: 0,
+        };
+        let side = |matrix: MatRef<'_, f64>| {
+            let start = random_columns(matrix.ncols(), SEARCH_WIDTH, 3);
+            krylov_schur(&DenseOperator(matrix), start, &is_wanted, &settings)
+        };
+        let right = side(operator.as_ref())?;
+        let is_converged = |own: &RealPairs| own.residuals.iter().all(|r| *r <= HALF_THE_DIGITS);
+        if !is_converged(&right) {
+            return Ok(None);
+        }
+        let mut left = None;
+        if with_left {
+            // Those of the transpose, `S^T z = lambda z`, each with the eigenvalue that is its own.
+            let other = side(operator.transpose())?;
+            let mut columns = Mat::zeros(operator.ncols(), right.values.len());
+            let mut is_free = vec![is_converged(&other); other.values.len()];
+            for (i, value) in right.values.iter().enumerate().filter(|own| own.1.im >= 0.0) {
+                let away = |j: &usize| (other.values[*j] - value).norm();
+                let free = (0..is_free.len()).filter(|&j| is_free[j] && other.values[j].im >= 0.0);
+                let nearest = free.min_by(|a, b| away(a).total_cmp(&away(b)));
+                let same = nearest.filter(|j| away(j) <= SAME_EIGENVALUE * value.norm());
+                let Some(j) = same.filter(|&j| (other.values[j].im > 0.0) == (value.im > 0.0))
+                else {
+                    return Ok(None);
+                };
+                is_free[j] = false;
+                // y = conj z.
+                for (half, sign) in
+                    [1.0, -1.0].into_iter().enumerate().take(if value.im > 0.0 { 2 } else { 1 })
+                {
+                    let own = column(other.vectors.as_ref(), j + half).iter();
+                    let target = column_mut(&mut columns, i + half).iter_mut();
+                    target.zip(own).for_each(|(y, z)| *y = sign * z);
+                }
+            }
+            left = Some(columns);
+        }
+        Ok(Some(RealEigen { values: right.values, right: right.vectors, left }))
     }
 
     /// [`Self::solve_projected`] with structural damping `H`: the eigenvalues `1 / nu` of the complex operator
@@ -223,4 +304,49 @@ fn unpack(
             c64::new(vectors[(row, re)], imaginary)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cea::ModeLimit;
+    use crate::cea::sparse::FrictionlessModes;
+    use crate::cea::sparse::fixtures::string_on_belt;
+
+    /// Consistency check: the leading pairs of a wide operator, by an iteration, are those of all, and solve the problem on both sides.
+    #[test]
+    fn leading_pairs_of_a_wide_operator_are_those_of_all() {
+        for is_proportional in [false, true] {
+            let count = if is_proportional { WIDEST + 10 } else { WIDEST / 2 + 10 };
+            let tangent = string_on_belt(count, 0.4, is_proportional);
+            let rest = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(40)).unwrap();
+            let linearization = Linearization::of(&tangent, rest.frequencies[39], rest.centre);
+            let mut model = ReducedModel::empty(&tangent, linearization);
+            model.extend(Mat::identity(count, count), ROUND_OFF);
+            let at = model.at(0.3);
+            let found = model.solve_projected(&at, 40, true).unwrap();
+
+            let centred = model.centred(&at);
+            let held = centred.as_ref().unwrap_or(&at);
+            let operator = model.shift_inverted(held, &DenseLu::factorize(held.stiffness.clone()));
+            let wanted = if is_proportional { 40 } else { 80 };
+            assert!(model.leading_pairs(&operator, wanted, true).unwrap().is_some());
+            let all = real_eigenvalues(operator.as_ref()).unwrap();
+            let mut all: Vec<c64> =
+                all.into_iter().filter_map(|s| linearization.eigenvalue(s)).collect();
+            crate::order::sort_by_number(&mut all, |own| own.im);
+            assert_eq!(found.len(), 40);
+            for (mode, exact) in found.iter().zip(&all) {
+                let away = (mode.eigenvalue - exact).norm() / exact.norm();
+                let t = at.pencil(mode.eigenvalue);
+                let sides = [(&mode.right, t.as_ref()), (&mode.left, t.transpose())];
+                let residuals = sides.map(|(own, t)| {
+                    let own = Mat::from_fn(count, 1, |i, _| own[i]);
+                    (t * &own).norm_l2() / own.norm_l2()
+                });
+                assert!(away < 1e-9, "{away:e}");
+                assert!(residuals.iter().all(|own| *own < 1e-9), "{residuals:?}");
+            }
+        }
+    }
 }
