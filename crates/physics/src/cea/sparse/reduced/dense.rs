@@ -5,7 +5,7 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::own_frequency;
 use crate::cea::sparse::projected::ProjectedMatrices;
-use crate::cea::sparse::{HALF_THE_DIGITS, ROUND_OFF, SAME_EIGENVALUE, SEARCH_WIDTH};
+use crate::cea::sparse::{CONVERGED, ROUND_OFF, SAME_EIGENVALUE, SEARCH_WIDTH};
 use crate::linalg::dense::{column, column_mut, product, random_columns};
 use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
 use crate::linalg::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_schur};
@@ -116,7 +116,7 @@ impl ReducedModel {
             krylov_schur(&DenseOperator(matrix), start, &is_wanted, &settings)
         };
         let right = side(operator.as_ref())?;
-        let is_converged = |own: &RealPairs| own.residuals.iter().all(|r| *r <= HALF_THE_DIGITS);
+        let is_converged = |own: &RealPairs| own.residuals.iter().all(|r| *r <= CONVERGED);
         if !is_converged(&right) {
             return Ok(None);
         }
@@ -136,10 +136,8 @@ impl ReducedModel {
                     return Ok(None);
                 };
                 is_free[j] = false;
-                // y = conj z.
-                for (half, sign) in
-                    [1.0, -1.0].into_iter().enumerate().take(if value.im > 0.0 { 2 } else { 1 })
-                {
+                let signs = if value.im > 0.0 { &[1.0, -1.0][..] } else { &[1.0] }; // y = conj z.
+                for (half, sign) in signs.iter().enumerate() {
                     let own = column(other.vectors.as_ref(), j + half).iter();
                     let target = column_mut(&mut columns, i + half).iter_mut();
                     target.zip(own).for_each(|(y, z)| *y = sign * z);
