@@ -168,11 +168,10 @@ pub(super) fn assemble(
     let find = |known: &[String], what: &str, name: &str, key: &str| {
         known.iter().position(|other| other == name).ok_or_else(|| {
             let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
-            let message = format!(
-                "{key}: the mesh file has no {what} \"{name}\"; it has {}{}",
-                list.join(", "),
-                near_name(name, known)
-            );
+            let list = if known.is_empty() { "none".to_owned() } else { list.join(", ") };
+            let near = near_name(name, known);
+            let message =
+                format!("{key}: the mesh file has no {what} \"{name}\"; it has {list}{near}");
             let is_text = own.raw.find(key).is_some_and(|own| own.value.text().is_some());
             let error = own.error(key, message, "names none of its parts");
             (is_text || !name.is_empty()).then_some(error)
