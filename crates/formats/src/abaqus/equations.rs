@@ -34,6 +34,7 @@ impl Reader<'_, '_> {
                         *own.entry((node, axis)).or_default() += factor;
                     }
                 }
+                // What equations before it say of loose nodes.
                 while let Some(at) = own.keys().copied().find(|at| told.contains_key(at)) {
                     let factor = own.remove(&at).unwrap_or_default();
                     for (at, share) in &told[&at] {
@@ -42,6 +43,7 @@ impl Reader<'_, '_> {
                 }
                 let largest = terms.iter().fold(0.0_f64, |m, term| m.max(term.2.abs()));
                 own.retain(|_, factor| factor.abs() > ROUND_OFF * largest);
+                // It says where a loose node is, or holds between nodes of the body.
                 let loose = own.iter().filter(|(at, _)| !used.contains(&at.0));
                 let loose = loose.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
                 if let Some((&at, &factor)) = loose {
@@ -84,12 +86,8 @@ impl Reader<'_, '_> {
             let size = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
             ensure!(terms.iter().all(|term| [1, size].contains(&term.0.len())); head;
                 "*EQUATION: node sets of one equation have as many nodes each");
-            equations.extend((0..size).map(|i| {
-                let own = |(nodes, axis, factor): &Term<Vec<u32>>| {
-                    (nodes[i % nodes.len()], *axis, *factor)
-                };
-                terms.iter().map(own).collect()
-            }));
+            let of = |i: usize| terms.iter().map(move |own| (own.0[i % own.0.len()], own.1, own.2));
+            equations.extend((0..size).map(|i| of(i).collect()));
         }
         Ok(equations)
     }

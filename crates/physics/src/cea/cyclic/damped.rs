@@ -136,14 +136,9 @@ impl Course<'_> {
         }
         let slow = all.iter().filter(|value| self.is_overdamped(value)).chain(&creeping);
         let slow = slow.filter(|value| value.norm() <= self.largest);
-        Ok(Overdamped::joined(
-            friction,
-            slow.map(|value| Overdamped {
-                friction_coefficient: friction,
-                count: 1,
-                decay: [-value.re; 2],
-            }),
-        ))
+        let (friction_coefficient, count) = (friction, 1);
+        let one = |value: &c64| Overdamped { friction_coefficient, count, decay: [-value.re; 2] };
+        Ok(Overdamped::joined(friction, slow.map(one)))
     }
 
     /// Eigenvalues with the stiffness of their own frequencies: those that branches have come to, and what others with the

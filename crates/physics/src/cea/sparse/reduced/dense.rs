@@ -1,4 +1,4 @@
-//! All modes of the projected problem by dense decompositions.
+//! The modes of the projected problem by dense decompositions, of a wide one by an iteration for the leading ones.
 
 use super::ReducedModel;
 use crate::cea::sparse::linearization::Linearization;
@@ -59,14 +59,10 @@ impl ReducedModel {
             Linearization::Companion { .. } => 2 * count, // A pair has two values, and two real vectors.
         };
         let operator = self.shift_inverted(at, &lu);
-        let eigen = match operator.ncols() > WIDEST.max(4 * leading) {
-            true => self.leading_pairs(&operator, leading, with_left)?,
-            false => None,
-        };
-        let eigen = match eigen {
-            Some(eigen) => eigen,
-            None => real_eigen(operator.as_ref(), with_left, leading)?,
-        };
+        let is_wide = operator.ncols() > WIDEST.max(4 * leading);
+        let found = is_wide.then(|| self.leading_pairs(&operator, leading, with_left));
+        let all = || real_eigen(operator.as_ref(), with_left, leading);
+        let eigen = found.transpose()?.flatten().map_or_else(all, Ok)?;
         // The upper half of a left vector of the operator is K^T times that of the problem.
         let m = at.stiffness.nrows();
         let mut left = eigen.left;
