@@ -5,6 +5,7 @@ use super::options::CaseChanges;
 use super::session::{gibibytes, machine_memory, read_case};
 use super::{Failure, terminal};
 use crate::case::{Case, Convergence, Cost, FreeSystem, RunCost, StudyCost};
+use crate::results::plural;
 use crate::study::{Preflight, preflight};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
@@ -55,7 +56,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         0 => Ok(()),
         _ => Err(Failure::usage(format!(
             "{bad} of {} cannot run",
-            plural(asked.cases.len(), "case", "cases")
+            plural(asked.cases.len(), ["case", "cases"])
         ))),
     }
 }
@@ -97,7 +98,7 @@ fn valid(name: &str, title: &str) -> String {
 
 fn describe_superelement(name: &str, system: &FreeSystem) -> String {
     let own = &system.superelement;
-    let unknowns = plural(own.mass.rows, "unknown", "unknowns");
+    let unknowns = plural(own.mass.rows, ["unknown", "unknowns"]);
     valid(name, &system.title) + &format!("  superelement {}: {unknowns}\n", own.name)
 }
 
@@ -149,27 +150,27 @@ fn lines(case: &Case, found: &Preflight) -> Vec<(&'static str, String, RunCost)>
     let all = [
         cea.map(|own| {
             let (values, modes) = (own.friction_values, own.modes);
-            let values = plural(values, "friction value", "friction values");
-            ("cea", format!("{values}, about {} each", plural(modes, "mode", "modes")), own.run)
+            let values = plural(values, ["friction value", "friction values"]);
+            ("cea", format!("{values}, about {} each", plural(modes, ["mode", "modes"])), own.run)
         }),
         transient.map(|own| {
             let text = format!("time step {about}{:.4e} s, {} steps", own.time_step, own.steps);
             ("transient", text, own.run)
         }),
         cycle.map(|own| {
-            let families = plural(own.families, "family", "families");
-            ("cycle", format!("{families} of {}", plural(own.cycles, "cycle", "cycles")), own.run)
+            let families = plural(own.families, ["family", "families"]);
+            ("cycle", format!("{families} of {}", plural(own.cycles, ["cycle", "cycles"])), own.run)
         }),
         basin.map(|own| {
             let run = RunCost { memory_bytes: found.cost.mesh_memory_bytes, ..own };
             ("basin", "one boundary between two limit cycles".to_owned(), run)
         }),
-        frf.map(|own| ("frf", plural(own.lines, "frequency", "frequencies"), own.run)),
+        frf.map(|own| ("frf", plural(own.lines, ["frequency", "frequencies"]), own.run)),
         study("convergence", case.convergence_cost(), &|runs| {
-            format!("{} ({})", plural(runs, "run", "runs"), meshes(case))
+            format!("{} ({})", plural(runs, ["run", "runs"]), meshes(case))
         }),
-        study("sweep", case.sweep_cost(), &|runs| plural(runs, "point", "points")),
-        study("uncertainty", case.uncertainty_cost(), &|runs| plural(runs, "run", "runs")),
+        study("sweep", case.sweep_cost(), &|runs| plural(runs, ["point", "points"])),
+        study("uncertainty", case.uncertainty_cost(), &|runs| plural(runs, ["run", "runs"])),
     ];
     all.into_iter().flatten().collect()
 }
@@ -220,11 +221,6 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
         "notes": case.taken.notes,
         "warnings": warnings.map(ToString::to_string).collect::<Vec<_>>(),
     })
-}
-
-/// A count with its noun, of one and of several.
-fn plural(count: usize, one: &str, several: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 fn size(bytes: f64) -> String {

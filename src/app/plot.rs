@@ -57,8 +57,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
 /// A folder without figures; those of the drawing and of the folder.
 pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
     if !path.join(Page::FILE).exists() {
-        let reason = format!("it has no {}: run it again, with figures", Page::FILE);
-        return Err(FolderError::no_results(path, reason).into());
+        let reason = format!("has no {}: run it again, with figures", Page::FILE);
+        return Err(FolderError::unusable(path, reason).into());
     }
     let page: Page = read_record(path)?;
     if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {

@@ -87,6 +87,18 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
 }
 
 #[test]
+fn friction_that_is_fitted_is_told_as_that_of_the_fit() {
+    let with = |more: &str| shipped_case("fit-table-1.toml", &[COARSE, more]);
+    let lines = modes_below(&with("contact.friction_coefficient=0.21"), 12_000.0).unwrap();
+    let lines = lines.iter().map(|own| measured_mode(2, own.frequency_hz(), Some(own.real_hz())));
+    let key = "contact.friction_coefficient";
+    let case = with(&format!("fit={{ starts = 2, parameters = {{ \"{key}\" = [0.1, 0.4] }} }}"));
+    let found = fit_case(&case, &lines.collect::<Vec<_>>(), None).unwrap();
+    assert_eq!(found.friction_coefficient, found.parameters[key].value);
+    assert!((found.friction_coefficient - 0.21).abs() < 1e-6, "{found:?}");
+}
+
+#[test]
 fn what_the_data_cannot_tell_apart_is_named() {
     let set = [COARSE, "fit.parameters.\"material.density\"=[1000, 1500] ; fit.starts=2"];
     let said = "cannot tell ; material.young_modulus ; material.density ; contact.normal_stiffness";

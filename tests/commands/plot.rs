@@ -167,7 +167,7 @@ fn a_run_without_figures_keeps_none_to_draw() {
     for name in ["figures/overview-200.png", "report.html", "figures.bin"] {
         assert!(!out.join(name).exists(), "{name}");
     }
-    plot(&folder, &[]).refused(&["it has no figures.bin"]);
+    plot(&folder, &[]).refused(&["out has no figures.bin: run it again, with figures"]);
 }
 
 #[test]

@@ -1,4 +1,9 @@
-//! Lists drawn together: items under their keys, each item once, runs of numbers by their ends.
+//! Lists drawn together: items under their keys, each item once, runs of numbers by their ends, or their count.
+
+/// A count with its noun, of one and of several.
+pub fn plural(count: usize, [one, several]: [&str; 2]) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
+}
 
 /// The items under their keys, each key where it appears first.
 pub fn grouped<K: PartialEq, T>(items: impl IntoIterator<Item = (K, T)>) -> Vec<(K, Vec<T>)> {

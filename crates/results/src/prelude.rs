@@ -1,6 +1,6 @@
 //! What most tables and figures are made of, from other crates; what is of this one is named where it is used.
 
-pub(crate) use crate::keys::keys;
+pub(crate) use crate::{keys::keys, plural};
 pub(crate) use frictionsim_chart::{
     Axis, ColourMap, Figure, INK, Label, Line, MUTED, Marker, Motion, Panel, Points, Rule, SERIES,
     Side, Stroke, extremes, literal, look, plain,

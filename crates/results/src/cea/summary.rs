@@ -180,11 +180,6 @@ impl UnstableMode {
     }
 }
 
-/// So many friction values, in words.
-pub(super) fn friction_values(count: usize) -> String {
-    format!("{count} friction value{}", if count == 1 { "" } else { "s" })
-}
-
 /// The crossings into instability.
 pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
     let onset = |interval: &UnstableInterval| CriticalFriction {

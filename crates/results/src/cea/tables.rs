@@ -1,7 +1,7 @@
 //! Tables and sentences of an eigenvalue analysis.
 
 use super::branches::{branch_of, sentences};
-use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
+use super::summary::{CriticalFriction, ModeSummary, ONSETS, onsets};
 use super::{
     BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution, direction_name,
     feed,
@@ -219,7 +219,7 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
     let solved = format!(
         "{count} modes ({}) at {}, {} unknowns, {} method; largest residual {:.1e}.",
         report.selection,
-        friction_values(report.tabulated().count()),
+        plural(report.tabulated().count(), ["friction value", "friction values"]),
         report.solution.dofs,
         report.solution.method,
         report.largest_residual(),

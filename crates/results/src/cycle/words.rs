@@ -4,8 +4,11 @@ use super::branch::{BranchSummary, StabilityChangeSummary};
 use super::record::{ModeSummary, OnsetSummary};
 use super::summary::{CycleSummary, Origin, SoughtCycle};
 use super::verdicts::{ConfirmationSummary, StabilitySummary};
+use crate::plural;
 use frictionsim_output::significant;
 use frictionsim_physics::cycle::periodic::ASTRAY;
+
+const DIAMETERS: [&str; 2] = ["nodal diameter", "nodal diameters"];
 
 /// Values in words, with five digits.
 fn listed(values: &[f64]) -> Vec<String> {
@@ -227,7 +230,9 @@ impl SoughtCycle {
             verdict => verdict,
         };
         let what = match (leading.harmonic, leading.frequency_hz, leading.beat_hz) {
-            (Some(n), Some(frequency), _) => format!("{} at {frequency:.0} Hz", diameters(n)),
+            (Some(n), Some(frequency), _) => {
+                format!("{} at {frequency:.0} Hz", plural(n, DIAMETERS))
+            }
             (.., Some(beat)) => format!("{beat:.0} Hz from a harmonic"),
             _ => String::new(),
         };
@@ -291,7 +296,7 @@ impl BranchSummary {
             StabilityChangeSummary::At(value) => significant(*value, 5),
             StabilityChangeSummary::By(mode) => {
                 let what = if mode.to_two_frequencies { ", to two frequencies" } else { "" };
-                format!("{} ({}{what})", significant(mode.at, 5), diameters(mode.harmonic))
+                format!("{} ({}{what})", significant(mode.at, 5), plural(mode.harmonic, DIAMETERS))
             }
         });
         let motions = self.motions.as_ref();
@@ -308,12 +313,5 @@ impl BranchSummary {
             both.collect(),
         ]
         .concat()
-    }
-}
-
-fn diameters(harmonic: usize) -> String {
-    match harmonic {
-        1 => "1 nodal diameter".to_owned(),
-        n => format!("{n} nodal diameters"),
     }
 }

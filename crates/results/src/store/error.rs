@@ -39,7 +39,8 @@ pub enum FolderError {
 }
 
 impl FolderError {
-    pub(crate) fn unusable(path: &Path, reason: impl Display) -> Self {
+    /// Of a folder that cannot be used: what it has or lacks, and the remedy.
+    pub fn unusable(path: &Path, reason: impl Display) -> Self {
         Self::Unusable(format!("{} {reason}", path.display()))
     }
 

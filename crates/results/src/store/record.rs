@@ -71,17 +71,18 @@ fn inflated<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
 /// # Errors
 /// [`FolderError::Unusable`] if it is missing, damaged or of another version; those of the file system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
-    let unusable = |reason: String| FolderError::no_results(folder, reason);
     let bytes = read_existing(&folder.join(T::FILE))?;
-    let bytes = bytes.ok_or_else(|| unusable(format!("it has no {}: run it again", T::FILE)))?;
+    let missing = || FolderError::unusable(folder, format!("has no {}: run it again", T::FILE));
+    let bytes = bytes.ok_or_else(missing)?;
     inflated(&bytes).map_err(|defect| {
         let (file, wanted) = (T::FILE, T::VERSION);
-        unusable(match defect {
+        let reason = match defect {
             Defect::Version(found) => format!(
                 "its {file} has format {found}, this version reads format {wanted}: run it again"
             ),
             Defect::Damage(reason) => format!("its {file} is damaged ({reason}): run it again"),
-        })
+        };
+        FolderError::no_results(folder, reason)
     })
 }
 

@@ -7,7 +7,7 @@ use frictionsim_output::rounded;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::contact::ContactInterface;
-use frictionsim_results::number_ranges;
+use frictionsim_results::{number_ranges, plural};
 
 /// What the counts of modes say.
 pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {
@@ -172,7 +172,7 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let open = listed(open.collect(), ["mode has", "modes have"])
         .map(|(which, places)| format!("{which} not converged: left out is what lies at {places}"));
     let rigid = (sweep.rigid_motions > 0).then(|| {
-        let which = number(sweep.rigid_motions, ["rigid motion", "rigid motions"]);
+        let which = plural(sweep.rigid_motions, ["rigid motion", "rigid motions"]);
         format!(
             "{which}, at frequency zero, not listed: nothing holds the body in those directions"
         )
@@ -218,16 +218,11 @@ pub(super) fn weak_note(sweep: &FrictionSweep) -> Option<String> {
     })
 }
 
-fn number(count: usize, [one, many]: [&str; 2]) -> String {
-    let noun = if count == 1 { one } else { many };
-    format!("{count} {noun}")
-}
-
 /// How many there are, and the first of them; nothing of none.
 fn listed(all: Vec<String>, nouns: [&str; 2]) -> Option<(String, String)> {
     let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
     let more = if rest.is_empty() { "" } else { ", ..." };
-    (!all.is_empty()).then(|| (number(all.len(), nouns), shown.join(", ") + more))
+    (!all.is_empty()).then(|| (plural(all.len(), nouns), shown.join(", ") + more))
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.

@@ -10,6 +10,7 @@ use frictionsim_case::Fit;
 use frictionsim_physics::cea::ModeBranch;
 use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};
 use frictionsim_results::fit::{FitSummary, LineSummary, ModeSummary};
+use frictionsim_results::plural;
 
 /// Modes are computed up to this much above the highest line.
 const MARGIN: f64 = 1.15;
@@ -30,10 +31,7 @@ pub fn fit_case(
         Solver::of(case, cea.method)?;
     }
     let shape_of = match shapes {
-        Some(shapes) => {
-            shapes.check(case)?;
-            shapes.of_lines(lines)?
-        }
+        Some(shapes) => shapes.of_lines(case, lines)?,
         None => vec![None; lines.len()],
     };
     let limit_hz = MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max);
@@ -48,7 +46,13 @@ pub fn fit_case(
     let before = eigenvalues::modes_below(case, limit_hz).unwrap_or_default();
     let told = |mode: &ComplexMode| ModelMode::of(mode, case.body.has_sectors()).told;
     found.modes_of_case = before.iter().map(told).collect();
-    found.friction_coefficient = case.contact.sliding.friction_coefficient;
+    let values = wanted
+        .parameters
+        .iter()
+        .filter_map(|own| Some((&own.parameter, found.parameters.get(&own.parameter.key)?.value)));
+    let fitted = case.with_parameters(values); // Friction may be one of them.
+    let fitted = fitted.as_ref().unwrap_or(case);
+    found.friction_coefficient = fitted.contact.sliding.friction_coefficient;
     found.notes = notes(case, wanted, &found);
     Ok(found)
 }
@@ -185,11 +189,8 @@ pub fn notes(case: &Case, wanted: &Fit, found: &FitSummary) -> Vec<String> {
     }
     if !found.other_minima.is_empty() {
         notes.push(format!(
-            "{} at other values of the parameters fit the data as well: see other_minima",
-            match found.other_minima.len() {
-                1 => "another minimum".to_owned(),
-                count => format!("{count} other minima"),
-            }
+            "{} the data as well, at other values of the parameters: see other_minima",
+            plural(found.other_minima.len(), ["other minimum fits", "other minima fit"])
         ));
     }
     let has_harmonic = |line: &LineSummary| line.harmonic.is_some();

@@ -83,15 +83,23 @@ pub(super) fn differences(line: &MeasuredMode, mode: &ModelMode) -> [f64; 2] {
 const WITHIN: f64 = 0.02;
 
 impl MeasuredShapes {
-    /// The shape of each line: each shape goes to the line whose frequency is nearest, the nearest pairs first.
-    pub(super) fn of_lines(&self, lines: &[MeasuredMode]) -> Result<Vec<Option<usize>>, FitError> {
+    /// The shape of each line: each shape goes to the line whose frequency is nearest, the nearest pairs first. Refuses
+    /// a body without a whole mesh, and points off it.
+    pub(super) fn of_lines(
+        &self,
+        case: &Case,
+        lines: &[MeasuredMode],
+    ) -> Result<Vec<Option<usize>>, StudyError> {
+        refuse_revolution(case)?;
+        let mesh = case.body.mesh()?;
+        self.placed(case, &mesh)?;
         let refuse = |shape: &MeasuredShape, reason: String| {
-            FitError::Table(format!(
+            StudyError::from(FitError::Table(format!(
                 "shape {} belongs to no line of the table: {reason}; give its frequency, within \
                  {} % of that of its line",
                 shape.name,
                 100.0 * WITHIN
-            ))
+            )))
         };
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (index, shape) in self.shapes.iter().enumerate() {
@@ -114,14 +122,6 @@ impl MeasuredShapes {
                 Err(refuse(shape, format!("no line near {frequency} Hz is without one")))
             }
         }
-    }
-
-    /// Refuses a body without a whole mesh, and points off it.
-    pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
-        refuse_revolution(case)?;
-        let mesh = case.body.mesh()?;
-        self.placed(case, &mesh)?;
-        Ok(())
     }
 
     /// The criterion of each mode with each shape, `[mode][shape]`.
