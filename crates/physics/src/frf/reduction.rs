@@ -56,6 +56,7 @@ pub fn reduced_response(
     if frequencies_hz.is_empty() {
         return Ok(ReducedResponse::default());
     }
+    // Shifts spread over the range, and the basis that interpolates there.
     let driven = Driven::of(system, [force, response], low)?;
     let mut shifts: Vec<f64> =
         (0..SHIFTS).map(|j| low + (high - low) * (j as f64 + 0.5) / SHIFTS as f64).collect();
@@ -67,17 +68,15 @@ pub fn reduced_response(
     loop {
         let model = ReducedModel::project(&driven, &basis);
         let receptance: Vec<c64> = frequencies_hz.iter().map(|f| model.receptance(*f)).collect();
-        let wanted = check_lines(frequencies_hz, &receptance, &shifts);
-        for f in wanted {
+        // What it misses at check lines, each solved directly once.
+        for f in check_lines(frequencies_hz, &receptance, &shifts) {
             if checks.iter().all(|(known, _)| *known != f) {
                 checks.push((f, driven.factorized(f)?));
             }
         }
         let error = |(f, h): &(f64, c64)| (model.receptance(*f) - h).norm() / h.norm();
-        let worst = checks
-            .iter()
-            .max_by(|a, b| error(a).total_cmp(&error(b)))
-            .expect("both ends of the range are checked");
+        let worst = checks.iter().max_by(|a, b| error(a).total_cmp(&error(b)));
+        let worst = worst.expect("both ends of the range are checked");
         let largest_error = error(worst);
         if largest_error <= TOLERANCE {
             let mut checked_hz: Vec<f64> = checks.iter().map(|(f, _)| *f).collect();
@@ -96,7 +95,7 @@ pub fn reduced_response(
                 vectors: basis.ncols(),
             });
         }
-        shifts.push(worst.0);
+        shifts.push(worst.0); // The worst line becomes a shift.
         basis = extended(&driven, basis, worst.0)?;
     }
 }

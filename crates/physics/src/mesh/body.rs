@@ -145,23 +145,22 @@ fn refuse_condition(name: &str, own: BoundaryCondition, what: &str) -> Result<()
         return Ok(());
     }
     let message = format!("boundaries.{name} is {what}: it can have no condition of its own");
-    Err(BodyError::Request { part: BodyPart::Boundary(name.to_owned()), message })
+    Err(BodyPart::Boundary(name.to_owned()).refused(message))
 }
 
 fn no_curve(file: &FileMesh, name: &str, part: BodyPart) -> BodyError {
-    let refuse = |message: String| BodyError::Request { part, message };
     if file.node_sets.contains_key(name) {
-        return refuse(format!(
+        return part.refused(format!(
             "node set \"{name}\" is not all nodes of some edges of the outline: a curve of a plane body consists of edges"
         ));
     }
     if file.curves.contains_key(name) {
-        return refuse(format!(
+        return part.refused(format!(
             "physical curve \"{name}\" is not on the rim of the body: its edges are not edges of one element each"
         ));
     }
     let instead = known_instead(file.curves.keys(), name, ["curve", "Curve"]);
-    refuse(format!("no physical curve is called \"{name}\"; {instead}"))
+    part.refused(format!("no physical curve is called \"{name}\"; {instead}"))
 }
 
 /// The names that a file has in place of an unknown one, with the nearest, or how a body's part gets one.
@@ -200,15 +199,12 @@ fn check_along(
     // Of the two ways along the curve the one with the body on its left-hand side: the chord runs so.
     // Rounded, and no minus sign before a zero.
     let [along_x, along_y] = chord.map(|part| (1e3 * part / length).round() / 1e3 + 0.0);
-    Err(BodyError::Request {
-        part: BodyPart::Direction,
-        message: format!(
-            "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the \
-             plane would slide into the body. It must lie along the face: [{along_x}, {along_y}]",
-            off.clamp(0.0, 1.0).asin().to_degrees(),
-            specification.contact,
-        ),
-    })
+    Err(BodyPart::Direction.refused(format!(
+        "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the \
+         plane would slide into the body. It must lie along the face: [{along_x}, {along_y}]",
+        off.clamp(0.0, 1.0).asin().to_degrees(),
+        specification.contact,
+    )))
 }
 
 /// The counterface where the contact curve puts it.
@@ -249,8 +245,7 @@ fn counterface(
                      is {mean:.6e} m. Correct contact.center, or give the cylinder's contact.radius",
                     specification.contact, center[0], center[1], mesh.labels[node as usize]
                 );
-                let part = BodyPart::Center;
-                return Err(BodyError::Request { part, message });
+                return Err(BodyPart::Center.refused(message));
             }
             // Inside where the body's outward normals point towards the axis.
             let edges = contact.faces.iter().map(|face| {
@@ -283,7 +278,7 @@ fn contact_boundary(mesh: &mut Mesh, curve: &Curve, name: &str) -> Result<Bounda
                  physical curve, or correct contact.counterface, center or direction",
                 mesh.labels[node as usize]
             );
-            return Err(BodyError::Request { part, message });
+            return Err(part.refused(message));
         }
         lengths.push(length);
     }
@@ -302,11 +297,14 @@ fn held_boundary(
 ) -> Result<Boundary, BodyError> {
     let weights = EdgeWeights::of(mesh, curve);
     let normal_angles = weights.normal_angles();
-    if matches!(condition, BoundaryCondition::Guide | BoundaryCondition::Fixed(_)) {
+    let is_fixed = matches!(condition, BoundaryCondition::Fixed(_));
+    if is_fixed || condition == BoundaryCondition::Guide {
         let mut angles = mesh.frame_angles().to_vec();
         let contact: BTreeSet<u32> = contact.iter().copied().collect();
         for (&node, &angle) in curve.nodes.iter().zip(&normal_angles) {
-            let own = if matches!(condition, BoundaryCondition::Fixed(_)) { 0.0 } else { angle };
+            // A guide holds along the normal of its boundary, a fixed direction is one of x and y.
+            let own = if is_fixed { 0.0 } else { angle };
+            // A turn by a right angle changes axes, and holds as well.
             let off = 0.5 * (2.0 * (own - angles[node as usize])).sin().abs().asin();
             if !contact.contains(&node) {
                 angles[node as usize] = own;
@@ -318,10 +316,7 @@ fn held_boundary(
                     "boundaries.{name} holds node {label} of the contact {degrees:.1} degrees off the contact's normal and tangent. \
                      Draw it perpendicular to the contact, or hold it by a \"support\" of large normal_stiffness"
                 );
-                return Err(BodyError::Request {
-                    part: BodyPart::Boundary(name.to_owned()),
-                    message,
-                });
+                return Err(BodyPart::Boundary(name.to_owned()).refused(message));
             }
         }
         mesh.frames = NodalFrames::Plane(angles);

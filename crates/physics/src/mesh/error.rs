@@ -24,7 +24,7 @@ pub enum BodyError {
 /// Refuses a scale that takes a node of a file beyond reason.
 pub(super) fn refuse_far(file: &FileMesh, scale: f64) -> Result<(), BodyError> {
     match file.far_node(scale) {
-        Some(message) => Err(BodyError::Request { part: BodyPart::Scale, message }),
+        Some(message) => Err(BodyPart::Scale.refused(message)),
         None => Ok(()),
     }
 }
@@ -46,4 +46,11 @@ pub enum BodyPart {
     Scale,
     /// The number of sectors.
     Sectors,
+}
+
+impl BodyPart {
+    /// The error that this part of the request does not fit the mesh.
+    pub(super) fn refused(self, message: String) -> BodyError {
+        BodyError::Request { part: self, message }
+    }
 }

@@ -113,13 +113,10 @@ fn check_size(file: &FileMesh, size: f64, scale: f64) -> Result<(), BodyError> {
     let reaches = |p: &[f64; 3]| p[0].abs().max(p[1].abs()) == size;
     let node = file.points.iter().position(reaches);
     let label = node.map_or(0, |node| file.labels[node]);
-    Err(BodyError::Request {
-        part: BodyPart::Scale,
-        message: format!(
-            "node {label} lies at {length:e} m, and no other one farther from the origin: a body of {SMALLEST:e} to {LARGEST:e} m is \
-             expected. Is the file damaged, or mesh.scale = {scale:e} wrong?"
-        ),
-    })
+    Err(BodyPart::Scale.refused(format!(
+        "node {label} lies at {length:e} m, and no other one farther from the origin: a body of {SMALLEST:e} to {LARGEST:e} m is \
+         expected. Is the file damaged, or mesh.scale = {scale:e} wrong?"
+    )))
 }
 
 /// Surfaces whose elements run clockwise, all of them: the surface is turned over, its elements are sound.

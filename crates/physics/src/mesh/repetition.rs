@@ -7,7 +7,7 @@ use super::grid::Grid;
 use super::plane_body::{plane_body, used_nodes};
 use super::solid_body::solid_elements;
 use super::{BoundaryFace, CyclicSymmetry, Mesh};
-use frictionsim_formats::{FileElement, FileMesh};
+use frictionsim_formats::{Equation, FileElement, FileMesh};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,11 +17,6 @@ const MATCHED: f64 = 1e-3;
 const MOST_NODES: usize = (u32::MAX / 3) as usize;
 /// Nodes that a message names.
 const NAMED: usize = 4;
-
-fn misfit(message: String) -> BodyError {
-    let part = BodyPart::Sectors;
-    BodyError::Request { part, message }
-}
 
 /// The whole body whose sector is in the file: `symmetry.count` copies, each turned by `2 pi / count` against the one before and
 /// joined to it where its first cut face meets the other's second. Coordinates and `symmetry.point` have one unit.
@@ -36,8 +31,8 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
     let index_of = used_nodes(file)?;
     let nodes = index_of.len();
     if nodes.saturating_mul(count) > MOST_NODES {
-        let message = format!("{count} sectors of {nodes} nodes have more than {MOST_NODES}");
-        return Err(misfit(message));
+        return Err(BodyPart::Sectors
+            .refused(format!("{count} sectors of {nodes} nodes have more than {MOST_NODES}")));
     }
     let sector = match file.dimension {
         3 => solid_elements(file, 1.0, &index_of)?,
@@ -50,9 +45,8 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
     let node_stride = stride(sector.labels.iter().copied().max());
     let element_stride = stride(file.elements.iter().map(|e| e.label).max());
 
-    // Nodes, elements and equations sector by sector.
+    // Nodes and elements sector by sector.
     let (mut points, mut labels, mut elements) = (Vec::new(), Vec::new(), Vec::new());
-    let mut equations = Vec::new();
     for j in 0..count {
         let turn = symmetry.turn(j);
         for &node in &copies.own {
@@ -63,14 +57,6 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
             label: element.label + j * element_stride,
             nodes: element.nodes.iter().map(|&node| copies.node(node, j)).collect(),
             ..element.clone()
-        }));
-        // Axes of equations turn with their sector.
-        equations.extend(file.equations.iter().map(|equation| {
-            let terms = equation.iter().flat_map(|&(node, axis, factor)| {
-                let node = copies.node(node, j);
-                (0..3).map(move |k| (node, k, factor * turn[(k, axis)]))
-            });
-            terms.filter(|term| term.2 != 0.0).collect()
         }));
     }
 
@@ -94,7 +80,7 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
         points,
         labels,
         elements,
-        equations,
+        equations: copies.equations(file, symmetry),
     })
 }
 
@@ -130,6 +116,21 @@ impl<'a> Copies<'a> {
             None => (node, sector),
         };
         (sector * self.own.len() + self.place[node as usize]) as u32
+    }
+
+    /// The equations of all sectors, whose axes turn with them.
+    fn equations(&self, file: &FileMesh, symmetry: &CyclicSymmetry) -> Vec<Equation> {
+        let of_sector = |j: usize| {
+            let turn = symmetry.turn(j);
+            file.equations.iter().map(move |equation| {
+                let terms = equation.iter().flat_map(|&(node, axis, factor)| {
+                    let node = self.node(node, j);
+                    (0..3).map(move |k| (node, k, factor * turn[(k, axis)]))
+                });
+                terms.filter(|term| term.2 != 0.0).collect()
+            })
+        };
+        (0..self.count).flat_map(of_sector).collect()
     }
 
     /// What has a name, in all sectors.
@@ -169,12 +170,9 @@ impl Cut {
         let distance = MATCHED * shortest.fold(f64::INFINITY, f64::min);
 
         // Nodes pair where they share a region: bodies that touch have nodes in one place.
-        let mut regions_of: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
-        for face in &outer {
-            for &node in &face.nodes {
-                regions_of.entry(node).or_default();
-            }
-        }
+        let edge = outer.iter().flat_map(|face| &face.nodes);
+        let mut regions_of: BTreeMap<u32, BTreeSet<usize>> =
+            edge.map(|&node| (node, BTreeSet::new())).collect();
         for element in 0..sector.element_count() {
             for node in sector.element_nodes(element) {
                 if let Some(regions) = regions_of.get_mut(node) {
@@ -200,7 +198,7 @@ impl Cut {
             }
         }
         if let Some((node, _)) = first_of.iter().find(|(second, first)| second == first) {
-            return Err(misfit(format!(
+            return Err(BodyPart::Sectors.refused(format!(
                 "node {} lies on the axis of the sectors and belongs to all of them: mesh the whole body, or leave a hole there",
                 sector.node_label(*node as usize)
             )));
@@ -236,7 +234,8 @@ impl Cut {
         );
         if is_overlapping {
             let what = "the sector overlaps";
-            return Err(misfit(format!("{what} {reach}: does the number of sectors fit it?")));
+            return Err(BodyPart::Sectors
+                .refused(format!("{what} {reach}: does the number of sectors fit it?")));
         }
         let others = self.faces_in_copy(sector, symmetry, &is_cut);
         match others.first() {
@@ -245,14 +244,14 @@ impl Cut {
                 let labels = labels.map(|&node| sector.node_label(node as usize).to_string());
                 let [faces, meet] =
                     if others.len() == 1 { ["face", "meets"] } else { ["faces", "meet"] };
-                Err(misfit(format!(
+                Err(BodyPart::Sectors.refused(format!(
                     "{} {faces} of the sector {meet} its copy turned by {degrees:.6} degrees with other nodes (the first has the nodes \
                      {}). Mesh both cut faces alike (Periodic Curve or Periodic Surface in Gmsh)",
                     others.len(),
                     labels.collect::<Vec<_>>().join(", ")
                 )))
             }
-            None if is_cut.is_empty() => Err(misfit(format!(
+            None if is_cut.is_empty() => Err(BodyPart::Sectors.refused(format!(
                 "no face of the sector meets {reach}: does the number of sectors fit it, and are the nodes of both cut faces alike?"
             ))),
             None => Ok(()),

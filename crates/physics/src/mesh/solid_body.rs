@@ -50,7 +50,7 @@ impl Mesh {
         mesh.add_node_sets(file, &index_of, &outer);
         for (name, condition) in conditions {
             let part = BodyPart::Boundary(name.clone());
-            let refuse = |message| BodyError::Request { part, message };
+            let refuse = |message| part.refused(message);
             let Some(boundary) = mesh.boundaries.iter_mut().find(|own| own.name == *name) else {
                 return Err(refuse(no_surface(&file.surfaces, name)));
             };
