@@ -225,6 +225,21 @@ fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
 }
 
 #[test]
+fn a_comparison_names_its_runs_in_each_figure_and_draws_no_bodies() {
+    let folder = folder();
+    let few = "cea.friction_coefficients=[0.0, 0.3] ; cea.modes=4";
+    for (out, change) in [("soft", "material.young_modulus=2.4e9"), ("stiff", COARSE)] {
+        let own = Run::new(&["cea", &shipped("polycarbonate-disc.toml")]).within(&folder);
+        let own = own.out(out).set(&[COARSE, few, change]).done();
+        assert!(own.out.join("figures/modes-mu-0.3.svg").exists());
+    }
+    let both = Run::new(&["compare", "soft", "stiff"]).within(&folder).out("both").done();
+    let figure = |name: &str| both.text(&format!("figures/{name}.svg"));
+    ["locus", "prestress"].iter().for_each(|name| has(&figure(name), &[">soft< ; >stiff<"]));
+    assert!(!both.out.join("figures/modes-mu-0.3.svg").exists());
+}
+
+#[test]
 fn a_comparison_warns_where_forces_of_one_run_alone_are_for_each_metre() {
     let folder = folder();
     let few = "cea.friction_coefficients=[0.3] ; cea.shapes_at=[0.3] ; cea.modes=2";

@@ -60,17 +60,20 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
 
 fn is_alike(one: &PanelData, other: &PanelData) -> bool {
     let titles = |panel: &PanelData| [0, 1].map(|k| plain(&panel.axes[k].title));
-    titles(one) == titles(other) && !one.series.is_empty()
+    let is_drawing = titles(one) == ["", ""]; // Of a body, whose outlines alone say nothing.
+    titles(one) == titles(other) && !one.series.is_empty() && !is_drawing
 }
 
 fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
-    let axis = |k: usize| {
-        let ruler = &panel.axes[k];
+    let ends = [0, 1].map(|k| {
         let ends = runs.iter().map(|(_, _, own)| (own.axes[k].low, own.axes[k].high));
-        let ends = ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let (low, high) = ends.unwrap_or((0.0, 1.0));
+        ends.fold((f64::INFINITY, -f64::INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)))
+    });
+    let axis = |k: usize| {
+        let (ruler, (low, high)) = (&panel.axes[k], ends[k]);
         Axis::new(&literal(&plain(&ruler.title)), "").scaled(ruler.scale).between(low, high)
     };
+    let [x, y] = ends.map(|(low, high)| 0.5 * (low + high)); // Amid the panel legends see it.
     let mut out = Panel::new(axis(0), axis(1)).height(150.0).legend();
     if !panel.caption.is_empty() {
         out = out.caption(literal(&panel.caption));
@@ -88,10 +91,8 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
         // Of many curves those with a name stand for all.
         let is_crowded = own.series.len() > MOST_CURVES;
         let curves = own.series.iter().filter(|series| !is_crowded || !series.name.is_empty());
-        let mut anchor = None;
         for series in curves {
             let places = || series.xs.iter().copied().zip(series.ys.iter().copied());
-            anchor = anchor.or_else(|| places().find(|(x, y)| (x + y).is_finite()));
             let label = match series.name.as_str() {
                 "" => literal(title),
                 name => format!("{}: {}", literal(title), literal(name)),
@@ -109,8 +110,7 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
                 }
             };
         }
-        let anchor = anchor.into_iter().flat_map(|place| [place, place]);
-        let key = Line::through(anchor).solid(colour, 0.0);
+        let key = Line::through([(x, y); 2]).solid(colour, 0.0);
         out = out.layer(key.name(literal(title)));
     }
     out.layers(series_keys(runs, &lines, &points))
