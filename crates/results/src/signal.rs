@@ -62,13 +62,10 @@ pub fn document(summary: &SignalSummary) -> Document {
     let of_channel = |channel: &ChannelSummary| {
         let [from, to] = channel.interval_s;
         let caption = format!(
-            "{}: peaks between {from:.4} and {to:.4} s, resolution {:.4} Hz ({})",
+            "{}: peaks between {from:.4} and {to:.4} s, resolution {:.4} Hz (mean of {})",
             channel.name,
             channel.resolution_hz,
-            match channel.averages {
-                1 => "one block".to_owned(),
-                count => format!("mean of {count} blocks"),
-            }
+            plural(channel.averages, ["block", "blocks"])
         );
         Table::new("", caption).columns(PEAKS, rows(channel)).columns(WORDS, rows(channel))
     };

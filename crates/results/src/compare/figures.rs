@@ -73,11 +73,15 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
         let (ruler, (low, high)) = (&panel.axes[k], ends[k]);
         Axis::new(&literal(&plain(&ruler.title)), "").scaled(ruler.scale).between(low, high)
     };
-    let [x, y] = ends.map(|(low, high)| 0.5 * (low + high)); // Amid the panel legends see it.
-    let mut out = Panel::new(axis(0), axis(1)).height(150.0).legend();
-    if !panel.caption.is_empty() {
-        out = out.caption(literal(&panel.caption));
-    }
+    let place = (ends[0].0, ends[1].0); // Of keys, in the panel, as legends name what is seen.
+    // What is said of the panels of all runs; frequencies and the like are those of one.
+    let is_shared = |(i, part): &(usize, &str)| {
+        runs.iter().all(|(_, _, own)| own.caption.split(", ").nth(*i) == Some(part))
+    };
+    let caption = panel.caption.split(", ").enumerate().take_while(is_shared);
+    let caption: Vec<&str> = caption.map(|(_, part)| part).collect();
+    let out = Panel::new(axis(0), axis(1)).height(150.0).legend();
+    let mut out = out.caption(literal(&caption.join(", ")));
     // Colours tell the runs apart; dashes and markers the series of one run, as many of them as have a name.
     let is_line = |series: &Series| matches!(series.kind, SeriesKind::Line | SeriesKind::Dashed);
     let names = |of_lines: bool| {
@@ -110,19 +114,17 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
                 }
             };
         }
-        let key = Line::through([(x, y); 2]).solid(colour, 0.0);
+        let key = Line::through([place; 2]).solid(colour, 0.0);
         out = out.layer(key.name(literal(title)));
     }
-    out.layers(series_keys(runs, &lines, &points))
+    out.layers(series_keys(runs, place, [&lines, &points]))
 }
 
 /// Dashes of the `number`-th named line of a run.
 fn line_dash(kind: SeriesKind, number: usize) -> &'static [f64] {
-    const DASHES: [&[f64]; 4] = [&[], &[1.2, 1.2], &[5.0, 1.5], &[5.0, 1.5, 1.2, 1.5]];
-    match kind {
-        SeriesKind::Dashed => &[3.0, 2.0],
-        _ => DASHES[number % DASHES.len()],
-    }
+    const DASHES: [&[f64]; 6] =
+        [&[], &[1.2, 1.2], &[5.0, 1.5], &[5.0, 1.5, 1.2, 1.5], &[9.0, 3.0], &[1.2, 3.0]];
+    if kind == SeriesKind::Dashed { &[3.0, 2.0] } else { DASHES[number % DASHES.len()] }
 }
 
 /// Marker of the `number`-th named set of points of a run: the first is hollow, so that others stand out of it.
@@ -131,25 +133,25 @@ fn point_marker(number: usize) -> Marker {
 }
 
 /// Legend entries of the series, in ink: what dashes and markers mean in every run.
-fn series_keys(runs: &[(usize, &str, &PanelData)], lines: &[&str], points: &[&str]) -> Vec<Points> {
-    // Lines of one kind need no entry of their own.
-    let many_lines = lines.len() > 1;
+fn series_keys(
+    runs: &[(usize, &str, &PanelData)],
+    place: (f64, f64),
+    [lines, points]: [&[&str]; 2],
+) -> Vec<Points> {
     let series = || runs.iter().flat_map(|(_, _, own)| &own.series);
     let key = |name: &&str| {
         let own = series().find(|series| series.name == **name)?;
-        let mut places = own.xs.iter().copied().zip(own.ys.iter().copied());
-        let place = places.find(|(x, y)| (x + y).is_finite())?;
-        let number = points.iter().position(|known| known == name);
-        let keyed = Points::new([place]).marker(point_marker(number.unwrap_or(0)), 0.01, INK);
-        let keyed = match number {
-            Some(_) => keyed,
+        let number = |names: &[&str]| names.iter().position(|known| known == name);
+        let keyed = Points::new([place]).name(literal(name));
+        Some(match number(points) {
+            Some(number) => keyed.marker(point_marker(number), 0.01, INK),
             None => {
-                let number = lines.iter().position(|known| known == name).unwrap_or(0);
-                keyed.keyed(Stroke::solid(INK, 0.8).dashes(line_dash(own.kind, number)))
+                let dash = line_dash(own.kind, number(lines).unwrap_or(0));
+                keyed.marker(Marker::Circle, 0.01, INK).keyed(Stroke::solid(INK, 0.8).dashes(dash))
             }
-        };
-        Some(keyed.name(literal(name)))
+        })
     };
-    let lines = lines.iter().filter(|_| many_lines);
+    // Lines of one kind need no entry of their own.
+    let lines = lines.iter().filter(|_| lines.len() > 1);
     points.iter().chain(lines).filter_map(key).collect()
 }
