@@ -137,13 +137,11 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
     for _ in 0..11 {
         records.push(lines.next().ok_or("it ends within its header")?);
     }
-    let word = |record: usize, k: usize| -> f64 {
-        let words = numbers(&records[record - 1]);
-        words.get(k).copied().unwrap_or(0.0)
-    };
-    let part = |record: usize, from: usize, to: usize| -> String {
-        let line = &records[record - 1];
-        line.chars().skip(from).take(to - from).collect::<String>().trim().to_string()
+    let word =
+        |record: usize, k: usize| numbers(&records[record - 1]).get(k).copied().unwrap_or(0.0);
+    let part = |record: usize, from: usize, to: usize| {
+        let part = records[record - 1].chars().skip(from).take(to - from);
+        part.collect::<String>().trim().to_string()
     };
     // Records 7 to 9: form and count of the numbers, abscissa, ordinate.
     let (form, count) = (word(7, 0) as u32, word(7, 1));
@@ -172,24 +170,11 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
     let abscissa = |(i, row): (usize, &&[f64])| {
         if is_even { first + i as f64 * step } else { row[0] }
     };
-    // Record 6: where it was measured and driven, by name, node and direction.
-    let place = |from: usize| {
-        let (name, node) = (part(6, from, from + 10), part(6, from + 10, from + 20));
-        let direction = part(6, from + 20, from + 24);
-        let name = if name == "NONE" { String::new() } else { name };
-        let is_none = name.is_empty() && matches!(node.as_str(), "" | "0");
-        (!is_none).then(|| format!("{name}{node}:{direction}"))
-    };
-    let name = match (place(31), place(56)) {
-        (None, _) => part(1, 0, 80),
-        (Some(response), None) => response,
-        (Some(response), Some(reference)) => format!("{response}/{reference}"),
-    };
     let [motion, force] = [9, 10].map(|record| part(record, 47, 67).replace("NONE", ""));
     let force = if force.is_empty() { "N" } else { &force };
     let unit = response_unit(&motion).or_else(|| response_unit(&format!("{motion}/{force}")));
     Ok(Function {
-        name,
+        name: name_of(&part),
         kind: word(6, 0) as u32,
         axis: word(8, 0) as u32,
         ordinate: word(9, 0) as u32,
@@ -202,10 +187,25 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
     })
 }
 
+/// Record 6: where it was measured and driven, by name, node and direction; else the first record.
+fn name_of(part: &dyn Fn(usize, usize, usize) -> String) -> String {
+    let place = |from: usize| {
+        let (name, node) = (part(6, from, from + 10), part(6, from + 10, from + 20));
+        let direction = part(6, from + 20, from + 24);
+        let name = if name == "NONE" { String::new() } else { name };
+        let is_none = name.is_empty() && matches!(node.as_str(), "" | "0");
+        (!is_none).then(|| format!("{name}{node}:{direction}"))
+    };
+    match (place(31), place(56)) {
+        (None, _) => part(1, 0, 80),
+        (Some(response), None) => response,
+        (Some(response), Some(reference)) => format!("{response}/{reference}"),
+    }
+}
+
 /// Numbers of a record, also where a sign is all that separates them.
 pub(super) fn numbers(line: &str) -> Vec<f64> {
-    let fields = universal_fields(line);
-    fields.split_whitespace().map_while(|word| word.parse().ok()).collect()
+    universal_fields(line).split_whitespace().map_while(|word| word.parse().ok()).collect()
 }
 
 /// The numbers of a binary dataset, each of so many bytes in turn: 4 in single precision, 8 in double.
