@@ -237,6 +237,15 @@ fn a_comparison_names_its_runs_in_each_figure_and_draws_no_bodies() {
     let figure = |name: &str| both.text(&format!("figures/{name}.svg"));
     ["locus", "prestress"].iter().for_each(|name| has(&figure(name), &[">soft< ; >stiff<"]));
     assert!(!both.out.join("figures/modes-mu-0.3.svg").exists());
+    // Of a sweep, whose folder several processes write, too; its axes name what is swept.
+    for out in ["two", "too"] {
+        let words = ["sweep", &shipped("polycarbonate-disc.toml")];
+        let swept =
+            "sweep={ \"contact.rotation_speed_rpm\" = [71.0, 613.0], analyses = [\"cea\"] }";
+        Run::new(&words).within(&folder).out(out).set(&[COARSE, few, swept]).done();
+    }
+    let both = Run::new(&["compare", "two", "too"]).within(&folder).out("sweeps").done();
+    has(&both.text("figures/operating-matrix.svg"), &[">two< ; >too< ; >71< ; >613<"]);
 }
 
 #[test]

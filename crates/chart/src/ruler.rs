@@ -24,7 +24,8 @@ pub struct Ruler {
     pub low: f64,
     /// Its upper end.
     pub high: f64,
-    fixed_ticks: Option<Vec<Tick>>,
+    /// Its ticks, where they are given.
+    pub fixed_ticks: Option<Vec<Tick>>,
 }
 
 impl Ruler {

@@ -201,8 +201,7 @@ impl Layer for Fill {
     }
 
     fn keys(&self) -> Vec<(Key, String)> {
-        let key = Key::patch(self.colour, self.opacity);
-        self.name.iter().map(|name| (key, name.clone())).collect()
+        self.name.iter().map(|name| (Key::patch(self.colour, self.opacity), name.clone())).collect()
     }
 
     fn series(&self) -> Vec<Series> {

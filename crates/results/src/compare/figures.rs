@@ -61,7 +61,11 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
 fn is_alike(one: &PanelData, other: &PanelData) -> bool {
     let titles = |panel: &PanelData| [0, 1].map(|k| plain(&panel.axes[k].title));
     let is_drawing = titles(one) == ["", ""]; // Of a body, whose outlines alone say nothing.
-    titles(one) == titles(other) && !one.series.is_empty() && !is_drawing
+    let ticks = |panel: &PanelData| panel.axes.clone().map(|own| own.fixed_ticks);
+    titles(one) == titles(other)
+        && ticks(one) == ticks(other)
+        && !one.series.is_empty()
+        && !is_drawing
 }
 
 fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
@@ -71,7 +75,12 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
     });
     let axis = |k: usize| {
         let (ruler, (low, high)) = (&panel.axes[k], ends[k]);
-        Axis::new(&literal(&plain(&ruler.title)), "").scaled(ruler.scale).between(low, high)
+        let axis = Axis::new(&literal(&plain(&ruler.title)), "");
+        let axis = axis.scaled(ruler.scale).between(low, high);
+        match &ruler.fixed_ticks {
+            Some(ticks) => axis.ticks(ticks.iter().map(|own| (own.value, own.label.clone()))),
+            None => axis,
+        }
     };
     let place = (ends[0].0, ends[1].0); // Of keys, in the panel, as legends name what is seen.
     // What is said of the panels of all runs; frequencies and the like are those of one.

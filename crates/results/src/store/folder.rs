@@ -6,7 +6,7 @@ use super::lock::{Company, LOCK, Lock, remove_remnants, try_lock};
 use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
 use crate::drawing::{FIGURES, REPORT};
-use frictionsim_bounds::{RESULT, read_file, read_text};
+use frictionsim_bounds::{RESULT, read_text};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
@@ -81,15 +81,7 @@ impl OutputFolder {
             remove_remnants(path, is_temporary);
         }
         if let Some(contents) = contents {
-            let is_sealed = contents.is_sealed;
             earlier = contents.into_files();
-            if !is_sealed {
-                // Folders of versions without checksums get them now.
-                for (name, checksum) in &mut earlier {
-                    let bytes = read_file(&path.join(name), RESULT);
-                    *checksum = bytes.ok().map(|bytes| crc32fast::hash(&bytes));
-                }
-            }
         }
         earlier.extend(unfinished(path));
         let journal = OpenOptions::new()

@@ -88,19 +88,19 @@ pub fn write_sealed(out: &mut dyn Write, value: &impl Serialize) -> io::Result<(
     write_json(out, &object)
 }
 
-/// Reads a JSON object and checks its checksum; whether it has one. Without it is of a version before checksums, or
-/// damaged.
-pub fn read_sealed(bytes: &[u8]) -> Result<(Value, bool), Defect> {
+/// Reads a JSON object and checks its checksum; without one it is damaged.
+pub fn read_sealed(bytes: &[u8]) -> Result<Value, Defect> {
     let mut object: Value = serde_json::from_slice(bytes).map_err(Defect::damage)?;
     let Some(entries) = object.as_object_mut() else {
         return Err(Defect::damage("it is no object"));
     };
-    let Some(found) = entries.shift_remove(CHECKSUM) else { return Ok((object, false)) };
+    let found = entries.shift_remove(CHECKSUM);
+    let found = found.ok_or_else(|| Defect::damage("its checksum is gone"))?;
     let wanted = checksum(&object).map_err(Defect::damage)?;
     if found.as_str() != Some(&wanted) {
         return Err(Defect::damage("its checksum does not fit its contents"));
     }
-    Ok((object, true))
+    Ok(object)
 }
 
 /// How the name of a file that is still being written begins.

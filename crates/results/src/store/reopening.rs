@@ -17,20 +17,6 @@ pub(crate) const JOURNAL: &str = ".written";
 /// Name of the summary in its folder.
 pub(crate) const SUMMARY: &str = "summary.json";
 
-/// Keys of a manifest of the versions before checksums.
-const KEYS_WITHOUT_CHECKSUMS: [&str; 10] = [
-    "program",
-    "version",
-    "command",
-    "case_file",
-    "case_text",
-    "case_hash",
-    "overrides",
-    "threads",
-    "simd",
-    "files",
-];
-
 /// `manifest.json`: the manifest and the files that go with it.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Contents {
@@ -40,9 +26,6 @@ pub(crate) struct Contents {
     /// CRC-32 of the files of a finished run, hexadecimal.
     #[serde(default)]
     checksums: BTreeMap<String, String>,
-    /// Whether a version wrote it that knows checksums.
-    #[serde(skip)]
-    pub(crate) is_sealed: bool,
 }
 
 impl Contents {
@@ -53,7 +36,6 @@ impl Contents {
             manifest: manifest.clone(),
             files: files.keys().cloned().collect(),
             checksums: known.map(|(name, sum)| (name.clone(), format!("{sum:08x}"))).collect(),
-            is_sealed: true,
         }
     }
 
@@ -91,14 +73,7 @@ pub fn is_result(folder: &Path, name: &Path) -> bool {
 }
 
 fn contents_of(bytes: &[u8]) -> Result<Contents, Defect> {
-    let (object, is_sealed) = read_sealed(bytes)?;
-    let is_known = |key: &String| KEYS_WITHOUT_CHECKSUMS.contains(&key.as_str());
-    let mut keys = object.as_object().into_iter().flatten().map(|(key, _)| key);
-    if !is_sealed && !keys.all(is_known) {
-        return Err(Defect::damage("its checksum is gone"));
-    }
-    let contents: Contents = serde_json::from_value(object).map_err(Defect::damage)?;
-    Ok(Contents { is_sealed, ..contents })
+    serde_json::from_value(read_sealed(bytes)?).map_err(Defect::damage)
 }
 
 /// The manifest of a results folder.
@@ -142,28 +117,19 @@ pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> 
         || FolderError::no_results(path, format!("it has no {name}: the run did not end"));
     // A run that was killed may have replaced the file already.
     let journal = read_text(&path.join(JOURNAL), RESULT).unwrap_or_default();
-    if contents.is_sealed && journal.lines().any(|written| written == name) {
+    if journal.lines().any(|written| written == name) {
         return Err(did_not_end());
     }
     let bytes = read_existing(&path.join(name))?.ok_or_else(did_not_end)?;
-    let is_sealed = contents.is_sealed;
+    // A folder that several processes write has no checksums of its files.
+    let is_shared = matches!(contents.manifest.command.as_str(), "sweep" | "uncertainty");
     match contents.into_files().remove(name).flatten() {
         Some(wanted) if wanted == crc32fast::hash(&bytes) => Ok(bytes),
         Some(_) => Err(FolderError::no_results(
             path,
             format!("its {name} is damaged (its checksum does not fit its contents): run it again"),
         )),
-        None if is_sealed => Err(did_not_end()),
-        None => Ok(bytes),
-    }
-}
-
-/// A value that a JSON file of the program's own holds, if it is whole; files without a checksum count where
-/// `is_unsealed_allowed`.
-pub(crate) fn own_value(bytes: &[u8], is_unsealed_allowed: bool) -> Result<Value, Defect> {
-    let (value, is_sealed) = read_sealed(bytes)?;
-    match is_sealed || is_unsealed_allowed {
-        true => Ok(value),
-        false => Err(Defect::damage("its checksum is gone")),
+        None if is_shared => Ok(bytes),
+        None => Err(did_not_end()),
     }
 }

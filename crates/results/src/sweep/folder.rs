@@ -3,9 +3,9 @@
 use super::super::folder::{
     FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_manifest,
 };
-use super::super::framed::{Defect, create_folder, is_temporary, write_sealed};
+use super::super::framed::{Defect, create_folder, is_temporary, read_sealed, write_sealed};
 use super::super::manifest::Manifest;
-use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
+use super::super::reopening::{Contents, MANIFEST, read_contents, read_existing};
 use super::super::store::lock::{Company, Lock, remove_remnants, share, try_lock};
 use super::{PointClock, PointRecord};
 use frictionsim_bounds::{RESULT, read_file};
@@ -78,8 +78,6 @@ impl Start {
 #[derive(Debug)]
 pub struct SweepFolder {
     output: OutputFolder,
-    /// Whether the points carry checksums; those of versions before them do not.
-    is_sealed: bool,
 }
 
 /// What there is of a point.
@@ -135,8 +133,7 @@ impl SweepFolder {
             }
             Ok(())
         })?;
-        let is_sealed = read_contents(path)?.is_none_or(|contents| contents.is_sealed);
-        let folder = Self { output: OutputFolder::shared(path, manifest, lock), is_sealed };
+        let folder = Self { output: OutputFolder::shared(path, manifest, lock) };
         if start == Start::Fresh {
             folder.refuse_started(points)?;
         }
@@ -154,14 +151,14 @@ impl SweepFolder {
         if !path.join(MANIFEST).is_file() {
             return Err(not_a_sweep(format!("it has no {MANIFEST}")));
         }
-        let Some(Contents { manifest, is_sealed, .. }) = read_contents(path)? else {
+        let Some(Contents { manifest, .. }) = read_contents(path)? else {
             return Err(not_a_sweep(format!("its {MANIFEST} is damaged")));
         };
         if manifest.command != command {
             return Err(not_a_sweep(format!("it belongs to frictionsim {}", manifest.command)));
         }
         let lock = share(path, |_| Ok(()))?;
-        Ok(Self { output: OutputFolder::shared(path, &manifest, lock), is_sealed })
+        Ok(Self { output: OutputFolder::shared(path, &manifest, lock) })
     }
 
     /// What holds the files over all points.
@@ -179,7 +176,7 @@ impl SweepFolder {
         let Some(bytes) = read_existing(&self.point_path(point))? else {
             return Ok(Found::Nothing);
         };
-        let record = own_value(&bytes, !self.is_sealed)
+        let record = read_sealed(&bytes)
             .and_then(|value| serde_json::from_value::<PointRecord>(value).map_err(Defect::damage));
         let sweep_hash = &self.output.manifest().case_hash;
         Ok(match record {
@@ -196,7 +193,7 @@ impl SweepFolder {
     pub fn read_clock(&self, point: usize) -> PointClock {
         let bytes =
             read_file(&self.output.path().join(clock_name(point)), RESULT).unwrap_or_default();
-        let value = own_value(&bytes, false).ok();
+        let value = read_sealed(&bytes).ok();
         value.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default()
     }
 
