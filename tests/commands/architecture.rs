@@ -50,7 +50,7 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
     ("crates/case", 10_823),
-    ("crates/chart", 4_744),
+    ("crates/chart", 4_742),
     ("crates/described", 107),
     ("crates/formats", 5_476),
     ("crates/linalg", 4_002),
@@ -66,7 +66,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 4_230),
     ("crates/physics/src/transient", 4_571),
-    ("crates/results", 17_197),
+    ("crates/results", 17_195),
     ("crates/signal", 5_995),
     ("crates/study", 10_276),
     ("src/app", 4_493),

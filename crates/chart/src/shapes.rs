@@ -205,14 +205,12 @@ impl Layer for Fill {
     }
 
     fn series(&self) -> Vec<Series> {
-        if self.is_range {
+        // A range and an area without a name are shades of other series.
+        let Some(name) = self.name.as_deref().filter(|_| !self.is_range) else {
             return Vec::new();
-        }
+        };
         // Of areas stacked on others the height is the quantity.
         let heights = self.points.iter().map(|[x, one, other]| (*x, other - one));
-        vec![Series {
-            name: self.name.as_deref().map(plain).unwrap_or_default(),
-            ..Series::new(SeriesKind::Line, self.colour, heights)
-        }]
+        vec![Series { name: plain(name), ..Series::new(SeriesKind::Line, self.colour, heights) }]
     }
 }

@@ -59,13 +59,10 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
 }
 
 fn is_alike(one: &PanelData, other: &PanelData) -> bool {
-    let titles = |panel: &PanelData| [0, 1].map(|k| plain(&panel.axes[k].title));
-    let is_drawing = titles(one) == ["", ""]; // Of a body, whose outlines alone say nothing.
-    let ticks = |panel: &PanelData| panel.axes.clone().map(|own| own.fixed_ticks);
-    titles(one) == titles(other)
-        && ticks(one) == ticks(other)
-        && !one.series.is_empty()
-        && !is_drawing
+    let axes = |own: &PanelData| own.axes.clone().map(|own| (plain(&own.title), own.fixed_ticks));
+    // Of the drawing of a body outlines alone say nothing.
+    let is_drawing = one.axes.iter().all(|own| plain(&own.title).is_empty());
+    axes(one) == axes(other) && !one.series.is_empty() && !is_drawing
 }
 
 fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {

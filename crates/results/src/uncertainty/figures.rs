@@ -23,13 +23,11 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
             Rule::vertical(friction).stroke(Stroke::dashed(INK, 0.8)).name("friction of the case")
         })
     };
-    let (value, interval) = probability(&summary.probability_over_friction);
+    let (value, bounds, interval) = probability(&summary.probability_over_friction);
     let panel = |name: &str| Panel::new(friction(), share(name)).height(150.0).legend();
     let distribution = panel("share unstable below *μ*").layers(own()).layers(families);
-    let probability = panel("probability of squeal")
-        .layer(interval)
-        .layers(own())
-        .layer(value.name("some mode unstable"));
+    let probability = panel("probability of squeal").layer(interval).layers(bounds);
+    let probability = probability.layers(own()).layer(value.name("some mode unstable"));
     Figure::new(
         "uncertainty",
         "Distribution of the critical friction of each family of modes (a), probability of squeal \
@@ -40,12 +38,14 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     .panel(probability)
 }
 
-/// A probability over its abscissa, and its interval.
-fn probability(points: &[[f64; 4]]) -> (Line, Fill) {
+/// A probability over its abscissa, and its interval between its bounds.
+fn probability(points: &[[f64; 4]]) -> (Line, [Line; 2], Fill) {
     let [at, value, low, high] =
         [0, 1, 2, 3].map(|k| points.iter().map(|row| row[k]).collect::<Vec<f64>>());
-    let interval = Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25).name("95 % interval");
-    (Line::new(&at, &value).solid(SERIES[0], 1.2), interval)
+    let interval = Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25);
+    let bounds =
+        [low, high].map(|y| Line::new(&at, &y).solid(SERIES[0], 0.3).name("95 % interval"));
+    (Line::new(&at, &value).solid(SERIES[0], 1.2), bounds, interval)
 }
 
 /// The friction coefficient up to which something happens, with a little room: onsets of families, changes of the
@@ -103,12 +103,13 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
 /// Probability of squeal over each design parameter.
 pub fn robust(summary: &RobustSummary) -> Figure {
     let panel = |curve: &DesignCurve| {
-        let (value, interval) = probability(&curve.points);
+        let (value, bounds, interval) = probability(&curve.points);
         let bound = Rule::horizontal(summary.bound).stroke(Stroke::dashed(INK, 0.8));
         let share = Axis::new("probability of squeal", "–").between(0.0, 1.0);
         let panel = Panel::new(parameter_axis(&curve.key), share)
             .height(130.0)
             .layer(interval)
+            .layers(bounds)
             .layer(value.marked(Marker::Disc, 1.5))
             .layer(bound.name("bound"));
         let own = curve.own.map(|own| {
