@@ -26,13 +26,6 @@ pub(super) fn uncertainty(norms: [f64; 3], mode: &ReducedMode) -> f64 {
 }
 
 impl SparseSweep<'_> {
-    pub(super) fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
-        for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
-            self.points[*k] = point;
-        }
-        Ok(())
-    }
-
     pub(super) fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
         let solved = AtomicUsize::new(0);
         crate::parallel::map(indices, |&k| {
@@ -77,7 +70,6 @@ impl SparseSweep<'_> {
             wanted,
             checks,
             range_end,
-            solved_in: self.builder.model.sample_width(mu),
             has_coarse_lefts: true,
         })
     }
