@@ -12,8 +12,6 @@ use crate::linalg::{Mat, c64};
 
 /// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
-/// Bisections of an interval in all; a branch that these do not follow is lost.
-const MOST_BETWEEN: usize = 250;
 
 /// Name of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,7 +170,7 @@ pub fn track(
             (after.friction_coefficient, &after.modes),
             needed,
             model,
-            (0, &mut 0),
+            0,
         )?;
         for branch in &mut branches {
             let last = branch.modes[k - 1];
@@ -230,7 +228,7 @@ fn match_modes(
     to: ModesAt<'_>,
     needed: usize,
     model: &ReducedModel,
-    (depth, solved): (usize, &mut usize),
+    depth: usize,
 ) -> Result<Vec<Link>, LinalgError> {
     let middle = 0.5 * (from.0 + to.0);
     let overlaps = overlaps(from, to, model);
@@ -238,12 +236,11 @@ fn match_modes(
     let step = to.0 - from.0;
     let mut needed_links = links.iter().zip(from.1).take(needed);
     let is_clear = needed_links.all(|(link, mode)| link.is_some() || may_vanish(mode, step));
-    if !is_clear && depth < MAX_BISECTIONS && *solved < MOST_BETWEEN {
-        *solved += 1;
+    if !is_clear && depth < MAX_BISECTIONS {
         let modes = model.solve_between(middle, [from.1, to.1])?;
-        let first = match_modes(from, (middle, &modes), needed, model, (depth + 1, solved))?;
+        let first = match_modes(from, (middle, &modes), needed, model, depth + 1)?;
         let reached = first.iter().take(needed).flatten().map(|(i, _)| i + 1).max().unwrap_or(0); // Up to the last that these have come to.
-        let second = match_modes((middle, &modes), to, reached, model, (depth + 1, solved))?;
+        let second = match_modes((middle, &modes), to, reached, model, depth + 1)?;
         let links = first.into_iter().zip(from.1).map(|(link, own)| {
             let (i, mut passed) = link?;
             let (j, beyond) = second[i].clone()?;
@@ -258,7 +255,7 @@ fn match_modes(
         return Ok(links.collect());
     }
     // Only over a step so short is the nearest eigenvalue the same branch; one that is lost is told.
-    if !is_clear && depth == MAX_BISECTIONS {
+    if !is_clear {
         link_by_extrapolation(from, to, needed, &mut links);
     }
     let mut passed = grown_between((from, to), &links, needed, model)?;
