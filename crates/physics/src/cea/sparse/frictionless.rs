@@ -357,7 +357,7 @@ impl<'a> Inertia<'a> {
         ROUND_OFF * self.largest_ratio
     }
 
-    /// Number of motions below an angular frequency, by Sylvester's law of inertia: below a higher one where `K - omega^2 M` has no factors.
+    /// Number of motions below an angular frequency, by Sylvester's law of inertia: below a higher one where there are no factors.
     fn count_below(&self, omega: f64) -> Result<usize, LinalgError> {
         let count = |share: f64| {
             let factors = self.factors_at(omega * omega + share * self.least_shift())?;

@@ -27,7 +27,7 @@ pub fn sweep_by_diameters(
 ) -> Result<FrictionSweep, CeaError> {
     let all = 0..=cyclic.highest();
     let tangents: Vec<SlidingTangent> = crate::parallel::map(all, |n| cyclic.harmonic(n));
-    // How many modes are asked for of each number: twice as many as wanted, spread over all, and some. A limit in frequency says it by itself.
+    // How many modes are asked for of each number: twice as many as wanted, spread over all, and some. A limit says it by itself.
     let count = |tangent: &SlidingTangent| match request.limit {
         ModeLimit::Lowest(wanted) => {
             let share = (2 * wanted).div_ceil(tangents.len()) + GUARD;

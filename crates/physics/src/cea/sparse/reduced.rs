@@ -231,8 +231,8 @@ impl ReducedModel {
         self.complete(modes, &self.at(mu), mu);
     }
 
-    /// The modes for matching modes at the `ends` of a range of friction, as many as there are: in the span of these where the basis is made
-    /// of samples, without the small imaginary parts that light damping gives them, whose square is what eigenvalues are wrong by.
+    /// The modes for matching those at the `ends` of a range of friction, as many as there are: in their span where the basis is made of
+    /// samples, without the small imaginary parts that light damping gives them, whose square is what eigenvalues are wrong by.
     pub fn solve_between(
         &self,
         mu: f64,

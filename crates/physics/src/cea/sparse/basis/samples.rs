@@ -46,8 +46,8 @@ impl BasisBuilder<'_> {
     }
 
     /// Takes up the modes at `values`, of which none is held, from iterations side by side. Of the quadratic problem they begin with
-    /// combinations of the modes without friction, which the basis holds first. They leave structural damping and tables out: the vectors are
-    /// a start, which the ladder of a sweep improves.
+    /// combinations of the modes without friction, which the basis holds first. They leave structural damping and tables out: a start,
+    /// which the ladder of a sweep improves.
     ///
     /// # Errors
     /// If a `K(mu)` is singular, or an iteration or a dense decomposition fails.
