@@ -26,8 +26,6 @@ use std::sync::OnceLock;
 const DENSE_UP_TO: usize = 150;
 /// Energy of a correction, relative to its mode, below which the mode is left as it is.
 const SMALLEST_ENERGY: f64 = 1e-24;
-/// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
-const LOSSY_ROUNDS: usize = 6;
 
 /// Basis of the modes at a few friction coefficients, each from an iteration of its own ([`BasisBuilder::search`]).
 ///
@@ -165,10 +163,6 @@ impl<'a> BasisBuilder<'a> {
     /// # Errors
     /// If `K(mu)` is singular or a dense decomposition fails.
     pub fn search(&mut self, mu: f64, extra: usize) -> Result<(), CeaError> {
-        // What was held there may span what looks like a mode and is none.
-        if let Linearization::Companion { .. } = self.linearization {
-            self.model.drop_sample(mu);
-        }
         let count = self.leading_count() + extra;
         let found = self.steps(&[mu], |own, _| own.dominant_vectors(mu, count, None))?;
         self.take(mu, &found[0]);

@@ -1,7 +1,6 @@
 //! The undamped modes without friction, and the proof that none is missing.
 
 use super::basis::scale_to_unit_length;
-use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
 use super::{CONVERGED, GUARD_MODES, HALF_THE_DIGITS, LOSSY_GUARD, MOST_ATTEMPTS, NEAR, ROUND_OFF};
 use crate::cea::accuracy::ROUNDING_ERRORS;
@@ -82,7 +81,7 @@ impl FrictionlessModes {
             // The first guess serves modes far below the largest eigenvalue of the mesh.
             ModeLimit::Lowest(count) => (count, SHIFT * NEAR * inertia.largest_ratio),
             ModeLimit::MaxFrequency(hz) => {
-                (inertia.bound_below(tangent, TAU * hz)?, SHIFT * (TAU * hz).powi(2))
+                (inertia.count_below(TAU * hz)?, SHIFT * (TAU * hz).powi(2))
             }
         };
         // One mode above tells that none below a frequency is missing under friction, and whether the next one grows.
@@ -98,7 +97,10 @@ impl FrictionlessModes {
                     return Err(CeaError::too_many_modes(asked, unknowns - rigid));
                 }
                 ModeLimit::Lowest(count) => (count + displaced).min(unknowns - rigid),
-                ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
+                // Gyroscopic forces may bring some below it: where all that are held are there more are asked for.
+                ModeLimit::MaxFrequency(_) => {
+                    below.saturating_sub(rigid).max(usize::from(tangent.is_gyroscopic))
+                }
             };
             // Rigid motions took places of modes, and between slow ones there is no counting.
             let elastic = request - rigid;
@@ -336,19 +338,6 @@ impl<'a> Inertia<'a> {
         Lowest { vectors, kappas, rigid, unheld, rounding }
     }
 
-    /// Motions below an angular frequency, at least as many as there are: below a higher one where `K - omega^2 M` has no factors.
-    fn bound_below(&self, tangent: &SlidingTangent, omega: f64) -> Result<usize, LinalgError> {
-        let above = |share: f64| omega.hypot((share * self.least_shift()).sqrt());
-        let count = |share: f64| self.count_below(above(share));
-        let shares = [1.0, 10.0, 100.0].into_iter();
-        let below = shares.fold(count(0.0), |found, share| found.or_else(|_| count(share)))?;
-        if !tangent.is_gyroscopic {
-            return Ok(below);
-        }
-        let unheld = self.factors_at(0.0).map_or(0, |own| own.negative_count()); // Motions with kappa < 0.
-        Ok(below.max(gyroscopic_count(tangent, omega)? + unheld))
-    }
-
     /// Factors of `K - sigma M` with a shift amid the modes, else those of `K + shift M`.
     fn factors(&self, frequencies: &[f64], shift: f64) -> Result<SparseLu, LinalgError> {
         // There may be no such gap, or no such factors.
@@ -368,9 +357,13 @@ impl<'a> Inertia<'a> {
         ROUND_OFF * self.largest_ratio
     }
 
-    /// Number of modes below an angular frequency, by Sylvester's law of inertia.
-    fn count_below(&self, frequency: f64) -> Result<usize, LinalgError> {
-        counted(frequency, |frequency| self.factors_at(frequency * frequency))
+    /// Number of motions below an angular frequency, by Sylvester's law of inertia: below a higher one where there are no factors.
+    fn count_below(&self, omega: f64) -> Result<usize, LinalgError> {
+        let count = |share: f64| {
+            let factors = self.factors_at(omega * omega + share * self.least_shift())?;
+            Ok(factors.negative_count())
+        };
+        [1.0, 10.0, 100.0].into_iter().fold(count(0.0), |own, share| own.or_else(|_| count(share)))
     }
 }
 

@@ -23,7 +23,6 @@ mod edge;
 mod fixtures;
 mod frictionless;
 mod full_problem;
-mod inertia;
 mod left;
 mod linearization;
 mod meetings;
@@ -82,5 +81,7 @@ const NEIGHBOURS: usize = 4;
 /// Start vectors of an iteration: as many as equal eigenvalues may come together. With twice as many a half more are needed in all, which
 /// costs as much as is won by reading matrices and factors once for more of them.
 const SEARCH_WIDTH: usize = 4;
+/// Columns of a dense operator up to which all of its pairs cost no more than an iteration for the leading ones: a second or two.
+const WIDEST: usize = 600;
 /// Vectors over the unknowns that are expanded, multiplied and solved for together.
 const GROUP_WIDTH: usize = 24;

@@ -1,7 +1,7 @@
 //! Sweep over the friction coefficient of a body with cyclic symmetry, one number of nodal diameters after the other.
 
 use super::point::normalize;
-use super::{CyclicTangent, FrictionlessModes, sweep};
+use super::{CyclicTangent, sweep};
 use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors,
     PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
@@ -11,7 +11,7 @@ use crate::prestress::SlidingTangent;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Modes of each number of nodal diameters beyond those that are among the lowest without friction.
+/// Modes of each number of nodal diameters beyond its share of those wanted.
 const GUARD: usize = 2;
 
 /// Complex modes of `whole` and where their branches turn unstable, from the waves of each number of nodal diameters: the spectrum of
@@ -27,69 +27,35 @@ pub fn sweep_by_diameters(
 ) -> Result<FrictionSweep, CeaError> {
     let all = 0..=cyclic.highest();
     let tangents: Vec<SlidingTangent> = crate::parallel::map(all, |n| cyclic.harmonic(n));
-    let mut counts = counts(&tangents, request.limit)?;
+    // How many modes are asked for of each number: twice as many as wanted, spread over all, and some. A limit says it by itself.
+    let count = |tangent: &SlidingTangent| match request.limit {
+        ModeLimit::Lowest(wanted) => {
+            let share = (2 * wanted).div_ceil(tangents.len()) + GUARD;
+            Some(share.min(tangent.unknowns.len()))
+        }
+        ModeLimit::MaxFrequency(_) => None,
+    };
+    let mut counts: Vec<Option<usize>> = tangents.iter().map(count).collect();
     let mut parts: Vec<Option<FrictionSweep>> = vec![None; tangents.len()];
     loop {
         solve(&tangents, &counts, request, watch, &mut parts)?;
-        let short = match request.limit {
+        let mut short = match request.limit {
             ModeLimit::Lowest(count) => short_of(&parts, count, &counts),
             ModeLimit::MaxFrequency(_) => Vec::new(),
         };
-        // Friction brings modes of some number of diameters among the lowest: more of these.
+        short.retain(|&n| counts[n] < Some(tangents[n].unknowns.len()));
+        // More of the numbers of which all are among the lowest.
         if short.is_empty() {
             break;
         }
         for n in short {
             parts[n] = None;
-            let more = counts[n].map_or(GUARD, |count| 2 * count);
-            counts[n] = Some(more.min(tangents[n].unknowns.len()));
+            counts[n] = counts[n].map(|count| (2 * count).min(tangents[n].unknowns.len()));
         }
     }
     let parts = parts.into_iter().enumerate();
     let parts = parts.filter_map(|(n, part)| Some(expanded((whole, cyclic), n, part?)));
     Ok(merged(parts.collect(), request.limit))
-}
-
-/// How many modes of each number of nodal diameters are asked for: none where no mode is low enough; `None` for a limit in frequency,
-/// which says it by itself.
-fn counts(tangents: &[SlidingTangent], limit: ModeLimit) -> Result<Vec<Option<usize>>, CeaError> {
-    let ModeLimit::Lowest(wanted) = limit else {
-        return Ok(vec![None; tangents.len()]);
-    };
-    let mut asked = vec![(2 * wanted).div_ceil(tangents.len()) + GUARD; tangents.len()]; // Twice as many, spread over all, and some.
-    let mut found: Vec<Vec<f64>> = vec![Vec::new(); tangents.len()];
-    loop {
-        // Frequencies without friction, as many as may be among the lowest of all.
-        let own = tangents.iter().zip(&asked).zip(&found);
-        let solved: Result<Vec<Vec<f64>>, CeaError> =
-            crate::parallel::map(own, |((tangent, &count), known)| {
-                let count = count.min(tangent.unknowns.len());
-                if known.len() >= count {
-                    return Ok(known.clone());
-                }
-                let limit = ModeLimit::Lowest(count);
-                Ok(FrictionlessModes::compute(tangent, limit)?.frequencies)
-            });
-        found = solved?;
-        let mut all: Vec<f64> = found.iter().flatten().copied().collect();
-        all.sort_by(f64::total_cmp);
-        let highest = match wanted <= all.len() {
-            true => all[keeping_ties(all.iter().copied(), wanted) - 1],
-            false => f64::INFINITY,
-        };
-        let is_short = |n: usize| {
-            let last = found[n].last().copied().unwrap_or(0.0);
-            last <= highest && found[n].len() < tangents[n].unknowns.len()
-        };
-        let short: Vec<usize> = (0..tangents.len()).filter(|&n| is_short(n)).collect();
-        if short.is_empty() {
-            let low = |own: &Vec<f64>| own.iter().filter(|f| **f <= highest).count();
-            let counts = found.iter().zip(tangents);
-            let counts = counts.map(|(own, t)| Some((low(own) + GUARD).min(t.unknowns.len())));
-            return Ok(counts.collect());
-        }
-        short.into_iter().for_each(|n| asked[n] *= 2);
-    }
 }
 
 /// Sweeps the numbers of nodal diameters that have none yet.

@@ -8,19 +8,14 @@ use std::ops::Range;
 
 /// `w_i^T P x_j` of the left vectors of some modes and the right ones of others, by one product of real matrices.
 pub fn forms(lefts: &[ReducedMode], p: &Mat<f64>, rights: &[ReducedMode]) -> Mat<c64> {
-    // Real parts of all, then imaginary ones; coordinates go on with zeros.
     let parts = |modes: &[ReducedMode], of: fn(&ReducedMode) -> &Vec<c64>| {
-        let count = modes.len();
-        Mat::from_fn(p.nrows(), 2 * count, |i, j| {
-            let value = of(&modes[j % count]).get(i);
-            value.map_or(0.0, |v| if j < count { v.re } else { v.im })
-        })
+        side_by_side(p.nrows(), &modes.iter().map(of).collect::<Vec<_>>())
     };
     let image = product(p.as_ref(), parts(rights, |mode| &mode.right).as_ref());
     let all = transpose_product(parts(lefts, |mode| &mode.left).as_ref(), image.as_ref());
-    let (a, b) = (lefts.len(), rights.len());
-    Mat::from_fn(a, b, |i, j| {
-        c64::new(all[(i, j)] - all[(a + i, b + j)], all[(i, b + j)] + all[(a + i, j)]) // (a + i b)^T (c + i d), nothing conjugated.
+    Mat::from_fn(lefts.len(), rights.len(), |i, j| {
+        let own = |a: usize, b: usize| all[(2 * i + a, 2 * j + b)];
+        c64::new(own(0, 0) - own(1, 1), own(0, 1) + own(1, 0)) // (a + i b)^T (c + i d), nothing conjugated.
     })
 }
 

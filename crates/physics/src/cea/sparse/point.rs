@@ -44,8 +44,6 @@ pub struct SolvedPoint {
     pub checks: Vec<ModeCheck>,
     /// Frequency up to which modes are wanted here, rad/s: that of the highest where a number of them is.
     pub range_end: f64,
-    /// Columns of the sample that it was solved in, where there is one of its own.
-    pub solved_in: Option<usize>,
     /// Whether left vectors are coarse still.
     pub has_coarse_lefts: bool,
 }
@@ -154,7 +152,6 @@ mod tests {
             wanted: 4,
             checks: [(1e-16, 1e-5), (2e-9, 1e-15), (2e-10, 1e-5), (2e-10, 1e-12)].map(check).into(),
             range_end: 5.0,
-            solved_in: None,
             has_coarse_lefts: false,
         };
         assert_eq!(point.drop_unconverged(), [3.0, 2.0]);

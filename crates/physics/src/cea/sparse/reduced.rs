@@ -19,11 +19,8 @@ use crate::linalg::vectors::length;
 use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{MotionMatrices, SlidingTangent};
+use parts::BasisParts;
 pub(super) use parts::inside;
-use parts::{BasisPart, BasisParts};
-
-/// Digits of an entry of two matrices up to which it is the same in both, but for a factor.
-const SHARED_DIGITS: f64 = 64.0 * f64::EPSILON;
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
@@ -66,7 +63,7 @@ fn beside_stiffness(tangent: &SlidingTangent) -> (f64, Vec<Vec<f64>>) {
     let last = damping.len() - 1;
     let share = stiffness.get(last).map_or(0.0, |own| size(&damping[last]) / size(own));
     let beside = |p: usize| -> Vec<f64> {
-        let bound = if p == 0 { 0.0 } else { SHARED_DIGITS * size(&damping[p]) };
+        let bound = if p == 0 { 0.0 } else { ROUND_OFF * size(&damping[p]) };
         let own = damping[p].iter().zip(&stiffness[p]).map(|(c, k)| c - share * k);
         own.map(|own| if own.abs() > bound { own } else { 0.0 }).collect()
     };
@@ -206,8 +203,7 @@ impl ReducedModel {
         count: usize,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
-        let mut modes =
-            self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, true)?;
+        let mut modes = self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count)?;
         self.complete(&mut modes, &at, mu);
         Ok(modes)
     }
@@ -226,31 +222,17 @@ impl ReducedModel {
             let near = |other: &&c64| (**other - lambda).norm() <= MULTIPLE * lambda.norm();
             values.iter().filter(near).count() == 1
         };
-        let part = self.surroundings(mu);
-        let at = part.as_ref().map_or_else(|| self.at(mu), |part| part.model.at(mu));
         let single = modes.iter_mut().filter(|mode| is_single(mode.eigenvalue));
         crate::parallel::map::<_, _, ()>(single, |mode| {
-            let found = match part.as_deref() {
-                Some(BasisPart { columns, .. }) => at
-                    .mode_near(&mode.map(|own| inside(columns, own)))
-                    .map(|found| found.map(|own| combined(columns, own))),
-                None => at.mode_near(mode),
-            };
-            if let Some(found) = found.filter(|found| found.eigenvalue.im > 0.0) {
+            if let Some(found) = self.mode_near(mu, mode) {
                 mode.left = found.left;
             }
         });
         self.complete(modes, &self.at(mu), mu);
     }
 
-    /// [`Self::solve_with_coarse_lefts`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
-    pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        let at = self.at(mu);
-        self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, false)
-    }
-
-    /// The same for matching modes at the `ends` of a range of friction, as many as there are: in the span of these where the basis is made
-    /// of samples, without the small imaginary parts that light damping gives them, whose square is what eigenvalues are wrong by.
+    /// The modes for matching those at the `ends` of a range of friction, as many as there are: in their span where the basis is made of
+    /// samples, without the small imaginary parts that light damping gives them, whose square is what eigenvalues are wrong by.
     pub fn solve_between(
         &self,
         mu: f64,
@@ -264,28 +246,9 @@ impl ReducedModel {
             orthonormal_complement(Mat::zeros(rows, 0).as_ref(), parts, NEAR)
         });
         let count = ends.map(<[_]>::len).into_iter().fold(0, usize::max);
-        let mut modes = self.solve_in(span, &at, count, true)?;
+        let mut modes = self.solve_in(span, &at, count)?;
         self.complete(&mut modes, &at, mu);
         Ok(modes)
-    }
-
-    /// What `modes` at a sampled `mu` have become as the sample grew; nothing where one of them does not settle, or two become one.
-    pub fn followed(&self, mu: f64, modes: &[ReducedMode]) -> Option<Vec<ReducedMode>> {
-        let columns = self.span_of_nearest(mu, 1)?;
-        let at = self.at(mu).within(&columns);
-        let found: Vec<Option<ReducedMode>> = crate::parallel::map(modes, |mode| {
-            at.mode_near(&mode.map(|own| inside(&columns, own)))
-        });
-        let mut found: Vec<ReducedMode> = found.into_iter().collect::<Option<_>>()?;
-        let is_known =
-            |(i, mode): (usize, &ReducedMode)| found[..i].iter().any(|own| own.is_same(mode));
-        let oscillates = |own: &ReducedMode| own.eigenvalue.im > 0.0 && !own.hardly_oscillates();
-        if found.iter().enumerate().any(is_known) || !found.iter().all(oscillates) {
-            return None;
-        }
-        crate::order::sort_by_number(&mut found, |own| own.eigenvalue.im);
-        found.iter_mut().for_each(|own| *own = own.map(|own| combined(&columns, own)));
-        Some(found)
     }
 
     /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
@@ -368,10 +331,9 @@ impl ReducedModel {
         space: Option<Mat<f64>>,
         at: &ProjectedMatrices,
         count: usize,
-        with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
-        let Some(columns) = space else { return self.solve_projected(at, count, with_left) };
-        let mut modes = self.solve_projected(&at.within(&columns), count, with_left)?;
+        let Some(columns) = space else { return self.solve_projected(at, count) };
+        let mut modes = self.solve_projected(&at.within(&columns), count)?;
         for mode in &mut modes {
             mode.right = combined(&columns, &mode.right);
             mode.left = combined(&columns, &mode.left);

@@ -231,19 +231,9 @@ impl<'a> SparseSweep<'a> {
         Ok(may_hold_more && self.divergence(branches)?.is_some())
     }
 
-    /// Solves all points that are not solved in the same space already, and grows the basis where a mode misses its residual.
+    /// Solves all points, and grows the basis where a mode misses its residual.
     pub fn solve(&mut self) -> Result<(), CeaError> {
-        let all: Vec<usize> = (0..self.grid.len()).collect();
-        if self.points.is_empty() {
-            self.points = self.solve_points(&all)?;
-        } else {
-            let is_stale = |k: &usize| {
-                let own = self.builder.model.sample_width(self.grid[*k]);
-                own.is_none() || own != self.points[*k].solved_in // Not the span that it was solved in.
-            };
-            let stale: Vec<usize> = all.iter().copied().filter(is_stale).collect();
-            self.solve_anew(&stale)?;
-        }
+        self.points = self.solve_points(&(0..self.grid.len()).collect::<Vec<usize>>())?;
         self.climb_all()?;
         self.check_tables()?;
         let first = self.first_asked();
@@ -369,7 +359,7 @@ mod tests {
         let factors = SparseLu::symmetric(&analysis, tangent.stiffness.evaluate(0.0)).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
-        complete.improve_at(0.2).unwrap();
+        complete.sample(&[0.2]).unwrap();
         for (found, exact) in
             after.iter().zip(complete.model.solve_with_coarse_lefts(0.2, 5).unwrap())
         {

@@ -1,28 +1,19 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
-use super::{BasisBuilder, LOSSY_ROUNDS, scale_to_unit_length, turn_to_real};
+use super::{BasisBuilder, scale_to_unit_length, turn_to_real};
 use crate::cea::CeaError;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
 use crate::cea::sparse::packed::{PackedModes, side_by_side};
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{
-    BESIDE, CHANGE_PLACES, MOST_ATTEMPTS, RESIDUAL_BOUND, ROUND_OFF, SETTLED,
-};
+use crate::cea::sparse::{BESIDE, CHANGE_PLACES, MOST_ATTEMPTS, ROUND_OFF, SETTLED, WIDEST};
 use crate::linalg::dense::join_columns;
 use crate::linalg::{LinalgError, Mat, c64};
 use std::convert::Infallible;
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
 const MOST_SHIFTS: usize = 6;
-/// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
-const HISTORY: usize = 3;
-/// Unknowns up to which complex factors beside lossy modes cost less than the rounds by the factors at rest that they save.
-const MOST_LIGHT: usize = 3000;
-/// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
-/// second or two for each friction value.
-pub(super) const MOST_DENSE: usize = 300;
 
 impl BasisBuilder<'_> {
     /// Leading vectors of the basis that are motions without friction: rigid ones and modes.
@@ -44,7 +35,7 @@ impl BasisBuilder<'_> {
     /// without damping are near enough, or those of proportional damping.
     pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
         if self.tangent.is_tabled() {
-            return self.improve_at(0.0).map(|_| ());
+            return self.sample(&[0.0]);
         }
         let modes = Mat::identity(self.model.dimension(), self.leading_count());
         self.model.hold_coordinates(0.0, modes);
@@ -55,7 +46,8 @@ impl BasisBuilder<'_> {
     }
 
     /// Takes up the modes at `values`, of which none is held, from iterations side by side. Of the quadratic problem they begin with
-    /// combinations of the modes without friction, which the basis holds first.
+    /// combinations of the modes without friction, which the basis holds first. They leave structural damping and tables out: a start,
+    /// which the ladder of a sweep improves.
     ///
     /// # Errors
     /// If a `K(mu)` is singular, or an iteration or a dense decomposition fails.
@@ -66,31 +58,9 @@ impl BasisBuilder<'_> {
         let found = self.steps(values, |own, i| own.dominant_vectors(values[i], count, leading))?;
         for (&mu, vectors) in values.iter().zip(found) {
             self.begin_sample(mu);
-            let known = self.model.dimension();
             self.take(mu, &vectors);
-            // The iteration leaves structural damping and tables out: its vectors are a start.
-            if self.tangent.is_lossy() {
-                self.refine_lossy(mu, known)?;
-            }
         }
         Ok(())
-    }
-
-    /// Makes the basis hold the modes at `mu` better; whether it grew.
-    ///
-    /// # Errors
-    /// If `K(mu)` is singular, or an iteration or a dense decomposition fails.
-    pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
-        if self.is_whole {
-            return Ok(false);
-        }
-        if self.is_sampled(mu) {
-            let modes = self.model.solve_right(mu, self.count)?;
-            return self.refine_modes(mu, &modes);
-        }
-        let before = self.model.dimension();
-        self.sample(&[mu])?;
-        Ok(self.model.dimension() > before)
     }
 
     /// Whether the basis holds the modes at `mu` as such.
@@ -100,7 +70,7 @@ impl BasisBuilder<'_> {
 
     /// Whether the full problem may be decomposed.
     pub fn is_small(&self) -> bool {
-        self.tangent.stiffness.dimension() <= MOST_DENSE
+        2 * self.tangent.stiffness.dimension() <= WIDEST
     }
 
     /// Lets all motions of the body stand for the sample at `mu`.
@@ -116,39 +86,6 @@ impl BasisBuilder<'_> {
     pub fn restrict(&mut self) -> Option<Mat<f64>> {
         let may_restrict = self.tangent.is_lossy() && !self.model.samples.is_empty();
         may_restrict.then(|| self.model.restrict(self.leading_count().min(self.model.dimension())))
-    }
-
-    /// Refines the sample at `mu` round after round and keeps of what was added to the `known` first vectors of the basis only the modes.
-    fn refine_lossy(&mut self, mu: f64, known: usize) -> Result<(), CeaError> {
-        let is_light = self.tangent.stiffness.dimension() <= MOST_LIGHT;
-        let mut modes = self.model.solve_with_coarse_lefts(mu, self.count)?;
-        for round in 0..if is_light { MOST_ATTEMPTS } else { LOSSY_ROUNDS } {
-            if round % HISTORY == 0 {
-                self.hold_solved(mu, &modes);
-            }
-            let has_grown =
-                if is_light { self.shift(mu, &modes) } else { self.refine_modes(mu, &modes)? };
-            if !has_grown {
-                break;
-            }
-            let found = match self.model.followed(mu, &modes) {
-                Some(found) => found,
-                None => self.model.solve_with_coarse_lefts(mu, self.count)?,
-            };
-            let before = std::mem::replace(&mut modes, found);
-            // What this round moved, the next one would move by a hundredth of.
-            let moved = |(old, new): (&ReducedMode, &ReducedMode)| {
-                (old.eigenvalue - new.eigenvalue).norm() / new.eigenvalue.norm()
-            };
-            let moved = before.iter().zip(&modes).map(moved).fold(0.0, f64::max);
-            if is_light && moved <= RESIDUAL_BOUND {
-                break;
-            }
-        }
-        let modes = self.model.solve_right(mu, self.count)?;
-        self.hold_solved(mu, &modes);
-        self.model.restrict(known); // What rounds added beside the modes goes.
-        Ok(())
     }
 
     /// Lets `modes` stand for a sample at `mu`, if there is none and the basis is made of samples.
@@ -296,7 +233,7 @@ impl BasisBuilder<'_> {
         let has_many = self.sampled.iter().filter(is_between).count() > MOST_ATTEMPTS;
         let mut values = [from, to, place].into_iter(); // Ends first: they serve the intervals beside it, too.
         match values.find(|mu| !self.sampled.contains(mu)) {
-            Some(mu) if !has_many => self.improve_at(mu).map(|_| true),
+            Some(mu) if !has_many => self.sample(&[mu]).map(|()| true),
             _ => Ok(false),
         }
     }

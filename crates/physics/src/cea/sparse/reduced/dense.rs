@@ -5,15 +5,12 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::own_frequency;
 use crate::cea::sparse::projected::ProjectedMatrices;
-use crate::cea::sparse::{CONVERGED, ROUND_OFF, SAME_EIGENVALUE, SEARCH_WIDTH};
+use crate::cea::sparse::{CONVERGED, ROUND_OFF, SAME_EIGENVALUE, SEARCH_WIDTH, WIDEST};
 use crate::linalg::dense::{column, column_mut, product, random_columns};
 use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
 use crate::linalg::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_schur};
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError};
 use crate::linalg::{Mat, MatRef, Scale, c64};
-
-/// Columns of an operator up to which all of its pairs cost no more than an iteration for the leading ones.
-const WIDEST: usize = 600;
 
 /// A matrix that is applied to blocks of vectors.
 struct DenseOperator<'a>(MatRef<'a, f64>);
@@ -34,13 +31,12 @@ impl ReducedModel {
         &self,
         at: &ProjectedMatrices,
         count: usize,
-        with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
         if let Some(gain) = at.losses.iter().find_map(|(gain, _)| gain.0.as_ref()) {
             let start_hz = gain.reference_hz;
             let frozen = |frequency_hz: f64| {
                 let at = at.frozen(frequency_hz);
-                self.solve_lossy(&at, count, true)
+                self.solve_lossy(&at, count)
             };
             let mut modes = own_frequency::solve(at, &frozen, start_hz)?; // Each at its own frequency.
             for mode in &mut modes {
@@ -49,7 +45,7 @@ impl ReducedModel {
             return Ok(modes);
         }
         if !at.losses.is_empty() {
-            return self.solve_lossy(at, count, with_left); // i H alone.
+            return self.solve_lossy(at, count); // i H alone.
         }
         let centred = self.centred(at);
         let at = centred.as_ref().unwrap_or(at);
@@ -60,15 +56,13 @@ impl ReducedModel {
         };
         let operator = self.shift_inverted(at, &lu);
         let is_wide = operator.ncols() > WIDEST.max(4 * leading);
-        let found = is_wide.then(|| self.leading_pairs(&operator, leading, with_left));
-        let all = || real_eigen(operator.as_ref(), with_left, leading);
+        let found = is_wide.then(|| self.leading_pairs(&operator, leading));
+        let all = || real_eigen(operator.as_ref(), true, leading);
         let eigen = found.transpose()?.flatten().map_or_else(all, Ok)?;
         // The upper half of a left vector of the operator is K^T times that of the problem.
         let m = at.stiffness.nrows();
-        let mut left = eigen.left;
-        if let Some(left) = &mut left {
-            lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
-        }
+        let mut left = eigen.left.expect("left vectors are asked for");
+        lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
 
         let mut order: Vec<usize> = (0..eigen.values.len()).collect();
         crate::order::sort_by_number(&mut order, |&i| -eigen.values[i].norm()); // Largest |s| first: nearest to the centre.
@@ -80,9 +74,7 @@ impl ReducedModel {
                     inverse_value: eigen.values[i],
                     derivative: c64::new(0.0, 0.0),
                     right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
-                    left: left.as_ref().map_or_else(Vec::new, |left| {
-                        unpack(&eigen.values, left.as_ref(), m, i, true)
-                    }),
+                    left: unpack(&eigen.values, left.as_ref(), m, i, true),
                 })
             })
             .take(count)
@@ -96,7 +88,6 @@ impl ReducedModel {
         &self,
         operator: &Mat<f64>,
         wanted: usize,
-        with_left: bool,
     ) -> Result<Option<RealEigen>, LinalgError> {
         let is_companion = matches!(self.linearization, Linearization::Companion { .. });
         let is_wanted = |s: c64| !is_companion || self.linearization.eigenvalue(s.conj()).is_some();
@@ -116,32 +107,27 @@ impl ReducedModel {
         if !is_converged(&right) {
             return Ok(None);
         }
-        let mut left = None;
-        if with_left {
-            // Those of the transpose, `S^T z = lambda z`, each with the eigenvalue that is its own.
-            let other = side(operator.transpose())?;
-            let mut columns = Mat::zeros(operator.ncols(), right.values.len());
-            let mut is_free = vec![is_converged(&other); other.values.len()];
-            for (i, value) in right.values.iter().enumerate().filter(|own| own.1.im >= 0.0) {
-                let away = |j: &usize| (other.values[*j] - value).norm();
-                let free = (0..is_free.len()).filter(|&j| is_free[j] && other.values[j].im >= 0.0);
-                let nearest = free.min_by(|a, b| away(a).total_cmp(&away(b)));
-                let same = nearest.filter(|j| away(j) <= SAME_EIGENVALUE * value.norm());
-                let Some(j) = same.filter(|&j| (other.values[j].im > 0.0) == (value.im > 0.0))
-                else {
-                    return Ok(None);
-                };
-                is_free[j] = false;
-                let signs = if value.im > 0.0 { &[1.0, -1.0][..] } else { &[1.0] }; // y = conj z.
-                for (half, sign) in signs.iter().enumerate() {
-                    let own = column(other.vectors.as_ref(), j + half).iter();
-                    let target = column_mut(&mut columns, i + half).iter_mut();
-                    target.zip(own).for_each(|(y, z)| *y = sign * z);
-                }
+        // Those of the transpose, `S^T z = lambda z`, each with the eigenvalue that is its own.
+        let other = side(operator.transpose())?;
+        let mut columns = Mat::zeros(operator.ncols(), right.values.len());
+        let mut is_free = vec![is_converged(&other); other.values.len()];
+        for (i, value) in right.values.iter().enumerate().filter(|own| own.1.im >= 0.0) {
+            let away = |j: &usize| (other.values[*j] - value).norm();
+            let free = (0..is_free.len()).filter(|&j| is_free[j] && other.values[j].im >= 0.0);
+            let nearest = free.min_by(|a, b| away(a).total_cmp(&away(b)));
+            let same = nearest.filter(|j| away(j) <= SAME_EIGENVALUE * value.norm());
+            let Some(j) = same.filter(|&j| (other.values[j].im > 0.0) == (value.im > 0.0)) else {
+                return Ok(None);
+            };
+            is_free[j] = false;
+            let signs = if value.im > 0.0 { &[1.0, -1.0][..] } else { &[1.0] }; // y = conj z.
+            for (half, sign) in signs.iter().enumerate() {
+                let own = column(other.vectors.as_ref(), j + half).iter();
+                let target = column_mut(&mut columns, i + half).iter_mut();
+                target.zip(own).for_each(|(y, z)| *y = sign * z);
             }
-            left = Some(columns);
         }
-        Ok(Some(RealEigen { values: right.values, right: right.vectors, left }))
+        Ok(Some(RealEigen { values: right.values, right: right.vectors, left: Some(columns) }))
     }
 
     /// [`Self::solve_projected`] with structural damping `H`: the eigenvalues `1 / nu` of the complex operator
@@ -158,7 +144,6 @@ impl ReducedModel {
         &self,
         at: &ProjectedMatrices,
         count: usize,
-        with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
         let centred = self.centred(at);
         let at = centred.as_ref().unwrap_or(at);
@@ -169,13 +154,11 @@ impl ReducedModel {
         };
         let (lu, operator) = lossy_operator(at, structural, omega);
         let m = at.stiffness.nrows();
-        let (values, right, left) = complex_eigen(operator.as_ref(), with_left)?;
+        let (values, right, left) = complex_eigen(operator.as_ref(), true)?;
         // The upper half of a left vector y^H of the operator is (K + i H)^T times that of the problem.
-        let left = left.map(|left| {
-            let mut upper = Mat::from_fn(m, left.ncols(), |i, j| left[(i, j)].conj());
-            lu.solve_transpose_in_place(upper.as_mut());
-            upper
-        });
+        let left = left.expect("left vectors are asked for");
+        let mut upper = Mat::from_fn(m, left.ncols(), |i, j| left[(i, j)].conj());
+        lu.solve_transpose_in_place(upper.as_mut());
         let mut order: Vec<usize> = (0..values.len()).collect();
         crate::order::sort_by_number(&mut order, |&i| -values[i].norm());
         let mode = |i: usize| {
@@ -185,7 +168,7 @@ impl ReducedModel {
                 inverse_value: values[i],
                 derivative: c64::new(0.0, 0.0),
                 right: column(&right),
-                left: left.as_ref().map_or_else(Vec::new, column),
+                left: column(&upper),
             })
         };
         let oscillating = order.into_iter().filter_map(mode);
@@ -318,13 +301,13 @@ mod tests {
             let mut model = ReducedModel::empty(&tangent, linearization);
             model.extend(Mat::identity(count, count), ROUND_OFF);
             let at = model.at(0.3);
-            let found = model.solve_projected(&at, 40, true).unwrap();
+            let found = model.solve_projected(&at, 40).unwrap();
 
             let centred = model.centred(&at);
             let held = centred.as_ref().unwrap_or(&at);
             let operator = model.shift_inverted(held, &DenseLu::factorize(held.stiffness.clone()));
             let wanted = if is_proportional { 40 } else { 80 };
-            assert!(model.leading_pairs(&operator, wanted, true).unwrap().is_some());
+            assert!(model.leading_pairs(&operator, wanted).unwrap().is_some());
             let all = real_eigenvalues(operator.as_ref()).unwrap();
             let mut all: Vec<c64> =
                 all.into_iter().filter_map(|s| linearization.eigenvalue(s)).collect();

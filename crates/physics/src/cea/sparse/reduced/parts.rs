@@ -120,7 +120,7 @@ mod tests {
             BasisBuilder::new(&tangent, linearization, start, modes.factors, &Unwatched);
         let values: Vec<f64> = (0..16).map(|i| 0.04 * f64::from(i)).collect();
         for mu in &values[1..] {
-            builder.improve_at(*mu).unwrap();
+            builder.sample(&[*mu]).unwrap();
         }
         let (model, mu) = (&mut builder.model, 0.294);
         assert!(model.surroundings(mu).unwrap().columns.ncols() < model.dimension());

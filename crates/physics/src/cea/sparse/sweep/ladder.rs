@@ -4,7 +4,7 @@ use super::SparseSweep;
 use crate::cea::CeaError;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, NEAR, RESIDUAL_BOUND};
+use crate::cea::sparse::{LITTLE, NEAR, RESIDUAL_BOUND};
 
 /// Remedies, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +25,7 @@ enum Rung {
 #[derive(Clone, Copy, Debug)]
 struct Ladder {
     rung: Rung,
-    /// Rounds on this rung, and the error before the last one.
-    rounds: usize,
+    /// The error before the last round on this rung.
     error: f64,
 }
 
@@ -34,8 +33,7 @@ impl Ladder {
     /// The remedy for what is left, the `error`: another one where the last did little. What is converged is only corrected, as long as
     /// that helps: round-off does not become less. The whole problem is one of a body that `is_small`.
     fn climb(&mut self, error: f64, is_converged: bool, is_small: bool) -> Rung {
-        let does_little = error > LITTLE * self.error || self.rounds == MOST_ATTEMPTS;
-        (self.error, self.rounds) = (error, self.rounds + 1);
+        let does_little = !(error < LITTLE * std::mem::replace(&mut self.error, error)); // Or is no number.
         if does_little {
             self.rung = match self.rung {
                 _ if is_converged => Rung::Spent,
@@ -44,7 +42,7 @@ impl Ladder {
                 Rung::Without if is_small => Rung::Whole,
                 Rung::Without | Rung::Whole | Rung::Spent => Rung::Spent,
             };
-            (self.error, self.rounds) = (f64::INFINITY, 0); // A rung begins with a round of its own.
+            self.error = f64::INFINITY; // A rung begins with a round of its own.
         }
         self.rung
     }
@@ -53,7 +51,7 @@ impl Ladder {
 impl SparseSweep<'_> {
     /// Grows the basis until the modes at all points converge, or nothing helps.
     pub(super) fn climb_all(&mut self) -> Result<(), CeaError> {
-        let first = Ladder { rung: Rung::AtRest, rounds: 0, error: f64::INFINITY };
+        let first = Ladder { rung: Rung::AtRest, error: f64::INFINITY };
         let (mut ladders, is_small) = (vec![first; self.grid.len()], self.builder.is_small());
         loop {
             let mut missing = self.missing_points();
@@ -86,14 +84,15 @@ impl SparseSweep<'_> {
     fn treat(&mut self, k: usize, rung: Rung, is_alone: bool) -> Result<(), CeaError> {
         let (mu, point) = (self.grid[k], &self.points[k]);
         match rung {
+            Rung::AtRest if self.builder.is_whole => {} // Nothing is beyond all motions.
             Rung::AtRest => {
                 let is_near = is_alone && point.worst().1 <= NEAR; // Corrections do where the error is small already.
                 let modes = &point.modes[..point.checks.len()];
-                if !self.builder.is_whole && (is_near || self.builder.is_sampled(mu)) {
+                if is_near || self.builder.is_sampled(mu) {
                     self.builder.take_up(mu, modes);
                     self.builder.refine_modes(mu, modes)?;
                 } else {
-                    self.builder.improve_at(mu)?;
+                    self.builder.sample(&[mu])?;
                 }
             }
             Rung::Shifted | Rung::Without => {
@@ -139,11 +138,9 @@ impl SparseSweep<'_> {
 
     /// Solves points after a remedy, and lets their modes stand for the samples there.
     fn solve_treated(&mut self, indices: &[usize]) -> Result<(), CeaError> {
-        self.solve_anew(indices)?;
-        for &k in indices {
-            let (mu, point) = (self.grid[k], &mut self.points[k]);
-            self.builder.hold_solved(mu, &point.modes);
-            point.solved_in = self.builder.model.sample_width(mu);
+        for (&k, point) in indices.iter().zip(self.solve_points(indices)?) {
+            self.builder.hold_solved(self.grid[k], &point.modes);
+            self.points[k] = point;
         }
         // All points are solved in spans of modes held.
         if let Some(columns) = self.builder.restrict() {

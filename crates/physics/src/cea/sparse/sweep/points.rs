@@ -9,7 +9,7 @@ use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{ModeLimit, ModeVectors, SweepProgress, SweepStage};
 use crate::linalg::vectors::length;
-use crate::linalg::{LinalgError, Mat, c64};
+use crate::linalg::{LinalgError, c64};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -26,13 +26,6 @@ pub(super) fn uncertainty(norms: [f64; 3], mode: &ReducedMode) -> f64 {
 }
 
 impl SparseSweep<'_> {
-    pub(super) fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
-        for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
-            self.points[*k] = point;
-        }
-        Ok(())
-    }
-
     pub(super) fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
         let solved = AtomicUsize::new(0);
         crate::parallel::map(indices, |&k| {
@@ -77,7 +70,6 @@ impl SparseSweep<'_> {
             wanted,
             checks,
             range_end,
-            solved_in: self.builder.model.sample_width(mu),
             has_coarse_lefts: true,
         })
     }
@@ -172,10 +164,8 @@ impl SparseSweep<'_> {
         };
         let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(lefts).map(own).collect();
         if with_lefts {
-            let leading = self.builder.leading_count().min(model.dimension());
-            let leading = model.expand(Mat::identity(leading, leading).as_ref());
             let problem = (self.tangent, self.linearization);
-            correct_lefts(problem, (&self.builder.factors, leading), mu, &mut all);
+            correct_lefts(problem, &self.builder.factors, mu, &mut all);
         }
         // Over all nodal dofs.
         for ModeVectors { right, left, .. } in &mut all {
