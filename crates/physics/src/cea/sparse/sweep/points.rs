@@ -9,7 +9,7 @@ use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{ModeLimit, ModeVectors, SweepProgress, SweepStage};
 use crate::linalg::vectors::length;
-use crate::linalg::{LinalgError, c64};
+use crate::linalg::{LinalgError, Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -164,8 +164,10 @@ impl SparseSweep<'_> {
         };
         let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(lefts).map(own).collect();
         if with_lefts {
+            let leading = self.builder.leading_count().min(model.dimension());
+            let leading = model.expand(Mat::identity(leading, leading).as_ref());
             let problem = (self.tangent, self.linearization);
-            correct_lefts(problem, &self.builder.factors, mu, &mut all);
+            correct_lefts(problem, (&self.builder.factors, leading), mu, &mut all);
         }
         // Over all nodal dofs.
         for ModeVectors { right, left, .. } in &mut all {
