@@ -18,9 +18,7 @@ pub fn is_there() -> bool {
     let is_required = std::env::var_os("FRICTIONSIM_BROWSER").is_some();
     assert!(found || !is_required, "FRICTIONSIM_BROWSER is set, but there is no chromedriver");
     if !found {
-        eprintln!(
-            "no chromedriver on this machine (Debian: apt-get install chromium chromium-driver)"
-        );
+        eprintln!("no chromedriver here (Debian: apt-get install chromium chromium-driver)");
     }
     found
 }
@@ -95,7 +93,9 @@ impl Browser {
 
     /// Types into the element that a selector finds.
     pub fn send(&self, selector: &str, text: &str) {
-        let id = self.find(selector);
+        let found = self.post("/element", json!({ "using": "css selector", "value": selector }));
+        let id = found.as_object().and_then(|ids| ids.values().next()?.as_str());
+        let id = id.unwrap_or_else(|| panic!("{selector}: {found}"));
         self.post(&format!("/element/{id}/value"), json!({ "text": text }));
     }
 
@@ -113,26 +113,17 @@ impl Browser {
     /// Moves the mouse to the first place of the window, presses, goes through the others and lets go.
     pub fn press_along(&self, places: &[[f64; 2]]) {
         let press = |kind: &str| json!({ "type": kind, "button": 0 });
-        let mut actions: Vec<Value> = Vec::new();
-        for [x, y] in places {
-            actions.push(
-                json!({ "type": "pointerMove", "duration": 100, "x": x.round(), "y": y.round() }),
-            );
-            if actions.len() == 1 {
-                actions.push(press("pointerDown"));
-            }
-        }
+        let to = |place: &[f64; 2]| {
+            let [x, y] = place.map(f64::round);
+            json!({ "type": "pointerMove", "duration": 100, "x": x, "y": y })
+        };
+        let mut actions: Vec<Value> = places.iter().map(to).collect();
+        actions.insert(1, press("pointerDown"));
         actions.push(press("pointerUp"));
         let mouse = json!({
             "type": "pointer", "id": "mouse", "parameters": { "pointerType": "mouse" }, "actions": actions,
         });
         self.post("/actions", json!({ "actions": [mouse] }));
-    }
-
-    fn find(&self, selector: &str) -> String {
-        let found = self.post("/element", json!({ "using": "css selector", "value": selector }));
-        let id = found.as_object().and_then(|ids| ids.values().next()?.as_str());
-        id.unwrap_or_else(|| panic!("{selector}: {found}")).to_owned()
     }
 
     /// What the console has been told.

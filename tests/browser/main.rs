@@ -237,8 +237,7 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     // "loudest at 19.2 kHz, ...": a contact that opens may be loudest at a multiple of its main frequency.
     let said = heard[1].as_str().and_then(|text| text.split(' ').nth(2)?.parse::<f64>().ok());
     let multiple = 1e3 * said.unwrap_or_else(|| panic!("no tone is named: {heard}")) / main;
-    let off = (multiple - multiple.round()).abs();
-    assert!(multiple > 0.9 && off < 0.05, "{heard} {main}");
+    assert!(multiple > 0.9 && (multiple - multiple.round()).abs() < 0.05, "{heard} {main}");
     check_page(&browser);
 }
 

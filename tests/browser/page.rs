@@ -79,13 +79,10 @@ pub fn play(browser: &Browser, figure: &str) {
 }
 
 pub fn check_text_stays_text(browser: &Browser) {
-    assert_eq!(
-        // A document's title has no double spaces.
-        browser.run(
-            "return document.querySelector('h1').textContent.replace(/\\s+/g, ' ').startsWith(document.title)"
-        ),
-        json!(true)
-    );
+    // A document's title has no double spaces.
+    let has_title = "return document.querySelector('h1').textContent\
+        .replace(/\\s+/g, ' ').startsWith(document.title)";
+    assert_eq!(browser.run(has_title), json!(true));
     assert!(browser.run("return document.title").as_str().unwrap().starts_with(MARKUP));
     assert_eq!(browser.run("return document.querySelectorAll('img').length"), json!(0));
 }

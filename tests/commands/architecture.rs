@@ -141,28 +141,7 @@ fn lines_of_the_upper_rooms_have_120_columns_at_most() {
 
 /// Code without its line comments.
 fn without_comments(code: &str) -> String {
-    let stripped = code.lines().map(|line| line.split("//").next().unwrap_or(""));
-    stripped.collect::<Vec<_>>().join("\n")
-}
-
-/// Items of a `use` group up to its closing brace, nested groups left whole.
-fn top_level_items(group: &str) -> Vec<&str> {
-    let (mut depth, mut start, mut items) = (0, 0, Vec::new());
-    for (at, character) in group.char_indices() {
-        match character {
-            '{' => depth += 1,
-            '}' if depth > 0 => depth -= 1,
-            ',' | '}' if depth == 0 => {
-                items.push(&group[start..at]);
-                start = at + 1;
-                if character == '}' {
-                    break;
-                }
-            }
-            _ => {}
-        }
-    }
-    items
+    code.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
@@ -222,8 +201,7 @@ fn named_paths(code: &str, module: &[String]) -> Vec<Names> {
     for (root, of) in [("crate::", root), ("super::", module.len() - 1), ("self::", module.len())] {
         for (at, _) in code.match_indices(root) {
             // `super::super::` is found at its first word, and the end of a longer word is none.
-            let before = code[..at].chars().next_back();
-            if before.is_none_or(|c| !is_word(c) && c != ':') {
+            if code[..at].chars().next_back().is_none_or(|c| !is_word(c) && c != ':') {
                 paths_of(&code[at + root.len()..], module[..of].to_vec(), &mut paths);
             }
         }
@@ -231,26 +209,29 @@ fn named_paths(code: &str, module: &[String]) -> Vec<Names> {
     paths
 }
 
-/// The paths of a `use` tree behind its prefix.
-fn paths_of(tree: &str, mut prefix: Names, paths: &mut Vec<Names>) {
-    let tree = tree.trim_start();
-    if let Some(group) = tree.strip_prefix('{') {
-        for item in top_level_items(group).iter().filter(|item| !item.trim().is_empty()) {
-            paths_of(item, prefix.clone(), paths);
+/// The paths of a `use` tree behind its prefix; gives what follows the tree.
+fn paths_of<'a>(tree: &'a str, mut prefix: Names, paths: &mut Vec<Names>) -> &'a str {
+    let mut rest = tree.trim_start();
+    if rest.starts_with('{') {
+        while let Some(item) = rest.strip_prefix(['{', ',']).map(str::trim_start) {
+            let is_end = item.is_empty() || item.starts_with('}');
+            rest = if is_end { item } else { paths_of(item, prefix.clone(), paths) };
+            rest = &rest[rest.find([',', '}']).unwrap_or(rest.len())..];
         }
-        return;
+        return rest.strip_prefix('}').unwrap_or(rest);
     }
-    let end = tree.find(|c: char| !c.is_alphanumeric() && c != '_');
-    let (name, rest) = tree.split_at(end.unwrap_or(tree.len()));
+    let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_');
+    let (name, rest) = rest.split_at(end.unwrap_or(rest.len()));
     match name {
         "super" => drop(prefix.pop()),
         "self" | "" => {}
         name => prefix.push(name.to_owned()),
     }
-    match rest.strip_prefix("::") {
-        Some(rest) => paths_of(rest, prefix, paths),
-        None => paths.push(prefix),
+    if let Some(rest) = rest.strip_prefix("::") {
+        return paths_of(rest, prefix, paths);
     }
+    paths.push(prefix);
+    rest
 }
 
 /// The modules of the tree, each with its code; the roots are none.
@@ -303,13 +284,12 @@ fn home_of(path: &[String], modules: &BTreeMap<Names, String>) -> Option<Names> 
 fn no_files_name_each_other_in_a_circle() {
     let modules = modules();
     let is_face = |name: &Names| {
-        let below = |other: &Names| other.len() > name.len() && other.starts_with(name);
-        modules.keys().any(below)
+        modules.keys().any(|other| other.len() > name.len() && other.starts_with(name))
     };
     let mut named: BTreeMap<&Names, BTreeSet<Names>> = BTreeMap::new();
     for (module, code) in modules.iter().filter(|(module, _)| !is_face(module)) {
-        let paths = named_paths(code, module);
-        let homes = paths.iter().filter_map(|path| home_of(path, &modules));
+        let paths = named_paths(code, module).into_iter();
+        let homes = paths.filter_map(|path| home_of(&path, &modules));
         named.insert(module, homes.filter(|home| home != module && !is_face(home)).collect());
     }
     assert!(named.values().map(BTreeSet::len).sum::<usize>() > 500, "imports were not found");

@@ -5,16 +5,15 @@ use crate::prelude::*;
 const SEARCH: &str = "[basin]\ntolerance = 3.0
 [sweep]\n\"contact.rotation_speed_rpm\" = [300.0, 6000.0]\nanalyses = [\"basin\"]\n";
 
-fn run(folder: &TempDir, words: &[&str]) -> Run {
-    fs::write(folder.path().join("case.toml"), disc_of([48, 9], SEARCH)).unwrap();
+fn run(words: &[&str]) -> Run {
     let changes = "contact.friction_coefficient=0.4 ; contact.rotation_speed_rpm=300.0";
-    Run::new(words).within(folder).set(&[changes]).out("out")
+    let case = disc_of([48, 9], SEARCH);
+    Run::new(words).beside(&[("case.toml", case)]).set(&[changes]).out("out")
 }
 
 #[test]
 fn the_boundary_separates_all_transients_of_its_search() {
-    let folder = folder();
-    let answer = run(&folder, &["basin", "case.toml", "--no-figures"]).done();
+    let answer = run(&["basin", "case.toml", "--no-figures"]).done();
     let answer = answer.says(&["n = 2 wins where its amplitude"]);
     let summary = answer.summary();
     let [low, high] = ["low", "high"].map(|end| summary["boundary"][end].as_f64().unwrap());
@@ -29,17 +28,15 @@ fn the_boundary_separates_all_transients_of_its_search() {
 
 #[test]
 fn a_study_of_basins_has_columns_and_a_map() {
-    let folder = folder();
-    let answer = run(&folder, &["sweep", "case.toml"]).done();
-    let answer = answer.says(&["ratio below", "ratio above"]).wrote("figures/basins.svg");
+    let answer = run(&["sweep", "case.toml"]).done().wrote("figures/basins.svg");
+    let answer = answer.says(&["ratio below", "ratio above"]);
     assert!(answer.header("points.csv").contains("boundary.low,boundary.high"));
 }
 
 /// Sixty modes are looked at for the onsets of the waves: this mesh has 36.
 #[test]
 fn a_mesh_of_few_modes_has_a_basin() {
-    let folder = folder();
-    fs::write(folder.path().join("case.toml"), disc_of([12, 2], "[basin]\n")).unwrap();
-    let run = Run::new(&["basin", "case.toml", "--no-figures"]).within(&folder).end();
-    has(&run.said(), &["!cea.modes"]);
+    let case = disc_of([12, 2], "[basin]\n");
+    let run = Run::of("basin", "case.toml").beside(&[("case.toml", case)]);
+    has(&run.end().said(), &["!cea.modes"]);
 }

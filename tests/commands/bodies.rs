@@ -34,11 +34,8 @@ pub struct Bench {
 
 impl Bench {
     fn new(kind: &Kind) -> Self {
-        let folder = folder();
-        fs::write(folder.path().join("case.toml"), &kind.case).unwrap();
-        if let Some(mesh) = &kind.mesh {
-            fs::write(folder.path().join("body.msh"), mesh).unwrap();
-        }
+        let mesh = kind.mesh.as_deref().unwrap_or_default();
+        let folder = folder_with(&[("case.toml", kind.case.as_bytes()), ("body.msh", mesh)]);
         Self { folder, answers: RefCell::default() }
     }
 
@@ -78,16 +75,10 @@ impl Bench {
         let run = run.end();
         if run.code != Some(0) {
             let line = run.stderr.lines().find(|line| line.starts_with("error"));
-            let line =
-                line.unwrap_or_else(|| panic!("{command} failed without a reason: {}", run.stderr));
+            let line = line.unwrap_or_else(|| panic!("{command}: no reason in {}", run.stderr));
             return Err(line.trim_start_matches("error: ").to_owned());
         }
         Ok((run.value(), out))
-    }
-
-    /// Runs `command` under `overrides` and draws its figures.
-    pub fn run_drawn(&self, command: &str, overrides: &[&str]) -> Answer {
-        self.run_on(command, &[&self.folder.path().join("case.toml")], overrides, "--format=svg")
     }
 
     /// Draws the figures of a results folder.

@@ -13,8 +13,8 @@ pub fn run(folder: &TempDir, words: &[&str]) -> Run {
     Run::new(words).within(folder)
 }
 
-fn on_disc(folder: &TempDir, command: &str, more: &[&str]) -> Run {
-    run(folder, &[command, &disc()]).set(&COARSE).args(more)
+fn on_disc(command: &str, more: &[&str]) -> Run {
+    Run::new(&[command, &disc()]).set(&COARSE).args(more)
 }
 
 /// Writes the disc case with a negative density.
@@ -31,8 +31,7 @@ fn help_has_exit_codes_and_default_folders_and_no_arguments_show_it_as_bad_usage
     run(&folder(), &["--help"]).done().says(&[codes]);
     run(&folder(), &["--version"]).done().says(&[env!("CARGO_PKG_VERSION")]);
     for (command, path) in [("cea", "results/CASE/cea"), ("signal", "results/SIGNAL/signal")] {
-        let default = format!("[default: {path}]");
-        run(&folder(), &[command, "--help"]).done().says(&[&default]);
+        run(&folder(), &[command, "--help"]).done().says(&[&format!("[default: {path}]")]);
     }
 }
 
@@ -55,8 +54,7 @@ fn check_reports_the_cost_as_numbers() {
 fn a_sweep_has_the_values_asked_for_and_that_of_the_case() {
     for at in ["", " ; cea.shapes_at=[0.1]"] {
         let asked = format!("cea.friction_coefficients=[0.1, 0.2]{at}");
-        let folder = folder();
-        let answer = on_disc(&folder, "cea", &["--no-figures"]).set(&[asked]).out("o").done();
+        let answer = on_disc("cea", &["--no-figures"]).set(&[asked]).out("o").done();
         let rows = answer.rows("eigenvalues.csv");
         let found: BTreeSet<_> = rows.iter().map(|row| &row["friction_coefficient"]).collect();
         assert_eq!(found.into_iter().collect::<Vec<_>>(), ["0.1", "0.2", "0.3"]);
@@ -65,10 +63,9 @@ fn a_sweep_has_the_values_asked_for_and_that_of_the_case() {
 
 #[test]
 fn cea_prints_the_table_and_draws_its_figures() {
-    let folder = folder();
     let said = "critical friction ; largest residual ; stable up to ; \
         32 contact nodes slipping, 0 sticking, 0 open";
-    let answer = on_disc(&folder, "cea", &["--verbose"]).out("here").done().says(&[said]);
+    let answer = on_disc("cea", &["--verbose"]).out("here").done().says(&[said]);
     assert_eq!(answer.stderr, "");
     answer.wrote(
         "eigenvalues.csv stability.csv summary.json manifest.json modes.pvd \
@@ -107,24 +104,20 @@ fn check_goes_on_after_a_bad_case_and_tells_scripts_what_is_wrong() {
 
 #[test]
 fn mesh_writes_into_the_default_folder_and_prints_statistics_without_progress_or_colours() {
-    let folder = folder();
-    let answer = on_disc(&folder, "mesh", &[]).done();
+    let answer = on_disc("mesh", &[]).done();
     // A pipe takes what is printed.
     assert!(answer.stderr.is_empty() && !answer.stdout.contains('\u{1b}'), "{}", answer.stderr);
     // 16 sectors of 3 x 3 + 2 nodes.
     has(&answer.words(), &["nodes 176 elements 48 unknowns 352"]);
-    let results = folder.path().join("results/polycarbonate-disc/mesh");
-    let figures = ["figures/mesh.svg", "figures/mesh.png"];
-    for name in ["mesh.vtu", "summary.json", "manifest.json"].iter().chain(&figures) {
-        assert!(results.join(name).exists(), "{name}");
-    }
+    let files =
+        ["mesh.vtu", "summary.json", "manifest.json", "figures/mesh.svg", "figures/mesh.png"];
+    let files = files.map(|name| format!("results/polycarbonate-disc/mesh/{name}"));
+    answer.wrote(&files.join(" "));
 }
 
 #[test]
 fn json_is_the_summary_alone_with_its_manifest() {
-    let folder = folder();
-    let words = ["--json", "--threads", "1", "--simd", "scalar"];
-    let answer = on_disc(&folder, "mesh", &words).done();
+    let answer = on_disc("mesh", &["--json", "--threads", "1", "--simd", "scalar"]).done();
     let printed = answer.value();
     assert_eq!(printed, answer.json("results/polycarbonate-disc/mesh/summary.json"));
     let manifest = &printed["manifest"];
@@ -165,10 +158,11 @@ fn no_run_replaces_the_results_of_another_one_in_silence() {
 #[test]
 fn an_output_folder_that_cannot_be_made_fails_the_run_with_its_path() {
     let folder = folder_with(&[("file", "x".as_bytes())]);
-    let answer = on_disc(&folder, "mesh", &[]).out("file/below").end().code(1);
+    let onto = |out: &str| on_disc("mesh", &[]).within(&folder).out(out);
+    let answer = onto("file/below").end().code(1);
     assert_eq!(answer.stderr.matches("os error").count(), 1, "{}", answer.stderr);
     answer.warns(&["cannot create folder file/below"]);
-    on_disc(&folder, "mesh", &[]).out("file").refused(&["file is a file: --out names a folder"]);
+    onto("file").refused(&["file is a file: --out names a folder"]);
 }
 
 #[test]
@@ -177,7 +171,7 @@ fn a_folder_that_another_process_writes_is_refused() {
     fs::create_dir(folder.path().join("here")).unwrap();
     let lock = fs::File::create(folder.path().join("here/.lock")).unwrap();
     lock.try_lock().unwrap();
-    let mesh = || on_disc(&folder, "mesh", &[]).out("here").end();
+    let mesh = || on_disc("mesh", &[]).within(&folder).out("here").end();
     mesh().code(1).warns(&["being written by another process"]);
     drop(lock);
     mesh().code(0);
@@ -319,7 +313,7 @@ fn a_case_from_standard_input_has_a_folder_of_its_own() {
 #[test]
 fn a_dry_run_checks_everything_and_touches_nothing() {
     let folder = folder();
-    let dry = |more: &[&str]| on_disc(&folder, "cea", &[&["--dry-run"], more].concat());
+    let dry = |more: &[&str]| on_disc("cea", &[&["--dry-run"], more].concat()).within(&folder);
     let answer = dry(&[]).done().says(&["valid", "results/polycarbonate-disc/cea"]);
     assert_eq!(answer.stderr, "");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);

@@ -9,16 +9,12 @@ fn disc(sections: &str) -> String {
 
 const CEA: &str = "[cea]\nmax_frequency_hz = 9000.0\nfriction_coefficients = [0.0, 0.5]\n";
 
-const TRANSIENT: &str = "[transient]\nduration = 0.002\n\
-                         [transient.perturbation]\nharmonics = [2]\n";
-
-fn study(folder: &Path, text: &str) -> Run {
-    fs::write(folder.join("disc.toml"), text).unwrap();
-    Run::new(&["convergence", "disc.toml", "--quiet", "--force"]).within(folder).out("out")
+fn study(text: &str) -> Run {
+    Run::new(&["convergence", "disc.toml", "-q"]).beside(&[("disc.toml", text)]).out("out")
 }
 
-fn summary(folder: &Path, text: &str, set: &[&str]) -> Value {
-    study(folder, text).args(&["--json", "--no-figures"]).set(set).done().value()
+fn summary(text: &str, set: &[&str]) -> Value {
+    study(text).args(&["--json", "--no-figures"]).set(set).done().value()
 }
 
 fn quantities(series: &Value) -> &Vec<Value> {
@@ -32,15 +28,14 @@ fn eigenvalues_converge_with_twice_the_degree_of_the_elements() {
     let levels = [("[1, 2, 4]", &[][..], 2.0, 0.2), ("[1, 1.5, 2.25]", &coarse, 4.0, 0.5)];
     for (factors, set, wanted, bound) in levels {
         let text = disc(&format!("{CEA}[convergence]\nfactors = {factors}\n"));
-        let summary = summary(folder().path(), &text, set);
+        let summary = summary(&text, set);
         let all = quantities(&summary["series"][0]);
         let is_of = |q: &&Value, name: &str| q["name"].as_str().unwrap().starts_with(name);
         let own = all.iter().filter(|q| is_of(q, "frequency"));
         let orders: Vec<f64> = own.map(|q| q["order"].as_f64().unwrap()).collect();
         // n = 0 once and n = 1 in both directions.
         within(&orders, &[wanted; 3], bound);
-        let onset = all.iter().find(|q| is_of(q, "critical"));
-        assert_eq!(onset.unwrap()["verdict"], "converging");
+        assert_eq!(all.iter().find(|q| is_of(q, "critical")).unwrap()["verdict"], "converging");
     }
 }
 
@@ -48,7 +43,7 @@ fn eigenvalues_converge_with_twice_the_degree_of_the_elements() {
 fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_them() {
     let [coarse, fine] = ["1, 1.5, 2.25", "4, 6, 8"].map(|factors| {
         let text = disc(&format!("{CEA}[convergence]\nfactors = [{factors}]\n"));
-        let mut own = quantities(&summary(folder().path(), &text, &[])["series"][0]).clone();
+        let mut own = quantities(&summary(&text, &[])["series"][0]).clone();
         own.retain(|q| q["name"].as_str().unwrap().starts_with("frequency"));
         own
     });
@@ -64,15 +59,15 @@ fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_the
 
 #[test]
 fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
-    let folder = folder();
     let text = disc(&format!(
-        "{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\n\
+        "{CEA}[transient]\nduration = 0.002\n[transient.perturbation]\nharmonics = [2]\n\
+         [convergence]\nfactors = [0.5, 0.75, 1]\n\
          time_step_factors = [1, 0.5, 0.25]\n"
     ));
     let files =
         "convergence.csv summary.json report.html figures/convergence.svg figures/convergence.pdf";
     let said = "cea over the mesh ; transient over the mesh ; transient over the time step";
-    let answer = study(folder.path(), &text).done().wrote(files).says(&[said]);
+    let answer = study(&text).done().wrote(files).says(&[said]);
     let printed = &answer.stdout;
     // What decides is printed, the other modes are in the table.
     let left = printed.lines().find(|line| line.contains("--verbose"));
@@ -84,9 +79,8 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
     let steps: Vec<f64> = serde_json::from_value(step["sizes"].clone()).unwrap();
     // A quarter of a step that divides the sample interval divides it too.
     assert!((steps[0] / steps[2] - 4.0).abs() < 1e-12, "{steps:?}");
-    let table = answer.text("convergence.csv");
     let rows = [cea, mesh, step].map(|s| 3 * quantities(s).len());
-    assert_eq!(table.lines().count(), 1 + rows.iter().sum::<usize>());
+    assert_eq!(answer.text("convergence.csv").lines().count(), 1 + rows.iter().sum::<usize>());
     // The finest mesh and the longest step are the case itself: both series hold the same run.
     for (a, b) in quantities(mesh).iter().zip(quantities(step)) {
         assert_eq!((&a["name"], &a["values"][2]), (&b["name"], &b["values"][0]));
@@ -95,9 +89,8 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
 
 #[test]
 fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named() {
-    let folder = folder();
     let text = disc("[cycle]\nharmonics = [1, 2]\n[convergence]\nfactors = [2, 2.5, 3]\n");
-    let found = summary(folder.path(), &text, &[]);
+    let found = summary(&text, &[]);
     let series = found["series"].as_array().unwrap();
     let names: Vec<&str> = series.iter().map(|s| s["analysis"].as_str().unwrap()).collect();
     assert_eq!(names, ["cycle-n1", "cycle-n1-onset2", "cycle-n2"]);
@@ -109,7 +102,7 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
         assert!((finest / wanted - 1.0).abs() < 3e-3, "{finest}");
     }
     let text = text.replace("[2, 2.5, 3]", "[1, 1.5, 2]").replace("[1, 2]", "[2]");
-    let found = summary(folder.path(), &text, &[]);
+    let found = summary(&text, &[]);
     let notes = found["series"][0]["notes"].to_string();
     has(&notes, &["36 x 8: NOT CONFIRMED ; 54 x 12: the wave on 54 elements"]);
     assert_eq!(quantities(&found["series"][0])[0]["verdict"], "missing");
@@ -131,8 +124,7 @@ fn a_body_of_revolution_on_its_whole_mesh_stays_round_when_it_is_refined() {
     // Its modes are recognised on finer meshes, whose nodes stand in another order: frequencies are those by harmonics.
     let set = ["mesh.circumferential_elements=12 ; mesh.radial_elements=2"];
     let [whole, waves] = ["sparse", "auto"].map(|method| {
-        let text = text.replace("sparse", method);
-        let found = summary(folder().path(), &text, &set);
+        let found = summary(&text.replace("sparse", method), &set);
         let own = quantities(&found["series"][0]).iter().filter(|own| own["unit"] == "Hz");
         own.map(|own| own["values"][2].as_f64().unwrap()).collect::<Vec<f64>>()
     });

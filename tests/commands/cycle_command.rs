@@ -13,9 +13,8 @@ const COARSE: [&str; 2] = ["mesh.circumferential_elements=90", "mesh.radial_elem
 #[test]
 fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_loses_stability() {
     let (mesh, count) = sized((&COARSE[..], 31), (&[], 61));
-    let count_set = format!("cycle.continuation.count={count}");
-    let set = [mesh, &["cycle.frames=3", &count_set]].concat();
-    let answer = waves("cycle", &set).out("out").args(&["--json"]).done();
+    let set = format!("cycle.frames=3 ; cycle.continuation.count={count}");
+    let answer = waves("cycle", mesh).set(&[set]).out("out").args(&["--json"]).done();
     let summary = answer.value();
     let [one, two] = [0, 1].map(|k| &summary["cycles"][k]);
     assert!(summary["cycles"][2].is_null(), "two waves");
@@ -48,8 +47,7 @@ fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_
         / two["branch"]["saturation_speed_rpm"].as_f64().unwrap();
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
     has(&answer.text("cycle-n2.pvd"), &["cycle-n2.vtu", "cycle-n2-002.vtu"]);
-    let exists = |name: &str| answer.path(name).exists();
-    assert!(exists("cycle-n1-001.vtu") && !exists("cycle-n1-003.vtu"));
+    let answer = answer.wrote("cycle-n1-001.vtu !cycle-n1-003.vtu");
     let header = "contact.rotation_speed_rpm,class,growth_rate_per_s,wave_frequency_rad_per_s,harmonic,frequency_hz,uncertainty_per_s";
     assert_eq!(answer.header("stability-n1.csv"), header);
     assert!(answer.header("branch-n1.csv").ends_with("growth_rate_per_s,stability"));
@@ -156,10 +154,8 @@ fn a_body_without_symmetry_has_its_cycle_in_tables_of_the_same_bytes_for_any_thr
     assert!(header("contact-mode7.csv").starts_with("node,x_m,y_m,stick,slip,open"));
     assert!(header("harmonics-mode7.csv").ends_with("remainder"));
     assert!(header("stability-mode7.csv").starts_with("growth_rate_per_s,beat_hz"));
-    let exists = |name: &str| answer.path(name).exists();
-    assert!(exists("cycle-mode7-001.vtu") && exists("contact-mode7.npz"));
     // What an interrupted search keeps has served its purpose.
-    assert!(!exists("done-mode7.json"));
+    let answer = answer.wrote("cycle-mode7-001.vtu contact-mode7.npz !done-mode7.json");
     let tables = ["cycle-mode7.csv", "contact-mode7.npz", "stability-mode7.csv"];
     let before = tables.map(|name| answer.bytes(name));
     let run = block(folder.path(), &["cycle.confirmation_periods=0"]).args(&["--force"]);
@@ -181,13 +177,8 @@ fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
 /// of which one seems to grow.
 #[test]
 fn a_shift_in_phase_that_impacts_part_is_no_perturbation_that_grows() {
-    let folder = folder();
-    fs::write(folder.path().join("skewed-block.msh"), include_bytes!("../cases/skewed-block.msh"))
-        .unwrap();
-    let case = include_str!("../cases/skewed-block.toml");
-    fs::write(folder.path().join("case.toml"), case).unwrap();
-    let run = Run::new(&["cycle", "case.toml", "--no-figures"]).within(folder.path()).out("run");
-    let summary = run.done().summary();
+    let case = repository().join("tests/cases/skewed-block.toml");
+    let summary = Run::of("cycle", case).out("run").done().summary();
     let mut cycles = summary["cycles"].as_array().unwrap().iter();
     let own = cycles.find(|own| own["mode"] == 2).unwrap();
     let beat = own["stability"]["leading"]["beat_hz"].as_f64().unwrap();
@@ -195,31 +186,28 @@ fn a_shift_in_phase_that_impacts_part_is_no_perturbation_that_grows() {
 }
 
 /// A square of one element on a moving plane, whose friction falls with speed: from 1.28 to 2.15 m/s it squeals beside stable sliding.
-fn square(command: &str, folder: &Path, set: &[&str]) -> Run {
+fn square(command: &str, set: &[&str]) -> Run {
     let square = plane_block([0.01; 2], [1; 2], ["face", "back", "body"]);
-    fs::write(folder.join("square.msh"), square).unwrap();
-    fs::write(folder.join("case.toml"), include_str!("../cases/oscillator.toml")).unwrap();
+    let case = include_bytes!("../cases/oscillator.toml");
     let own = "contact.speed=1.5 ; transient.duration=1e-2 ; cycle.continuation={ \
                key = \"contact.speed\", from = 0.25, to = 3.0, count = 10 }";
-    let run =
-        Run::new(&[command, "case.toml", "--format", "svg", "--unset", "transient.time_step"]);
-    run.within(folder).set(&[own]).set(set).out(command)
+    let run = Run::new(&[command, "case.toml", "--format=svg", "--unset", "transient.time_step"]);
+    let run = run.beside(&[("square.msh", &square[..]), ("case.toml", case)]);
+    run.set(&[own]).set(set).out(command)
 }
 
 /// The kick, the branch and the frequency have one wording and one rounding each; counts are whole numbers.
 #[test]
 fn a_cycle_beside_stable_sliding_is_told_alike_by_every_output() {
-    let folder = folder();
-    let answer: Answer = square("cycle", folder.path(), &[]).done();
+    let answer = square("cycle", &[]).done();
     let (page, said) = (answer.page(), &answer.stdout);
     let own = answer.summary()["cycles"][0].clone();
     let kick = own["kick_velocity"].as_f64().unwrap();
     let row = &answer.rows("cycle.csv")[0];
     assert_eq!(row.number("kick_velocity"), kick);
     let kick = format!("a kick of more than {kick:.3e} m/s tips sliding into it");
-    let about = ["a fold at", "loses its stability at", "coexist from", &kick];
     let branch = said.lines().find(|line| line.contains(" cycles over contact.speed")).unwrap();
-    has(branch, &about);
+    has(branch, &["a fold at", "loses its stability at", "coexist from", &kick]);
     for text in [&page, said] {
         has(text, &[branch, "kick that tips sliding (m/s)"]);
         assert_eq!(text.matches("cycles over").count(), 1, "{text}");
@@ -236,7 +224,7 @@ fn a_cycle_beside_stable_sliding_is_told_alike_by_every_output() {
     assert!(row["mode"].parse::<usize>().is_ok(), "{row:?}");
     // A study of such cycles keeps their branches.
     let study = ["sweep={\"contact.friction_coefficient\"=[0.28,0.3],analyses=[\"cycle\"]}"];
-    let sweep = square("sweep", folder.path(), &study).done();
+    let sweep = square("sweep", &study).done();
     for friction in ["0.28", "0.3"] {
         let rows = sweep.rows("branches.csv").into_iter();
         let own = rows.filter(|row| row["contact.friction_coefficient"] == friction);
@@ -247,11 +235,9 @@ fn a_cycle_beside_stable_sliding_is_told_alike_by_every_output() {
 /// Theory: central differences vibrate too fast, the more the longer their step.
 #[test]
 fn the_note_on_a_long_time_step_says_that_it_makes_the_period_shorter() {
-    let folder = folder();
     let frequency = |step: &str| {
-        let step = format!("transient.time_step={step}");
-        let set = ["contact.speed=0.3", &step];
-        let run = square("transient", folder.path(), &set).args(&["--force"]).done();
+        let set = format!("contact.speed=0.3 ; transient.time_step={step}");
+        let run = square("transient", &[&set]).done();
         let shorter = "the time step makes the period shorter by up to";
         run.says(&[shorter]).summary()["main_frequency_hz"].as_f64().unwrap()
     };

@@ -173,54 +173,31 @@ fn modules() -> Vec<(String, String)> {
     files.map(|path| (path.display().to_string(), fs::read_to_string(path).unwrap())).collect()
 }
 
-/// What modules and crates say of themselves at their heads.
-fn heads_of_modules() -> impl Iterator<Item = (String, String)> {
-    modules().into_iter().map(|(path, code)| {
-        let head = code.lines().map_while(|line| line.strip_prefix("//!"));
-        (path, head.collect::<Vec<_>>().join("\n"))
-    })
-}
-
 /// The texts between quotes in code, each in one line but for its own line breaks.
 fn literals(code: &str) -> Vec<String> {
-    let chars: Vec<char> = code.chars().collect();
-    let at = |place: usize| chars.get(place).copied().unwrap_or('\n');
-    let (mut found, mut place) = (Vec::new(), 0);
-    while place < chars.len() {
-        match (at(place), at(place + 1), at(place + 2)) {
-            ('/', '/', _) => {
-                while at(place) != '\n' {
-                    place += 1;
-                }
-            }
-            ('\'', '\\', _) => place += 2 + usize::from(at(place + 3) == '\''),
-            ('\'', _, '\'') => place += 2,
-            ('"', ..) => {
-                let is_raw = place > 0 && ['#', 'r'].contains(&at(place - 1));
-                let hashes = (0..place).rev().take_while(|&before| at(before) == '#').count();
-                let closes = |end: usize| (1..=hashes).all(|hash| at(end + hash) == '#');
-                let mut text = String::new();
-                place += 1;
-                while place < chars.len() && !(at(place) == '"' && closes(place)) {
-                    match (at(place), at(place + 1)) {
-                        ('\\', '\n') if !is_raw => {
-                            while at(place + 1).is_whitespace() && place + 1 < chars.len() {
-                                place += 1;
-                            }
-                        }
-                        ('\\', escaped) if !is_raw => {
-                            text.push(if escaped == 'n' { '\n' } else { escaped });
-                            place += 1;
-                        }
-                        (own, _) => text.push(own),
-                    }
-                    place += 1;
-                }
-                found.push(text);
-            }
-            _ => {}
+    let (mut found, mut rest) = (Vec::new(), code);
+    while let Some(place) = rest.find(['/', '\'', '"']) {
+        let (before, own) = rest.split_at(place);
+        rest = &own[1..];
+        if own.starts_with("//") {
+            rest = own.split_once('\n').map_or("", |(_, rest)| rest);
+        } else if own.starts_with("'\\") || own.starts_with("'\"'") {
+            // A character that is escaped, or a quote.
+            rest = &own[3..];
+        } else if own.starts_with('"') {
+            let hashes = &before[before.trim_end_matches('#').len()..];
+            let (close, is_raw) = (format!("\"{hashes}"), before.ends_with(['#', 'r']));
+            // A quote behind an odd number of backslashes is part of the text.
+            let slashes = |at: usize| at - rest[..at].trim_end_matches('\\').len();
+            let mut ends = rest.match_indices(&close).map(|(at, _)| at);
+            let end = ends.find(|&at| is_raw || slashes(at) % 2 == 0).unwrap();
+            let lines = rest[..end].split_inclusive("\\\n").map(str::trim_start);
+            found.push(match is_raw {
+                true => rest[..end].to_owned(),
+                false => lines.collect::<String>().replace("\\\n", "").replace("\\n", "\n"),
+            });
+            rest = &rest[end + 1..];
         }
-        place += 1;
     }
     found
 }
@@ -228,12 +205,16 @@ fn literals(code: &str) -> Vec<String> {
 /// A sentence ends at a full stop, a colon or a question mark before a space; what stands as code is one word.
 #[test]
 fn sentences_of_readme_guide_and_modules_have_25_words_at_most() {
-    for (name, text) in pages().into_iter().chain(heads_of_modules()) {
+    // What modules and crates say of themselves at their heads.
+    let heads = modules().into_iter().map(|(path, code)| {
+        let head = code.lines().map_while(|line| line.strip_prefix("//!"));
+        (path, head.collect::<Vec<_>>().join("\n"))
+    });
+    for (name, text) in pages().into_iter().chain(heads) {
         for paragraph in parts(&text).1 {
             let code = paragraph.split('`').enumerate();
-            let plain: Vec<&str> =
+            let plain: String =
                 code.map(|(k, part)| if k % 2 == 1 { "code" } else { part }).collect();
-            let plain = plain.concat();
             for sentence in plain.split(". ").flat_map(|part| part.split([':', '?'])) {
                 let count = sentence.split_whitespace().count();
                 assert!(count <= 25, "{name}: {count} words: {sentence}");
@@ -261,8 +242,7 @@ fn help(command: &clap::Command) -> Vec<String> {
 fn sentences_of_messages_have_under_25_words() {
     let (mut long, mut count) = (String::new(), 0);
     let of_module = |(path, code): (String, String)| {
-        let shipped = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default().to_owned();
-        (path, literals(&shipped))
+        (path, literals(code.split("#[cfg(test)]\nmod ").next().unwrap_or_default()))
     };
     let is_test = |path: &str| path.ends_with("tests.rs") || path.ends_with("fixtures.rs");
     let modules = modules().into_iter().filter(|module| !is_test(&module.0)).map(of_module);

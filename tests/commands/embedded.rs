@@ -108,10 +108,8 @@ fn a_panic_is_caught_and_the_next_run_goes_on() {
         rayon::join(|| (), || panic!("of the test"));
         Ok(())
     });
-    match failure.unwrap_err() {
-        EmbeddedFailure::Panic(text) => assert_eq!(text, "of the test"),
-        other => panic!("{other:?}"),
-    }
+    let error = failure.unwrap_err();
+    assert!(matches!(&error, EmbeddedFailure::Panic(text) if text == "of the test"), "{error:?}");
     assert_eq!(run.enclose(1, || Ok(7)).unwrap(), 7);
 }
 

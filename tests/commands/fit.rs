@@ -7,9 +7,8 @@ use frictionsim::study::eigenvalues::modes_below;
 use frictionsim::study::fit::{FitProblem, ModelMode, fit, fit_case};
 
 fn fitted(name: &str, table: &str, set: &[&str]) -> Answer {
-    let folder = folder_with(&[("modes.csv", table.as_bytes())]);
-    let run = Run::of("fit", shipped(name)).args(&["modes.csv", "--json"]).within(&folder);
-    run.out("out").set(set).end()
+    let run = Run::of("fit", shipped(name)).args(&["modes.csv", "--json"]).out("out").set(set);
+    run.beside(&[("modes.csv", table)]).end()
 }
 
 const COARSE: &str = "mesh.circumferential_elements=40 ; mesh.radial_elements=8";
@@ -125,10 +124,10 @@ fn more_parameters_than_data_and_bad_tables_are_refused_before_anything_runs() {
 fn a_fit_on_its_bound_says_so() {
     let set = [COARSE, "fit.parameters={ \"material.young_modulus\" = [1.5e9, 2.2e9] }"];
     // The disc's lowest torsion and the lowest waves around it.
-    let folder = folder_with(&[("m.csv", b"f [Hz],harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n")]);
+    let lowest = "f [Hz],harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n";
     let words = ["fit", &shipped("fit-table-1.toml"), "m.csv", "--json", "--format", "svg"];
-    let answer = Run::new(&words).within(&folder).out("out").set(&set).done();
-    let answer = answer.warns(&["is at its bound"]);
+    let run = Run::new(&words).beside(&[("m.csv", lowest)]).out("out").set(&set);
+    let answer = run.done().warns(&["is at its bound"]);
     // Each panel says what its own points are.
     let names = "fitted model, stable ; case as written, unstable ; >frequency< ; !difference of";
     has(&answer.text("figures/fit.svg"), &[names]);

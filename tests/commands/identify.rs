@@ -150,8 +150,7 @@ fn identification_does_not_depend_on_the_quantity_measured() {
     let response = measured(&f, noisy(&h, 0.01, 9));
     let want = poles(&response).unwrap();
     for quantity in [ResponseQuantity::Mobility, ResponseQuantity::Receptance] {
-        let converted = response.converted(quantity).unwrap();
-        let got = poles(&converted).unwrap();
+        let got = poles(&response.converted(quantity).unwrap()).unwrap();
         for (a, b) in got.fit.modes.iter().zip(&want.fit.modes) {
             let miss = a.damping_factor.value - b.damping_factor.value;
             // Same data, same relative noise; the additive part of the noise model may differ.
@@ -172,8 +171,7 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
     assert_eq!(joint.fit.modes.len(), 4);
     let pairs = joint.fit.modes.iter().zip(&alone.fit.modes);
     for ((a, b), (frequency, zeta, _)) in pairs.zip(SEPARATE) {
-        let miss = (a.damping_factor.value - zeta).abs();
-        assert!(miss < 5.0 * a.standard_error, "{a:?}");
+        assert!((a.damping_factor.value - zeta).abs() < 5.0 * a.standard_error, "{a:?}");
         assert!((a.frequency_hz.value / frequency - 1.0).abs() < 1e-4);
         // Twice the data: 0.707 of the error; the noise of each is known to a few per cent.
         let ratio = a.standard_error / b.standard_error;

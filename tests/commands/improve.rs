@@ -2,24 +2,20 @@
 
 use crate::prelude::*;
 
-/// The paper's disc on a coarse mesh, without the effects of prestress that a change of the mesh would move.
-const CEA: &str = "[cea]\nmodes = 10\ngeometric_stiffness = false";
-
-fn run(folder: &Path, command: &str, set: &[&str]) -> Run {
-    fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
-    Run::new(&[command, "case.toml", "--force"]).within(folder).out("out").set(set)
+/// A command on the paper's disc on a coarse mesh, without the effects of prestress that a change of the mesh would move.
+fn run(command: &str, set: &[&str]) -> Run {
+    let case = coarse_disc("[cea]\nmodes = 10\ngeometric_stiffness = false");
+    Run::new(&[command, "case.toml"]).beside(&[("case.toml", case)]).out("out").set(set)
 }
 
 /// What is predicted from all modes together is what the run with the modification gives; a hole that is moved silences a mode.
 #[test]
 fn predicted_candidates_are_those_that_run_again() {
-    let folder = folder();
     let set =
         ["improve.modifications=[\"mass\", \"dashpot\", \"damping\", \"removal\", \"offset\"] ; \
          improve.min_frequency_hz=10000 ; improve.max_frequency_hz=11500 ; improve.candidates=1 ; \
          improve.confirm=5 ; improve.forbidden=[\"outer\"]"];
-    let answer = run(folder.path(), "improve", &set).done();
-    let answer = answer.wrote("improve.vtu improved.toml report.html");
+    let answer = run("improve", &set).done().wrote("improve.vtu improved.toml report.html");
     let (summary, said) = (answer.summary(), &answer.stdout);
     let candidates = summary["candidates"].as_array().unwrap();
     assert!(candidates.len() >= 3, "{said}");
@@ -58,7 +54,6 @@ fn predicted_candidates_are_those_that_run_again() {
 /// Sums over parts hold with modifications: masses, springs and dashpots at nodes, patches, less material.
 #[test]
 fn contributions_of_a_modified_disc_are_its_growth_rates() {
-    let folder = folder();
     let set =
         ["modifications.a.at={ radius = 0.06, angle_deg = 30 } ; modifications.a.mass=0.01 ; \
          modifications.b.at={ radius = 0.05, angle_deg = 200 } ; modifications.b.stiffness=1e7 ; \
@@ -67,7 +62,7 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
          modifications.c.stiffness_coefficient=1e-6 ; modifications.d.center=[0.0, -0.06] ; \
          modifications.d.radius=0.009 ; modifications.d.remove=true ; \
          cea.friction_coefficients=[0.0, 0.3]"];
-    let answer = run(folder.path(), "cea", &set).done();
+    let answer = run("cea", &set).done();
     let rows = answer.rows("contributions.csv");
     for mode in answer.rows("eigenvalues.csv") {
         let keys = ["mode", "friction_coefficient"];
@@ -87,7 +82,7 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
         assert!((kinetic - 1.0).abs() < 1e-12, "{kinetic}");
     }
     // Losses, of which `improve` takes no derivatives, are refused by that alone.
-    run(folder.path(), "cea", &["material.loss_factor=0.01"]).done();
+    run("cea", &["material.loss_factor=0.01"]).done();
 }
 
 /// A mass of several per cent of the disc and a stiff spring, attached to a node, are predicted as they run: at the case's own friction to
@@ -96,7 +91,7 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
 fn what_is_attached_to_a_node_is_predicted_however_large() {
     let set = ["improve.modifications=[\"mass\", \"spring\"] ; improve.mass=0.003 ; \
          improve.stiffness=3e7 ; improve.candidates=1 ; improve.confirm=2"];
-    let summary = run(folder().path(), "improve", &set).done().summary();
+    let summary = run("improve", &set).done().summary();
     let base = summary["base"]["growth_rate_per_s"].as_f64().unwrap();
     let candidates = summary["candidates"].as_array().unwrap();
     assert_eq!(candidates.len(), 2);
@@ -115,11 +110,10 @@ fn what_is_attached_to_a_node_is_predicted_however_large() {
 /// the fifth, 0.2 % above the fourth, was told of every candidate as one that grows faster.
 #[test]
 fn a_change_of_nothing_comes_to_the_case_as_it_is() {
-    let folder = folder();
     for own in ["cea.modes=4", "cea.modes=9 ; contact.friction_coefficient=0.6"] {
         let one = "improve.modifications=[\"mass\"] ; improve.mass=1e-9 ; improve.candidates=1 ; \
                    improve.confirm=1";
-        let summary = run(folder.path(), "improve", &[own, one]).done().summary();
+        let summary = run("improve", &[own, one]).done().summary();
         let (base, changed) = (&summary["base"], &summary["candidates"][0]["confirmed"]);
         for key in ["unstable", "unstable_beside", "growth_rate_per_s", "critical_friction"] {
             let [from, to] = [base, changed].map(|state| state[key].as_f64().unwrap());

@@ -72,19 +72,17 @@ fn universal(shapes: &[Motion]) -> String {
     text
 }
 
-fn run(folder: &Path, shapes: &str, further: &[&str]) -> Run {
-    fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
-    fs::write(folder.join("shapes"), shapes).unwrap();
-    Run::new(&["mac", "case.toml", "shapes", "--force"]).within(folder).out("out").args(further)
+fn run(shapes: &str, further: &[&str]) -> Run {
+    let files = [("case.toml", &*coarse_disc(CEA)), ("shapes", shapes)];
+    Run::new(&["mac", "case.toml", "shapes"]).beside(&files).out("out").args(further)
 }
 
 /// Noise of relative size 0.03 on each part of unit shapes leaves a criterion above 0.97 of the own mode.
 #[test]
 fn shapes_of_the_program_with_noise_find_their_modes() {
-    let folder = folder();
     let shapes = measured();
     for text in [table(&shapes, 1.0), universal(&shapes)] {
-        let answer = run(folder.path(), &text, &[]).done();
+        let answer = run(&text, &[]).done();
         let summary = answer.summary();
         let pairs = summary["pairs"].as_array().unwrap();
         assert_eq!(pairs.len(), shapes.len());
@@ -136,16 +134,14 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
 
 #[test]
 fn points_off_the_body_are_counted_and_wrong_units_recognised() {
-    let folder = folder();
     let mut shapes = measured();
     let millimetres = table(&shapes, 1e3);
-    run(folder.path(), &millimetres, &[]).refused(&["millimetres: add --scale 0.001"]);
-    run(folder.path(), &millimetres, &["--scale", "0.001"]).done();
+    run(&millimetres, &[]).refused(&["millimetres: add --scale 0.001"]);
+    run(&millimetres, &["--scale", "0.001"]).done();
     shapes[0][3].0 = [0.5, 0.5];
-    let said = "1 of 51 points lie off the body";
     // Decay has one unit everywhere.
-    let units = [said, "growth rate (1/s)", "!real Hz", "!real part"];
-    run(folder.path(), &table(&shapes, 1.0), &[]).done().says(&units);
+    let said = ["1 of 51 points lie off the body", "growth rate (1/s)", "!real Hz", "!real part"];
+    run(&table(&shapes, 1.0), &[]).done().says(&said);
 }
 
 #[test]
@@ -156,8 +152,7 @@ fn a_table_has_shapes_by_their_names_in_any_columns_and_a_universal_file_complex
     assert_eq!(shapes.len(), 2);
     assert_eq!((shapes[0].name.as_str(), shapes[0].frequency_hz), ("a", Some(100.0)));
     assert_eq!(shapes[0].points, [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
-    let first = [Some(c64::new(2.0, 3.0)), Some(c64::new(1.0, 0.5)), None];
-    assert_eq!(shapes[0].motion[0], first);
+    assert_eq!(shapes[0].motion[0], [Some(c64::new(2.0, 3.0)), Some(c64::new(1.0, 0.5)), None]);
     assert_eq!(shapes[0].motion[1][0], None);
     // A universal file has nodes and complex shapes.
     let shapes = read_shapes(include_bytes!("../cases/shape.unv"), "s.unv").unwrap();
@@ -183,29 +178,26 @@ fn what_is_no_shape_is_named_with_its_place() {
 }
 
 /// A table of modes with the frequencies of [`table`]'s shapes replaced by those of the case, and both fitted.
-fn fit_with(folder: &Path, shapes: &str, set: &[&str]) -> Run {
+fn fit_with(shapes: &str, set: &[&str]) -> Run {
     let fit =
         format!("{CEA}\n[fit]\nparameters = {{ \"material.young_modulus\" = [1.5e9, 4e9] }}\n");
-    fs::write(folder.join("case.toml"), coarse_disc(&fit)).unwrap();
-    fs::write(folder.join("shapes"), shapes).unwrap();
-    let words = ["fit", "case.toml", "modes.csv", "--shapes", "shapes", "--force", "--no-figures"];
-    Run::new(&words).within(folder).out("out").set(set)
+    let rows: String = MEASURED.iter().map(|(frequency, _)| format!("{frequency}\n")).collect();
+    let (case, modes) = (coarse_disc(&fit), format!("frequency_hz\n{rows}"));
+    let files = [("case.toml", &*case), ("modes.csv", &modes), ("shapes", shapes)];
+    let words = ["fit", "case.toml", "modes.csv", "--shapes", "shapes", "--no-figures"];
+    Run::new(&words).beside(&files).out("out").set(set)
 }
 
 /// Shapes and frequencies that the program itself computed give back the modulus of the case, each line with its own mode; points in
 /// millimetres, a shape of no line and a weight of nothing are refused with the remedy.
 #[test]
 fn measured_shapes_are_data_of_a_fit() {
-    let folder = folder();
-    let frequencies: Vec<f64> = MEASURED.iter().map(|(frequency, _)| *frequency).collect();
     let named = |scale: f64| {
-        frequencies.iter().enumerate().fold(table(&measured(), scale), |text, (k, own)| {
+        MEASURED.iter().enumerate().fold(table(&measured(), scale), |text, (k, (own, _))| {
             text.replace(&format!(",{}.5,", 1000 + k), &format!(",{own},"))
         })
     };
-    let rows: String = frequencies.iter().map(|f| format!("{f}\n")).collect();
-    fs::write(folder.path().join("modes.csv"), format!("frequency_hz\n{rows}")).unwrap();
-    let answer = fit_with(folder.path(), &named(1.0), &[]).done();
+    let answer = fit_with(&named(1.0), &[]).done();
     let summary = answer.summary();
     let modulus = summary["parameters"]["material.young_modulus"]["value"].as_f64();
     assert!((modulus.unwrap() / 2.5e9 - 1.0).abs() < 1e-3, "{modulus:?}");
@@ -213,7 +205,7 @@ fn measured_shapes_are_data_of_a_fit() {
         assert!(line["mac"].as_f64().unwrap() > 0.97, "{line}");
     }
     assert!(answer.header("fit.csv").ends_with(",mac"));
-    fit_with(folder.path(), &named(1000.0), &[]).refused(&["--scale 0.001"]);
-    fit_with(folder.path(), &named(1.0), &["fit.shape_weight=0"]).refused(&["fit.shape_weight"]);
-    fit_with(folder.path(), &table(&measured(), 1.0), &[]).refused(&["belongs to no line"]);
+    fit_with(&named(1000.0), &[]).refused(&["--scale 0.001"]);
+    fit_with(&named(1.0), &["fit.shape_weight=0"]).refused(&["fit.shape_weight"]);
+    fit_with(&table(&measured(), 1.0), &[]).refused(&["belongs to no line"]);
 }

@@ -4,10 +4,8 @@ use crate::prelude::*;
 use frictionsim::case::{Cea, CeaMethod};
 use frictionsim::study::eigenvalues::Solver;
 
-const DISC: &str = include_str!("refused/orthotropic.toml");
-
 fn read(overrides: &[&str]) -> Result<Case, CaseErrors> {
-    read_case("disc.toml", DISC, overrides)
+    read_case("disc.toml", include_str!("refused/orthotropic.toml"), overrides)
 }
 
 /// Theory (Lekhnitskii): a disc of cylindrical orthotropy in plane stress, clamped outside and widened inside:
@@ -16,9 +14,8 @@ fn read(overrides: &[&str]) -> Result<Case, CaseErrors> {
 fn the_pressure_of_a_cylindrically_orthotropic_disc_is_lekhnitskiis() {
     let case = read(&[]).unwrap();
     let sector = Strip::of_annulus(case.body.annulus().unwrap()).unwrap();
-    let contact: &SlidingContact = &case.contact.sliding;
     let elastic = sector.stiffness_alike(&case.body.materials);
-    let state = SectorSliding::solve(&sector, &elastic, contact, None).unwrap();
+    let state = SectorSliding::solve(&sector, &elastic, &case.contact.sliding, None).unwrap();
     let (a, b, k): (f64, f64, f64) = (0.0205, 0.0905, 2.5_f64.sqrt());
     let [e_r, nu_rt, nu_tr] = [2e9, 0.2, 0.2 * 2.5];
     let share = (a / b).powf(2.0 * k);
@@ -93,8 +90,7 @@ fn a_common_material_is_asked_for_only_where_a_region_has_none() {
     // What asks for one material gets that of the first region.
     assert_eq!([case.material.young_modulus, case.material.density], [2.5e9, 1228.0]);
     // A formulation alone is no material.
-    let formulation = format!("{TWO_REGIONS}[material]\nformulation = \"plane-stress\"\n");
-    read(&formulation).unwrap();
+    read(&format!("{TWO_REGIONS}[material]\nformulation = \"plane-stress\"\n")).unwrap();
     let (text, rest) = TWO_REGIONS.split_once("[materials.rim]").unwrap();
     let (_, rest) = rest.split_once("[boundaries").unwrap();
     let bare = read(&format!("{text}[boundaries{rest}")).unwrap_err().to_string();

@@ -86,8 +86,7 @@ fn the_case_that_init_writes_for_an_input_file_runs_as_it_is() {
 /// The picture names every region and what holds, loads and touches the bodies; `plot` draws it again to the same bytes.
 #[test]
 fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
-    let folder = folder();
-    let answer = Run::new(&["mesh", &shipped("brake.toml")]).within(&folder).out("out").done();
+    let answer = Run::new(&["mesh", &shipped("brake.toml")]).out("out").done();
     let drawn = answer.text("figures/mesh.svg");
     // Nothing of the case is a support.
     let words = "Disc_Disc_iron ; Outer_Lining ; Inner_Backplate ; contact ; counterface ; \
@@ -95,7 +94,7 @@ fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
     has(&drawn, &[words]);
     has(&answer.text("report.html"), &["Outer_Piston", "mass (kg)"]);
     fs::remove_file(answer.path("figures/mesh.svg")).unwrap();
-    Run::new(&["plot", "out"]).within(&folder).done();
+    Run::new(&["plot"]).args(&[&answer.out]).done();
     assert_eq!(answer.text("figures/mesh.svg"), drawn);
 }
 

@@ -16,9 +16,8 @@ fn counts_are_printed_and_summed_up() {
         ("sliding-block.toml", vec![], 10, 3),
         ("pad-on-disc.toml", vec!["cea.friction_coefficients=[0.0, 0.22, 0.5]"], 11, 4),
     ] {
-        let answer = counted(case, &sets);
         let line = format!("counted {modes} modes below");
-        let summary = answer.says(&[&line, ": complete"]).summary();
+        let summary = counted(case, &sets).says(&[&line, ": complete"]).summary();
         let found = summary["mode_counts"].as_array().unwrap();
         assert_eq!(found.len(), counts, "{found:?}");
         for count in found {

@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 
-const DISC: &str = include_str!("refused/stiffening.toml");
-
 fn run(command: &str, case: &Path, out: &Path, set: &[&str]) -> Answer {
     Run::of(command, case).args(&["--force"]).out(out).set(set).done()
 }
@@ -13,7 +11,7 @@ fn run(command: &str, case: &Path, out: &Path, set: &[&str]) -> Answer {
 fn both_methods_have_the_same_tables() {
     let folder = folder();
     let case = folder.path().join("disc.toml");
-    fs::write(&case, DISC).unwrap();
+    fs::write(&case, include_str!("refused/stiffening.toml")).unwrap();
     let sensitivities = |method: &str| -> Vec<[f64; 5]> {
         let set = [&format!("cea.method={method}"), "cea.sensitivities=true"];
         let answer = run("cea", &case, &folder.path().join(method), &set);

@@ -58,8 +58,7 @@ fn check_redrawn(folder: &TempDir, expected: &str) {
     let second = files(&out);
     assert!(first.keys().eq(second.keys()), "{:?}", second.keys());
     for (name, bytes) in second {
-        let is_smaller = bytes.len() < first[&name].len();
-        assert_eq!(is_smaller, name.ends_with(".png"), "{name}");
+        assert_eq!(bytes.len() < first[&name].len(), name.ends_with(".png"), "{name}");
     }
 }
 
@@ -76,8 +75,7 @@ macro_rules! drawn_again {
         #[test]
         fn $name() {
             let folder = folder();
-            let block = $case == "sliding-block.toml";
-            let mesh = block.then(|| coarse_block(folder.path()));
+            let mesh = ($case == "sliding-block.toml").then(|| coarse_block(folder.path()));
             let plotted = run(&folder, $command, $case, &$set).set(mesh.as_slice());
             let answer = plotted.args(&FEW_DOTS).done();
             check_redrawn(&folder, $expected);
@@ -159,14 +157,11 @@ fn signal_figures_are_drawn_again_to_the_same_bytes() {
 #[test]
 fn a_run_without_figures_keeps_none_to_draw() {
     let folder = folder();
-    let out = folder.path().join("out");
-    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT).args(&FEW_DOTS).done();
-    assert!(out.join("figures/overview-200.png").exists());
+    let run = || run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT);
+    run().args(&FEW_DOTS).done().wrote("figures/overview-200.png");
     // Figures belong to the run: without them it starts from a clean folder.
-    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT).args(&["--no-figures"]).done();
-    for name in ["figures/overview-200.png", "report.html", "figures.bin"] {
-        assert!(!out.join(name).exists(), "{name}");
-    }
+    let gone = "!figures/overview-200.png !report.html !figures.bin";
+    run().args(&["--no-figures"]).done().wrote(gone);
     plot(&folder, &[]).refused(&["out has no figures.bin: run it again, with figures"]);
 }
 
@@ -184,8 +179,7 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     let figures = folder.path().join("out/figures.bin");
     let whole = fs::read(&figures).unwrap();
     let mut bytes = whole.clone();
-    let middle = bytes.len() / 2;
-    bytes[middle] ^= 1;
+    bytes[whole.len() / 2] ^= 1;
     fs::write(&figures, &bytes).unwrap();
     refuse(&[], "its figures.bin is damaged (its checksum");
     // Of another version, which a comparison of its numbers says too.
@@ -218,10 +212,8 @@ fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
     assert!(picture.rfind("#d55e00") > picture.rfind("#56b4e9"));
     let summary = answer.summary();
     let boundaries = summary["mesh"]["boundaries"].as_array().unwrap();
-    let rim = boundaries.iter().find(|b| b["name"] == "rim").unwrap();
-    assert_eq!(rim["condition"], "counterface");
-    let fields = answer.bytes("mesh.vtu");
-    has(&String::from_utf8_lossy(&fields), &["Name=\"region_id\""]);
+    assert_eq!(boundaries.iter().find(|b| b["name"] == "rim").unwrap()["condition"], "counterface");
+    has(&String::from_utf8_lossy(&answer.bytes("mesh.vtu")), &["Name=\"region_id\""]);
 }
 
 #[test]

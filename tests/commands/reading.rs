@@ -58,14 +58,13 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
         if !has_friction {
             assert!(fed.iter().all(|fed| fed.abs() < 1e-8 * omega), "{fed:?} without friction");
             // `-2 g_r = alpha_r T_r + beta_r U_r`: every region tells the same strain energy of the whole.
+            let energy = |row: &Row| {
+                let [alpha, beta] = coefficients[row["name"].as_str()];
+                let rest = -2.0 * rate(row) - alpha * row.number("kinetic_share");
+                rest / (beta * row.number("strain_share"))
+            };
             let parts = own.iter().filter(|row| row["kind"] == "part");
-            let whole: Vec<f64> = parts
-                .map(|row| {
-                    let [alpha, beta] = coefficients[row["name"].as_str()];
-                    let rest = -2.0 * rate(row) - alpha * row.number("kinetic_share");
-                    rest / (beta * row.number("strain_share"))
-                })
-                .collect();
+            let whole: Vec<f64> = parts.map(energy).collect();
             let same = |energy: &f64| (energy / whole[0] - 1.0).abs() < 1e-6;
             assert!(whole.iter().all(same) && whole[0] < omega * omega * 1.01, "{whole:?}");
         } else {
@@ -94,8 +93,7 @@ fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
     let case = undamped.collect::<Vec<_>>().join("\n");
     let folder = folder_with(&[("pads.msh", &pads()), ("case.toml", case.as_bytes())]);
     for [group, name] in [["boundaries", "slab_z0"], ["contacts", "first"]] {
-        let lossy = format!("{group}.{name}.loss_factor=0.1");
-        let answer = cea(folder.path(), "case.toml", &[&lossy]);
+        let answer = cea(folder.path(), "case.toml", &[&format!("{group}.{name}.loss_factor=0.1")]);
         let mut largest = 0.0_f64;
         for (has_friction, growth, omega, own) in budget(&answer, 1e-8) {
             if !has_friction {
@@ -119,9 +117,8 @@ fn an_unstable_mode_consists_of_the_modes_without_friction() {
          cea.friction_coefficients=[0.0, 0.15, 0.3]"];
     for method in METHODS {
         let answer = cea(folder.path(), &case, &[&set[..], &[method]].concat());
-        let rows = answer.says(&["comes from mode", "contact feeds"]).rows("coupling.csv");
         let mut sums: BTreeMap<(String, String), f64> = BTreeMap::new();
-        for row in &rows {
+        for row in answer.says(&["comes from mode", "contact feeds"]).rows("coupling.csv") {
             let key = (row["friction_coefficient"].clone(), row["mode"].clone());
             *sums.entry(key).or_default() += row.number("share");
         }
@@ -136,8 +133,7 @@ fn an_unstable_mode_consists_of_the_modes_without_friction() {
 /// springs with losses and rigid, in the plane and in space, friction constant and falling.
 #[test]
 fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
-    let text = coarse_disc("[cea]\nmodes = 10\n");
-    let folder = folder_with(&[("disc.toml", text.as_bytes())]);
+    let folder = folder_with(&[("disc.toml", coarse_disc("[cea]\nmodes = 10\n").as_bytes())]);
     let brake = &shipped("operating-matrix.toml");
     let soft = ["cea.max_frequency_hz=2800 ; cea.friction_coefficients=[0.4] ; \
          materials.Outer_Lining.young_modulus=3e9 ; materials.Inner_Lining.young_modulus=3e9"];
@@ -148,9 +144,8 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
     // Contact that opens: each state is a polynomial of its own in friction.
     let tread = &shipped("tread-block.toml");
     let few = "cea.friction_coefficients=[0.3, 0.6] ; cea.modes=4";
-    let stressed = [soft[0], "cea.geometric_stiffness=true"];
     let kinds: [(&str, &[&str]); 6] = [
-        (brake, &stressed),
+        (brake, &[soft[0], "cea.geometric_stiffness=true"]),
         (tread, &[few]),
         (tread, &[few, "cea.geometric_stiffness=true"]),
         (disc, &[]),
@@ -221,18 +216,14 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
                 *sums.entry(key[..2].to_vec()).or_default() += row.number("share");
             }
             // Place by place: contact, x, y.
-            let feed = answer.rows("feed.csv");
-            found.push((budget, sums, feed));
+            found.push((budget, sums, answer.rows("feed.csv")));
         }
         let ((budget, sums, feed), (whole, whole_sums, whole_feed)) = (&found[0], &found[1]);
         assert_eq!(budget.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
         for (key, row) in budget {
             let omega = TAU * row.number("frequency_hz");
-            for (column, scale) in [
-                ("growth_rate_per_s", 1e-9 * omega),
-                ("kinetic_share", 1e-7),
-                ("strain_share", 1e-7),
-            ] {
+            let names = ["growth_rate_per_s", "kinetic_share", "strain_share"];
+            for (column, scale) in names.into_iter().zip([1e-9 * omega, 1e-7, 1e-7]) {
                 let [own, other] = [row.number(column), whole[key].number(column)];
                 let is_same = (own - other).abs() <= scale || own.is_nan() && other.is_nan();
                 assert!(is_same, "{set:?} {key:?} {column}: {own} {other}");
@@ -283,9 +274,8 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
         assert!((own - other).abs() < close, "{row:?}: {own} {other}");
     }
     let rings = answer.rows("feed.csv");
-    let modes: BTreeSet<&String> = rings.iter().map(|row| &row["mode"]).collect();
     let mut is_found = false;
-    for mode in modes {
+    for mode in rings.iter().map(|row| &row["mode"]).collect::<BTreeSet<&String>>() {
         let own = rings.iter().filter(|row| row["mode"] == *mode);
         let columns = ["frequency_hz", "growth_rate_per_s", "growth_rate_per_s_m2"];
         let own: Vec<[f64; 3]> = own.map(|row| row.numbers(columns)).collect();
@@ -319,9 +309,8 @@ fn gyroscopic_forces_have_their_own_row_in_the_budget() {
     ];
     let file = file_of(&blocks, polar);
     let folder = folder_with(&[("rotor.msh", &file), ("case.toml", ROTOR.as_bytes())]);
-    let answer = cea(folder.path(), "case.toml", &[]);
     let mut largest = 0.0_f64;
-    for (has_friction, growth, omega, own) in budget(&answer, 1e-9) {
+    for (has_friction, growth, omega, own) in budget(&cea(folder.path(), "case.toml", &[]), 1e-9) {
         let of_kind = |kind: &'static str| own.iter().filter(move |row| row["kind"] == kind);
         let turned = of_kind("rotation").map(rate).next().unwrap();
         largest = largest.max(turned.abs() / growth.abs());

@@ -22,8 +22,7 @@ type Changed = (String, Vec<String>, Option<usize>, BTreeMap<String, String>);
 fn changed(name: &str, changes: &str) -> Changed {
     let mut text = fs::read_to_string(place_of(name)).unwrap();
     let (mut overrides, mut place, mut files) = (Vec::new(), None, BTreeMap::new());
-    let is_file =
-        |(file, _): &(&str, &str)| fs::metadata(place_of(file)).is_ok_and(|f| f.is_file());
+    let is_file = |(file, _): &(&str, &str)| Path::new(&place_of(file)).is_file();
     for change in changes.split(" ; ").filter(|change| !["", "(none)"].contains(change)) {
         if let Some((file, change)) = change.split_once(": ").filter(is_file) {
             let own = || fs::read_to_string(place_of(file)).unwrap();

@@ -5,8 +5,9 @@ use crate::prelude::*;
 /// The built-in disc, coarse, as the harmonics solve it.
 const DISC: &str = include_str!("../cases/solid-disc.toml");
 
-fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> Answer {
-    Run::of_text(command, folder, case).set(sets).args(&["--force"]).out(out).end()
+fn run(command: &str, case: &str, sets: &[&str]) -> Answer {
+    let files = [("case.toml", case), ("rubber.csv", RUBBER)];
+    Run::of(command, "case.toml").beside(&files).set(sets).out("out").end()
 }
 
 fn modes(answer: &Answer) -> Vec<[f64; 3]> {
@@ -15,16 +16,10 @@ fn modes(answer: &Answer) -> Vec<[f64; 3]> {
 }
 
 /// What a command leaves of the disc harmonic by harmonic, and on its whole mesh, as the key says.
-fn by_both<T>(
-    folder: &Path,
-    [command, key]: [&str; 2],
-    sets: &[&str],
-    read: impl Fn(Answer) -> T,
-) -> [T; 2] {
+fn by_both<T>([command, key]: [&str; 2], sets: &[&str], read: impl Fn(Answer) -> T) -> [T; 2] {
     ["auto", "sparse"].map(|method| {
         let own = format!("{key}=\"{method}\"");
-        let sets = [sets, &[&own]].concat();
-        read(run(folder, command, DISC, &format!("{command}-{method}"), &sets).code(0))
+        read(run(command, DISC, &[sets, &[&own]].concat()).code(0))
     })
 }
 
@@ -44,14 +39,13 @@ fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 /// have friction across the sliding at the nodes.
 #[test]
 fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
-    let folder = folder();
     let ring = [
         "contact.boundary=\"top\" ; contact.ring_inner_radius=0.04 ; contact.ring_outer_radius=0.07",
         "boundaries.bottom={condition=\"guide\"}",
     ];
     for contact in [&[][..], &ring] {
         let sets = [contact, &["contact.rotation_speed_rpm=6000"]].concat();
-        let [cyclic, whole] = by_both(folder.path(), CEA, &sets, |answer| modes(&answer));
+        let [cyclic, whole] = by_both(CEA, &sets, |answer| modes(&answer));
         let at_rest = |all: &[[f64; 3]]| -> Vec<[f64; 3]> {
             all.iter().filter(|mode| mode[0] == 0.0).copied().collect()
         };
@@ -67,8 +61,7 @@ fn probes_of_a_whole_mesh_move_along_x_y_and_z() {
         "transient={duration=1e-6,initial=\"steady-sliding\",operator=\"sparse\"}",
         "output={sample_interval=1e-6,probes=[6,38]}",
     ];
-    let folder = folder();
-    let answer = run(folder.path(), "transient", DISC, "probes", &sets).code(0);
+    let answer = run("transient", DISC, &sets).code(0);
     let [[x, y, z], [ahead_x, ahead_y, ahead_z]] = ["probe-6.csv", "probe-38.csv"]
         .map(|name| answer.rows(name)[0].numbers(["u_x_m", "u_y_m", "u_z_m"]));
     assert!(x > 1e-6 && y > 1e-8, "{x:e} {y:e}");
@@ -92,8 +85,7 @@ const RING: [&str; 2] = [
 #[test]
 fn several_materials_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
     let sets = [RING[0], RING[1], "transient={duration=3e-4,expansion_time=1e-4}"];
-    let keys = ["transient", "transient.operator"];
-    let motions = by_both(folder().path(), keys, &sets, |answer| {
+    let motions = by_both(["transient", "transient.operator"], &sets, |answer| {
         columns(&answer.rows("energy.csv"), ["kinetic_j", "strain_j", "material_damping_w"])
     });
     assert_eq!(motions[0].len(), motions[1].len());
@@ -113,7 +105,6 @@ const RUBBER: &str = "frequency_hz,young_modulus,loss_factor\n\
 /// harmonic. The part makes top and bottom differ.
 #[test]
 fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
-    let folder = folder_with(&[("rubber.csv", RUBBER.as_bytes())]);
     let lossy_ring = RING[0].replace("young", "loss_factor=0.2,young");
     let rubber_ring = RING[0].replace("young_modulus=2e11", "table=\"rubber.csv\"");
     for (name, sets) in [
@@ -124,8 +115,7 @@ fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
     ] {
         let further = "cea.friction_coefficients=[0.0, 0.3, 0.6] ; cea.modes=16 ; \
             contact.rotation_speed_rpm=1e12";
-        let sets = [&sets[..], &[further]].concat();
-        let [waves, whole] = by_both(folder.path(), CEA, &sets, |own| {
+        let [waves, whole] = by_both(CEA, &[&sets[..], &[further]].concat(), |own| {
             (modes(&own), column(&own.rows("stability.csv"), "critical_friction"), own)
         });
         assert_eq!(waves.2.summary()["method"], "cyclic");
@@ -149,12 +139,11 @@ fn one_loss_factor_of_body_and_springs_turns_every_eigenvalue() {
     let spectrum = |own: &str, further: &[&str]| {
         let held = format!("boundaries.outer={{{held}{own}}}");
         let sets = [&springs[..], &[&held], further].concat();
-        modes(&run(folder().path(), "cea", DISC, "out", &sets).code(0))
+        modes(&run("cea", DISC, &sets).code(0))
     };
     let (mut plain, lossy) = (spectrum("", &[]), spectrum(",loss_factor=0.1", &[lossy]));
     for mode in &mut plain {
-        let square = c64::new(mode[2], TAU * mode[1]).powi(2) * c64::new(1.0, 0.1);
-        let root = square.sqrt();
+        let root = (c64::new(mode[2], TAU * mode[1]).powi(2) * c64::new(1.0, 0.1)).sqrt();
         let root = if root.im < 0.0 { -root } else { root };
         (mode[1], mode[2]) = (root.im / TAU, root.re);
     }
@@ -171,7 +160,7 @@ fn the_response_of_a_lossy_body_of_revolution_is_that_of_its_whole_mesh() {
          response_direction=\"axial\",frequencies_hz=[600.0,1200.0,2400.0],boundary=\"clamped\"}}"
     );
     let sets = [&frf, "material.loss_factor=0.05"];
-    let [waves, whole] = by_both(folder().path(), ["frf", "cea.method"], &sets, |answer| {
+    let [waves, whole] = by_both(["frf", "cea.method"], &sets, |answer| {
         let parts = ["accelerance_real", "accelerance_imaginary"];
         let lines = columns(&answer.rows("frf.csv"), parts).into_iter();
         lines.map(|[re, im]| c64::new(re, im)).collect::<Vec<c64>>()
@@ -183,11 +172,10 @@ fn the_response_of_a_lossy_body_of_revolution_is_that_of_its_whole_mesh() {
 /// What the harmonics cannot do is done on the whole mesh: a mass on the disc, its matrices, measured shapes, improvements.
 #[test]
 fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
-    let folder = folder();
     let mass =
         format!("{DISC}\n[modifications.weight]\nat = {{ x = 0.0905, y = 0.0 }}\nmass = 0.01\n");
     let free = "boundaries.outer={condition=\"support\",normal_stiffness=1e10,tangential_stiffness=1e10,axial_stiffness=1e10}";
-    let cea = |case, sets: &[&str]| modes(&run(folder.path(), "cea", case, "cea", sets).code(0));
+    let cea = |case, sets: &[&str]| modes(&run("cea", case, sets).code(0));
     let (plain, loaded) = (cea(DISC, &[free, "cea.method=\"sparse\""]), cea(&mass, &[free]));
     assert!(loaded[0][1] < plain[0][1] * (1.0 - 1e-4), "{loaded:?} {plain:?}");
     // Without damping of its own, losses of 1 % damp a mode that contact does not by half as much.
@@ -196,33 +184,31 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
         let damping = -mode[2] / (TAU * mode[1]);
         assert!((damping - 0.005).abs() < 1e-5, "{mode:?}");
     }
-    let matrices = ["matrices", "cea.method"];
-    let [auto, sparse] = by_both(folder.path(), matrices, &[], |answer| answer.bytes("K.mtx"));
+    let [auto, sparse] = by_both(["matrices", "cea.method"], &[], |answer| answer.bytes("K.mtx"));
     assert!(auto == sparse, "the matrices are those of the whole mesh");
     // What is predicted for one body, whichever way it was asked for.
     let sets = [
         "contact.friction_coefficient=0.6 ; cea.friction_coefficients=[0.0, 0.6]",
         "improve.modifications=[\"mass\"] ; improve.confirm=0 ; improve.mass=0.01",
     ];
-    let [auto, sparse] = by_both(folder.path(), ["improve", "cea.method"], &sets, |answer| {
-        let notes = answer.summary()["notes"].to_string();
-        let is_auto = answer.out.ends_with("improve-auto");
-        assert_eq!(notes.contains("on its whole mesh"), is_auto, "{notes}");
-        column(&answer.rows("candidates.csv"), "predicted_growth_rate_per_s")
+    let [auto, sparse] = by_both(["improve", "cea.method"], &sets, |answer| {
+        let growth = column(&answer.rows("candidates.csv"), "predicted_growth_rate_per_s");
+        (growth, answer.summary()["notes"].to_string())
     });
-    near_each(&sparse, &auto, 1e-6);
-    let shapes = folder.path().join("shapes.csv");
+    near_each(&sparse.0, &auto.0, 1e-6);
+    has(&auto.1, &["on its whole mesh"]);
+    has(&sparse.1, &["!on its whole mesh"]);
     let points = ["0.0205,0,0.009", "0.01893953042,0.00784501036,0.009", "0,0.0205,0.009"];
     let points = points.map(|point| format!("s,1000,{point},0,0,1\n")).concat();
-    fs::write(&shapes, format!("mode,frequency_hz,x,y,z,ux,uy,uz\n{points}")).unwrap();
-    let shapes = shapes.to_str().unwrap();
-    let mac = Run::of_text("mac", folder.path(), DISC).args(&[shapes, "--force"]).out("mac").end();
-    let mac = mac.code(0).summary();
+    let shapes = format!("mode,frequency_hz,x,y,z,ux,uy,uz\n{points}");
+    let files = [("case.toml", DISC), ("shapes.csv", &shapes)];
+    let mac = Run::of("mac", "case.toml").args(&["shapes.csv"]).beside(&files).out("mac");
+    let mac = mac.done().summary();
     // Motion along the axis, the same all around, is that of a mode of harmonic 0.
     let best = mac["pairs"][0]["mode"].as_u64().unwrap() as usize;
     assert_eq!(mac["modes"][best - 1]["harmonic"], 0, "{mac}");
     let springs = "contact.normal_stiffness=1e12";
-    let refused = run(folder.path(), "matrices", DISC, "refused", &[springs]).code(2);
+    let refused = run("matrices", DISC, &[springs]).code(2);
     refused.warns(&["contact.base_state", "write base_state = \"compliant\""]);
 }
 

@@ -171,11 +171,8 @@ fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix(
 /// the frame at rest, with Coriolis forces, centrifugal stress and all; and so for springs that are alike in every direction.
 #[test]
 fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed() {
-    let ring = Revolved {
-        around: 64,
-        cells: vec![[60.0, 80.0, 0.0, 8.0], [80.0, 100.0, 0.0, 8.0]],
-        holes: Vec::new(),
-    };
+    let cells = vec![[60.0, 80.0, 0.0, 8.0], [80.0, 100.0, 0.0, 8.0]];
+    let ring = Revolved { around: 64, cells, holes: Vec::new() };
     let (_, mesh) = ring.text();
     let deck = mesh + "*SURFACE, NAME=skin\nEall,\n";
     let speed = 30.0;

@@ -36,8 +36,7 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
     // 0.1 %: what the comparison of limit cycles asks for.
     assert!((main / 9440.0 - 1.0).abs() < 1e-3, "{main}");
     let peaks = channel["peaks"].as_array().unwrap().iter();
-    let orders = peaks.filter_map(|p| p["superharmonic"]["order"].as_u64());
-    assert!(orders.eq([2, 3]), "{channel}");
+    assert!(peaks.filter_map(|p| p["superharmonic"]["order"].as_u64()).eq([2, 3]), "{channel}");
     let rate = channel["growth"]["rate_per_s"]["value"].as_f64().unwrap();
     assert!((rate / 600.0 - 1.0).abs() < 0.02, "{rate}");
     // The growing mode near 9.87 kHz is the lowest of n = 2 and travels against the rotor.

@@ -44,8 +44,7 @@ fn bodies_that_creep_on_cylinders_and_balls_have_every_mode_of_a_dense_decomposi
     let speeds = [("sphere", "5000.0"), ("sphere", "10.0"), ("sphere", "0.1"), ("cylinder", "1.0")];
     for (counterface, rpm) in speeds {
         let block = Block { name: "part", origin: [0.0; 3], size: [1.0; 3], counts: [3, 3, 1] };
-        let mesh = file_of(&[block], |at| bent(counterface, at));
-        let folder = folder_with(&[("part.msh", &mesh)]);
+        let folder = folder_with(&[("part.msh", &file_of(&[block], |at| bent(counterface, at)))]);
         let text = include_str!("../cases/creeping-part.toml");
         let set = [format!("contact.counterface={counterface} ; contact.rotation_speed_rpm={rpm}")];
         let run = |command| Run::of_text(command, folder.path(), text).set(&set).out(command);

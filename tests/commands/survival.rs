@@ -26,11 +26,6 @@ impl Study {
         run.args(options).within(&self.root).out(folder)
     }
 
-    fn start(&self, folder: &str, options: &[&str]) -> Child {
-        let mut command = self.sweep(folder, options).program();
-        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
-    }
-
     /// Holds a folder to the table and the points of a sweep that nothing happened to.
     #[track_caller]
     fn is_whole(&self, folder: &str) {
@@ -68,7 +63,8 @@ fn killed_sweeps_resume_to_identical_results() {
         let folder = study.folder(&name);
         let mut finished = 0;
         loop {
-            let mut child = study.start(&name, &["--resume"]);
+            let mut child = study.sweep(&name, &["--resume"]).program();
+            let mut child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
             std::thread::sleep(whole_time.mul_f64(0.6 * draw()));
             if let Some(status) = child.try_wait().unwrap() {
                 assert!(status.success());
@@ -89,10 +85,8 @@ fn killed_sweeps_resume_to_identical_results() {
 #[test]
 fn processes_side_by_side_share_the_points_of_one_folder() {
     let study = Study::new();
-    let ran = || {
-        let summary = study.sweep("shared", &["--resume", "--json"]).done().value();
-        summary["ran"].as_u64().unwrap()
-    };
+    let ran =
+        || study.sweep("shared", &["--resume", "--json"]).done().value()["ran"].as_u64().unwrap();
     let all: u64 = std::thread::scope(|scope| {
         [(); 3].map(|()| scope.spawn(ran)).map(|process| process.join().unwrap()).iter().sum()
     });

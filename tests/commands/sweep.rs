@@ -15,9 +15,6 @@ fn study(sweep: &str) -> Case {
     case_of("study.toml", &format!("{file}{sweep}"), AS_IT_IS)
 }
 
-const SEVEN: &str = "\n[sweep]\nanalyses = [\"cea\"]\n\
-    \"contact.friction_coefficient\" = { from = 0.1, to = 0.7, count = 7 }\n";
-
 #[test]
 fn shards_are_disjoint_and_cover_every_point() {
     for count in 1..=9 {
@@ -35,10 +32,12 @@ fn shards_are_disjoint_and_cover_every_point() {
 /// Its hash is that of a case without a study: it stays when the study grows.
 #[test]
 fn a_point_is_the_case_with_the_swept_values_as_overrides() {
-    let swept = study(SEVEN);
+    let swept = study(
+        "\n[sweep]\nanalyses = [\"cea\"]\n\
+         \"contact.friction_coefficient\" = { from = 0.1, to = 0.7, count = 7 }\n",
+    );
     let point = SweepPlan::new(&swept).unwrap().point_case(3).unwrap();
-    let set = ["contact.friction_coefficient=0.3"];
-    let plain = shipped_case("polycarbonate-disc.toml", &set);
+    let plain = shipped_case("polycarbonate-disc.toml", &["contact.friction_coefficient=0.3"]);
     assert_eq!(point.raw.hash(), plain.raw.hash());
     assert_eq!(point.contact.sliding.friction_coefficient, 0.3);
 }
@@ -50,11 +49,8 @@ fn a_case_runs_the_analyses_that_it_has_sections_for() {
 }
 
 fn manifest(case: &Case) -> Manifest {
-    Manifest {
-        case_text: case.raw.text.clone(),
-        case_hash: case.raw.hash(),
-        ..Manifest::new("sweep")
-    }
+    let (case_text, case_hash) = (case.raw.text.clone(), case.raw.hash());
+    Manifest { case_text, case_hash, ..Manifest::new("sweep") }
 }
 
 /// An analysis that is a formula of the case, and whose clock is never the same.
@@ -72,21 +68,15 @@ fn formula(case: &Case) -> Result<Map<String, Value>, Failure> {
 fn sweep(
     case: &Case,
     folder: &Path,
-    shard: Option<&str>,
-    threads: usize,
-    start: Start,
+    (shard, threads, start): (Option<&str>, usize, Start),
     runner: &PointRunner<'_>,
 ) -> Result<usize, FolderError> {
     let plan = SweepPlan::new(case).unwrap();
     let shard: Option<Shard> = shard.map(|text| text.parse().unwrap());
     let (points, manifest) = (Shard::points(shard, plan.count()), manifest(case));
     let folder = SweepFolder::open(folder, &manifest, plan.count(), &points, start)?;
-    let run = SweepRun {
-        plan: &plan,
-        folder: &folder,
-        progress: &SweepProgress::new(true, points.len()),
-        runner,
-    };
+    let progress = SweepProgress::new(true, points.len());
+    let run = SweepRun { plan: &plan, folder: &folder, progress: &progress, runner };
     let ran = run.run(&points, threads).unwrap();
     gather(&folder, &finished(case, &plan, &folder).unwrap(), None).unwrap();
     Ok(ran)
@@ -101,7 +91,7 @@ fn the_table_is_the_same_bytes_for_any_threads_shards_and_restarts() {
     let case = study(GRID);
     let root = folder();
     let whole = root.path().join("whole");
-    assert_eq!(sweep(&case, &whole, None, 1, Start::Fresh, &formula).unwrap(), 15);
+    assert_eq!(sweep(&case, &whole, (None, 1, Start::Fresh), &formula).unwrap(), 15);
     let expected = table(&whole);
     assert_eq!(expected.lines().count(), 16);
     assert!(expected.starts_with(
@@ -110,15 +100,15 @@ fn the_table_is_the_same_bytes_for_any_threads_shards_and_restarts() {
     ));
     for threads in [2, 7, 40] {
         let folder = root.path().join(format!("{threads}-threads"));
-        sweep(&case, &folder, None, threads, Start::Fresh, &formula).unwrap();
+        sweep(&case, &folder, (None, threads, Start::Fresh), &formula).unwrap();
         assert_eq!(table(&folder), expected, "{threads} threads");
     }
     let shared = root.path().join("shards");
     for shard in ["3/4", "1/4", "2/4"] {
-        sweep(&case, &shared, Some(shard), 2, Start::Fresh, &formula).unwrap();
+        sweep(&case, &shared, (Some(shard), 2, Start::Fresh), &formula).unwrap();
     }
     assert_ne!(table(&shared), expected);
-    let ran = sweep(&case, &shared, None, 2, Start::Resume, &formula).unwrap();
+    let ran = sweep(&case, &shared, (None, 2, Start::Resume), &formula).unwrap();
     assert_eq!(ran, 3, "the points of the fourth shard");
     assert_eq!(table(&shared), expected);
 }
@@ -137,7 +127,7 @@ fn a_failed_point_is_a_row_and_the_others_go_on() {
         }
         formula(point)
     };
-    sweep(&case, folder.path(), None, 3, Start::Fresh, &runner).unwrap();
+    sweep(&case, folder.path(), (None, 3, Start::Fresh), &runner).unwrap();
     let text = table(folder.path());
     let failed: Vec<&str> = text.lines().filter(|row| row.contains("made to")).collect();
     assert_eq!(text.lines().count(), 16);
@@ -150,18 +140,17 @@ fn a_failed_point_is_a_row_and_the_others_go_on() {
         ]
     );
     // A failure is a result: it is not tried again.
-    sweep(&case, folder.path(), None, 3, Start::Resume, &runner).unwrap();
+    sweep(&case, folder.path(), (None, 3, Start::Resume), &runner).unwrap();
     assert_eq!(calls.into_inner(), 15);
     assert_eq!(table(folder.path()), text);
 }
 
 #[test]
 fn values_that_do_not_go_together_fail_their_point_alone() {
-    let sweep_text = "\n[sweep]\n\"geometry.inner_radius\" = [0.01, 0.05]\n\
+    let text = "\n[sweep]\n\"geometry.inner_radius\" = [0.01, 0.05]\n\
         \"geometry.outer_radius\" = [0.04, 0.0905]\nanalyses = [\"cea\"]\n";
-    let case = study(sweep_text);
     let folder = folder();
-    sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
+    sweep(&study(text), folder.path(), (None, 2, Start::Fresh), &formula).unwrap();
     let text = table(folder.path());
     let errors: Vec<bool> = text.lines().map(|row| row.contains("radius =")).collect();
     assert_eq!(errors, [false, false, false, true, false], "{text}");
@@ -171,7 +160,7 @@ fn values_that_do_not_go_together_fail_their_point_alone() {
 fn finished_points_are_kept_unless_asked_otherwise() {
     let case = study(GRID);
     let folder = folder();
-    let run = |shard, start| sweep(&case, folder.path(), shard, 2, start, &formula);
+    let run = |shard, start| sweep(&case, folder.path(), (shard, 2, start), &formula);
     assert_eq!(run(Some("1/3"), Start::Fresh).unwrap(), 5);
     // Another shard is not in its way; the same one, or the whole, is.
     assert_eq!(run(Some("2/3"), Start::Fresh).unwrap(), 5);
@@ -188,13 +177,13 @@ fn finished_points_are_kept_unless_asked_otherwise() {
 fn a_damaged_point_is_run_again() {
     let case = study(GRID);
     let folder = folder();
-    sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
+    sweep(&case, folder.path(), (None, 2, Start::Fresh), &formula).unwrap();
     let expected = table(folder.path());
     let path = |point: usize| folder.path().join(format!("points/point-{point:06}.json"));
     let whole = fs::read_to_string(path(4)).unwrap();
     fs::write(path(4), &whole[..whole.len() / 2]).unwrap();
     fs::copy(path(7), path(8)).unwrap();
-    assert_eq!(sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap(), 2);
+    assert_eq!(sweep(&case, folder.path(), (None, 2, Start::Resume), &formula).unwrap(), 2);
     assert_eq!(table(folder.path()), expected);
 }
 
@@ -202,14 +191,14 @@ fn a_damaged_point_is_run_again() {
 fn points_of_another_case_are_refused_and_replaced_only_by_force() {
     let (case, other) = (study(GRID), study(&GRID.replace("0.4", "0.5")));
     let folder = folder();
-    sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
+    sweep(&case, folder.path(), (None, 2, Start::Fresh), &formula).unwrap();
     let expected = table(folder.path());
     for start in [Start::Fresh, Start::Resume] {
-        let refused = sweep(&other, folder.path(), None, 2, start, &formula).unwrap_err();
+        let refused = sweep(&other, folder.path(), (None, 2, start), &formula).unwrap_err();
         assert!(matches!(refused, FolderError::OtherCase { .. }));
     }
     assert_eq!(table(folder.path()), expected);
-    assert_eq!(sweep(&other, folder.path(), None, 2, Start::Over, &formula).unwrap(), 15);
+    assert_eq!(sweep(&other, folder.path(), (None, 2, Start::Over), &formula).unwrap(), 15);
     assert!(table(folder.path()).contains("\n0.5,"));
 }
 
@@ -239,8 +228,8 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
     let sections = "[cea]\nmodes = 8\nfriction_coefficients = [0.1, 0.3]\n[sweep]\nanalyses = [\"cea\"]\n\
         \"contact.rotation_speed_rpm\" = [-610.0, 610.0]\n\
         \"material.young_modulus\" = [2.5e9, 5e9]\n";
-    let folder = folder_with(&[("case.toml", coarse_disc(sections).as_bytes())]);
-    let run = Run::new(&["sweep", "case.toml"]).within(&folder).out("out");
+    let run = Run::new(&["sweep", "case.toml"]).beside(&[("case.toml", coarse_disc(sections))]);
+    let run = run.out("out");
     let answer = run.done().says(&["of 8 operating conditions (4 points)"]);
     // Every row of the modes of the points that grows is in the table, at both frictions.
     let unstable = answer.rows("unstable_modes.csv");
@@ -296,8 +285,8 @@ fn keys_of_one_short_name_have_heads_of_their_own() {
         tangential_stiffness = 1e12\n[cea]\nmodes = 8\nfriction_coefficients = [0.3]\n\
         [sweep]\nanalyses = [\"cea\"]\n\
         \"contact.normal_stiffness\" = { values = [1e12, 1e13], also = \"boundaries.outer.normal_stiffness\" }\n";
-    let folder = folder_with(&[("case.toml", coarse_disc(sections).as_bytes())]);
-    let run = Run::new(&["sweep", "case.toml", "--format", "svg"]).within(&folder).out("out");
+    let run = Run::new(&["sweep", "case.toml", "--format", "svg"]).out("out");
+    let run = run.beside(&[("case.toml", coarse_disc(sections))]);
     let keys = ["contact.normal_stiffness", "boundaries.outer.normal_stiffness"];
     let html = run.done().says(&keys).text("report.html");
     let tables: Vec<&str> = html.split("<thead>").skip(1).collect();

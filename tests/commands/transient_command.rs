@@ -230,8 +230,7 @@ fn no_number_that_is_none_is_printed_or_written() {
         let answer = transient("out".as_ref(), &[set]).done();
         let files = ["summary.json", "energy.csv", "contact.csv", "harmonics.csv", "probe-1.csv"];
         for text in files.map(|file| answer.text(file)).iter().chain([&answer.stdout]) {
-            let words = text.split(|c: char| c.is_whitespace() || ",:(".contains(c));
-            for word in words {
+            for word in text.split(|c: char| c.is_whitespace() || ",:(".contains(c)) {
                 let word = word.trim_end_matches(['%', '.', ')']);
                 let is_zero = word.parse::<f64>().is_ok_and(|value| value == 0.0);
                 assert!(!["NaN", "nan", "inf", "-inf"].contains(&word), "{name}: {word}");

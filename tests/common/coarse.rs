@@ -12,9 +12,8 @@ pub fn disc_of([around, across]: [usize; 2], sections: &str) -> String {
     let text = include_str!("../commands/refused/coarse-disc.toml");
     let (disc, _) = text.split_once("[cea]").unwrap();
     let around = format!("circumferential_elements = {around}");
-    let across = format!("radial_elements = {across}");
     let disc = disc.replace("circumferential_elements = 36", &around);
-    disc.replace("radial_elements = 6", &across) + sections
+    disc.replace("radial_elements = 6", &format!("radial_elements = {across}")) + sections
 }
 
 /// Changes of `sliding-block.toml` that give it a mesh of 8 x 12 elements in `folder`; none in the long tier.
@@ -22,6 +21,5 @@ pub fn coarse_block(folder: &Path) -> String {
     let path = folder.join("block.msh");
     let mesh = plane_block([0.04, 0.06], [8, 12], ["face", "back", "block"]);
     std::fs::write(&path, mesh).unwrap();
-    let coarse = format!("mesh.file=\"{}\" ; mesh.scale=1", path.display());
-    sized(coarse, "mesh.scale=0.001".to_owned())
+    sized(format!("mesh.file={path:?} ; mesh.scale=1"), "mesh.scale=0.001".to_owned())
 }

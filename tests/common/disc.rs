@@ -2,8 +2,7 @@
 
 use super::prelude::*;
 
-pub const POLYCARBONATE: ElasticMaterial =
-    elastic(2.5e9, 0.3805, 1228.0, PlaneFormulation::PlaneStrain);
+pub const POLYCARBONATE: ElasticMaterial = elastic(2.5e9, 0.3805, 1228.0, PlaneStrain);
 
 pub const DAMPING: RayleighDamping = rayleigh_damping(40.0, 4.5e-7);
 
@@ -246,8 +245,7 @@ pub fn grows_from(model: TransientModel<'_>, mode: &ComplexMode) {
     let (initial, none) = (InitialState::SteadySliding, Perturbation::default());
     let mut settings = transient_settings([duration, duration, 0.0], initial, none);
     settings.time_step = TimeStep::Seconds(1e-7);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let operator = operator.as_ref();
+    let operator = &*model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let step = model.plan(operator, &settings).unwrap().time_step;
     let base = model.sliding_displacement().unwrap();
     // Small against the compression, large against its round-off.
@@ -286,9 +284,10 @@ pub fn transient_settings(
     perturbation: Perturbation,
 ) -> TransientSettings {
     let [duration, sample_interval, expansion_time] = times;
+    let time_step = TimeStep::Auto;
     TransientSettings {
         duration,
-        time_step: TimeStep::Auto,
+        time_step,
         sample_interval,
         expansion_time,
         initial,

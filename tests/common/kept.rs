@@ -32,7 +32,6 @@ impl SweepWatch for Kept {
     }
 
     fn keep(&self, name: &str, bytes: Vec<u8>) {
-        let step = (name.to_owned(), bytes);
-        self.steps.lock().unwrap().push(step);
+        self.steps.lock().unwrap().push((name.to_owned(), bytes));
     }
 }

@@ -36,8 +36,8 @@ const fn form(is_new: bool, is_binary: bool) -> Form {
     Form { is_new, is_binary }
 }
 
-/// A file, and whether its numbers are bytes.
-struct Out(Vec<u8>, bool);
+/// A file and its form: numbers as text or bytes.
+struct Out(Vec<u8>, Form);
 
 impl Out {
     fn line(&mut self, text: impl Display) {
@@ -54,7 +54,7 @@ impl Out {
     }
     fn put(&mut self, bytes: &[u8], value: &dyn Debug) {
         let text = format!("{value:?} ");
-        self.0.extend(if self.1 { bytes } else { text.as_bytes() });
+        self.0.extend(if self.1.is_binary { bytes } else { text.as_bytes() });
     }
 }
 
@@ -65,7 +65,7 @@ pub fn write_msh(
     numbers: &[usize],
     place: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Vec<u8> {
-    let mut out = Out(Vec::new(), form.is_binary);
+    let mut out = Out(Vec::new(), form);
     let [curves, regions] = [mesh.boundaries.len(), mesh.regions.len()];
     let version = if form.is_new { "4.1" } else { "2.2" };
     out.line(format_args!("$MeshFormat\n{version} {} 8", u8::from(form.is_binary)));
@@ -95,15 +95,14 @@ pub fn write_msh(
     }
     let plain: Vec<usize> = (1..=mesh.node_count()).collect();
     let numbers = if numbers.is_empty() { &plain } else { numbers };
-    write_nodes(&mut out, mesh, form, numbers, place);
-    write_elements(&mut out, mesh, form, numbers);
+    write_nodes(&mut out, mesh, numbers, place);
+    write_elements(&mut out, mesh, numbers);
     out.0
 }
 
 fn write_nodes(
     out: &mut Out,
     mesh: &Mesh,
-    form: Form,
     numbers: &[usize],
     place: impl Fn([f64; 2]) -> [f64; 2],
 ) {
@@ -112,7 +111,7 @@ fn write_nodes(
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by_key(|&node| numbers[node]);
     out.line("$Nodes");
-    if form.is_new {
+    if out.1.is_new {
         out.sizes(&[1, count, 1, count]);
         out.ints(&[2, 1, 0]);
         out.sizes(&[count]);
@@ -121,7 +120,7 @@ fn write_nodes(
         out.line(count);
     }
     for &node in &order {
-        if !form.is_new {
+        if !out.1.is_new {
             out.ints(&[numbers[node] as i32]);
         }
         let [x, y] = place(mesh.plane_node(node));
@@ -130,7 +129,7 @@ fn write_nodes(
     out.line("\n$EndNodes");
 }
 
-fn write_elements(out: &mut Out, mesh: &Mesh, form: Form, numbers: &[usize]) {
+fn write_elements(out: &mut Out, mesh: &Mesh, numbers: &[usize]) {
     let mut all: Vec<(i32, i32, Vec<usize>)> = Vec::new();
     let number = |node: u32| numbers[node as usize];
     for (boundary, tag) in mesh.boundaries.iter().zip(1..) {
@@ -146,22 +145,21 @@ fn write_elements(out: &mut Out, mesh: &Mesh, form: Form, numbers: &[usize]) {
         all.push((mesh.element_kind(e).gmsh_type() as i32, mesh.region(e) as i32 + 1, nodes));
     }
     out.line("$Elements");
-    match form.is_new {
+    match out.1.is_new {
         true => out.sizes(&[all.len(), all.len(), 1, all.len()]),
         false => out.line(all.len()),
     }
-    for ((kind, tag, nodes), label) in all.iter().zip(1..) {
-        if form.is_new {
-            out.ints(&[if matches!(kind, 1 | 8) { 1 } else { 2 }, *tag, *kind]);
+    for (&(kind, tag, ref nodes), label) in all.iter().zip(1..) {
+        if out.1.is_new {
+            out.ints(&[if matches!(kind, 1 | 8) { 1 } else { 2 }, tag, kind]);
             out.sizes(&[1, label]);
             out.sizes(nodes);
         } else {
             let label = label as i32;
-            match form.is_binary {
-                true => out.ints(&[*kind, 1, 2, label]),
-                false => out.ints(&[label, *kind, 2]),
-            }
-            out.ints(&[*tag, *tag]);
+            let head: &[i32] =
+                if out.1.is_binary { &[kind, 1, 2, label] } else { &[label, kind, 2] };
+            out.ints(head);
+            out.ints(&[tag, tag]);
             nodes.iter().for_each(|&node| out.ints(&[node as i32]));
         }
     }

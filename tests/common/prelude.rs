@@ -28,10 +28,10 @@ pub use frictionsim::mesh::ElementKind::{Hex8, Hex20, Pyramid5, Pyramid13, Quad4
 pub use frictionsim::mesh::ElementKind::{Tet4, Tet10, Tri3, Tri6, Wedge6, Wedge15};
 pub use frictionsim::prestress::DampingModel::{BodyOnly, WholeTangent};
 pub use frictionsim::results::cea::{BaseField, BaseState, CeaReport, ContactPlace, ContactState};
-pub use frictionsim::results::{BodyStress, Extent, Manifest, OutputFolder, Replace, ShownBody};
 pub use frictionsim::results::{
-    DrawingOptions, FolderError, Format, Head, write_page, write_tables,
+    BodyStress, DrawingOptions, Format, Head, write_page, write_tables,
 };
+pub use frictionsim::results::{Extent, FolderError, Manifest, OutputFolder, Replace, ShownBody};
 pub use frictionsim::study::eigenvalues::modes_and_onsets;
 pub use frictionsim::study::transient::TransientStudy;
 pub use frictionsim::{cea::*, contact::*, cycle::*, fem::*, frf::*, linalg::*, mesh::*};

@@ -11,6 +11,8 @@ pub struct Run {
     input: Vec<u8>,
     within: PathBuf,
     out: PathBuf,
+    /// The folder of a run that was given none.
+    own: Option<TempDir>,
 }
 
 /// What a run said, and the folder of its results.
@@ -19,8 +21,7 @@ pub struct Answer {
     pub stdout: String,
     pub stderr: String,
     pub out: PathBuf,
-    /// The folder of a run that was given none.
-    own: Option<tempfile::TempDir>,
+    own: Option<TempDir>,
 }
 
 /// A row of a table, its words by column.
@@ -35,11 +36,11 @@ pub fn shipped(name: &str) -> String {
     format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
-pub fn folder() -> tempfile::TempDir {
+pub fn folder() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-pub fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
+pub fn folder_with(files: &[(&str, &[u8])]) -> TempDir {
     let folder = folder();
     for (name, bytes) in files {
         std::fs::write(folder.path().join(name), bytes).unwrap();
@@ -73,7 +74,7 @@ impl Run {
     pub fn new<S: AsRef<OsStr>>(words: &[S]) -> Self {
         let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
         program.args(words);
-        Self { program, input: Vec::new(), within: PathBuf::new(), out: PathBuf::new() }
+        Self { program, input: Vec::new(), within: PathBuf::new(), out: PathBuf::new(), own: None }
     }
 
     /// A command on a case, without figures.
@@ -92,6 +93,14 @@ impl Run {
         self.within = folder.as_ref().to_owned();
         self.program.current_dir(&self.within);
         self
+    }
+
+    /// In a folder of its own that holds these files.
+    pub fn beside<T: AsRef<[u8]>>(self, files: &[(&str, T)]) -> Self {
+        let files: Vec<_> = files.iter().map(|(name, own)| (*name, own.as_ref())).collect();
+        let own = folder_with(&files);
+        let run = self.within(&own);
+        Self { own: Some(own), ..run }
     }
 
     pub fn args<S: AsRef<OsStr>>(mut self, words: &[S]) -> Self {
@@ -126,15 +135,14 @@ impl Run {
 
     /// Runs it to its end, in a temporary folder of its own where it was given none.
     pub fn end(mut self) -> Answer {
-        let own = self.within.as_os_str().is_empty().then(folder);
-        if let Some(own) = &own {
-            self = self.within(own);
+        if self.within.as_os_str().is_empty() {
+            self = self.beside::<&[u8]>(&[]);
         }
         let [input, output, errors] = [(); 3].map(|()| Stdio::piped());
         let mut child = self.program.stdin(input).stdout(output).stderr(errors).spawn().unwrap();
         // A run that refuses its case does not read on.
         let _ = child.stdin.take().unwrap().write_all(&self.input);
-        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out), own)
+        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out), self.own)
     }
 
     /// Starts the run, waits until it has come so far, a minute at most, and ends it: by a signal, at once where there is none.
@@ -154,7 +162,7 @@ impl Run {
             }
             None => child.kill().unwrap(),
         }
-        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out), None)
+        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out), self.own)
     }
 
     /// A run that must end well.
@@ -169,7 +177,7 @@ impl Run {
 }
 
 impl Answer {
-    fn of(output: Output, out: PathBuf, own: Option<tempfile::TempDir>) -> Self {
+    fn of(output: Output, out: PathBuf, own: Option<TempDir>) -> Self {
         let [stdout, stderr] =
             [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
         Self { code: output.status.code(), stdout, stderr, out, own }
@@ -264,11 +272,12 @@ impl Answer {
         own.map(|[growth, hz]| c64::new(growth, TAU * hz)).collect()
     }
 
-    /// Holds the run to files that it must have written, their names a space apart.
+    /// Holds the run to files that it must have written, their names a space apart; one behind `!` must not be there.
     #[track_caller]
     pub fn wrote(self, names: &str) -> Self {
         for name in names.split(' ') {
-            assert!(self.path(name).exists(), "{name}");
+            let own = name.trim_start_matches('!');
+            assert_eq!(self.path(own).exists(), own == name, "{name}");
         }
         self
     }

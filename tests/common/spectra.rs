@@ -78,8 +78,7 @@ pub fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
 
 /// A matrix of a file as a dense one.
 pub fn market_matrix(path: &Path) -> Mat<f64> {
-    let matrix = MarketMatrix::read(&fs::read_to_string(path).unwrap(), usize::MAX).unwrap();
-    dense_of(&matrix)
+    dense_of(&MarketMatrix::read(&fs::read_to_string(path).unwrap(), usize::MAX).unwrap())
 }
 
 /// Entries as a dense matrix.

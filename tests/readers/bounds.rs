@@ -61,8 +61,7 @@ fn a_long_chain_of_coordinate_systems_is_walked() {
 fn coordinates_beyond_reason_are_refused_with_their_node() {
     let far = ASSEMBLY.replace("7, 1.0D0, 2.0d0, 3.", "7, 1.0, -1e308, 3.");
     has(&error("a.inp", &far), &["node 7 lies at"]);
-    let deck = BULK_DATA.replace("FORCE ", "$");
-    let folder = folder_with(&[("a.bdf", deck.as_bytes())]);
+    let folder = folder_with(&[("a.bdf", BULK_DATA.replace("FORCE ", "$").as_bytes())]);
     let case = "[mesh]\nfile = \"a.bdf\"\nscale = 1e300\n[cea]\nmodes = 3\n";
     has(&said_of(folder.path(), case), &["no coordinate may be beyond 1e12"]);
 }
@@ -85,9 +84,8 @@ fn a_pipe_in_place_of_a_file_is_refused() {
     let folder = folder_with(&[]);
     let pipe = folder.path().join("a.inp");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    let said = said_of(folder.path(), MESH);
     // Nothing that follows from it stands before it.
-    has(said.lines().next().unwrap(), &["it is not a regular file"]);
+    has(said_of(folder.path(), MESH).lines().next().unwrap(), &["it is not a regular file"]);
     fs::write(folder.path().join("b.inp"), "*INCLUDE, INPUT=a.inp\n").unwrap();
     let said = said_of(folder.path(), &MESH.replace("a.inp", "b.inp"));
     has(&said, &["b.inp, line 1: cannot include a.inp: it is not a regular"]);
@@ -99,10 +97,8 @@ fn a_pipe_in_place_of_a_file_is_refused() {
 
 #[test]
 fn a_hundred_thousand_unknown_keywords_take_moments_and_messages_stay_short() {
-    let mut text = ASSEMBLY.to_owned();
-    for k in 0..100_000 {
-        writeln!(text, "*WORD{k}").unwrap();
-    }
+    let words: String = (0..100_000).map(|k| format!("*WORD{k}\n")).collect();
+    let text = ASSEMBLY.to_owned() + &words;
     let start = Instant::now();
     let file = FileMesh::read_as("a.inp", text.as_bytes()).unwrap();
     assert!(file.model.left_out.len() > 100_000);
@@ -136,9 +132,8 @@ fn what_joins_parts_and_is_not_understood_is_an_error_unless_the_case_drops_it()
     has(&said_of(folder.path(), &some), &["CONM2 ; !RBE2"]);
     // What is dropped is listed.
     let all = format!("{case}drop = [\"RBE2\", \"FORCE\", \"conm2\"]\n");
-    let case = case_of(path, &all, AS_IT_IS);
     let dropped = format!("RBE2 (line {line}, 2 times): mesh.drop leaves it out");
-    has(&case.taken.not_used().join("\n"), &[&dropped]);
+    has(&case_of(path, &all, AS_IT_IS).taken.not_used().join("\n"), &[&dropped]);
     // `init --from` proposes no silent drop.
     let text = case_from(&folder.path().join("a.bdf"), "a.bdf").unwrap();
     has(&text, &["\n# drop = [\"CONM2\", \"FORCE\", \"RBE2\"]\n"]);

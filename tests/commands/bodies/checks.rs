@@ -100,8 +100,7 @@ fn cea(bench: &Bench, twin: Option<&Bench>) -> Verdict {
 }
 
 fn by_method(bench: &Bench, method: &str) -> Verdict {
-    let method = format!("cea.method=\"{method}\"");
-    let (_, own) = done(bench.run("cea", &[&method, ALONE]))?;
+    let (_, own) = done(bench.run("cea", &[&format!("cea.method=\"{method}\""), ALONE]))?;
     let (_, other) = needed(bench.run("cea", &[]))?;
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
@@ -144,8 +143,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Verdict {
     // Waves that friction hardly tells apart cannot be recognised by their eigenvalues.
     let own = spectrum(&folder);
     let is_alone = |i: &usize| {
-        let place = [frequencies[*i], growths[*i]];
-        own.iter().filter(|mode| distance(mode, place) < 1.0).count() == 1
+        own.iter().filter(|mode| distance(mode, [frequencies[*i], growths[*i]]) < 1.0).count() == 1
     };
     let alone: Vec<usize> = (0..frequencies.len()).filter(is_alone).take(4).collect();
     verdict(!alone.is_empty(), || "no mode stands alone".to_owned())?;
@@ -353,7 +351,8 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Verdict {
 
 fn plot(bench: &Bench, _: Option<&Bench>) -> Verdict {
     let few = ["cea.friction_coefficients=[0.0,0.3]", "cea.modes=2"];
-    let (_, folder) = needed(bench.run_drawn("cea", &few))?;
+    let case = bench.folder.path().join("case.toml");
+    let (_, folder) = needed(bench.run_on("cea", &[&case], &few, "--format=svg"))?;
     bench.redraw(&folder).map_err(Cell::Refused)?;
     let is_drawn = folder.join("locus.svg").exists() || folder.join("figures").exists();
     verdict(is_drawn, || "no figure is drawn".to_owned())

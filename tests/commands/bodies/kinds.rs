@@ -12,10 +12,7 @@ pub struct Kind {
 
 const ANNULUS: &str = include_str!("annulus.toml");
 const FILE: &str = include_str!("file.toml");
-const BLOCK: &str = include_str!("block.toml");
 const REVOLUTION: &str = include_str!("revolution.toml");
-const SOLIDS: &str = include_str!("solids.toml");
-const SECTORS: &str = include_str!("sectors.toml");
 const POLYCARBONATE: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n";
 /// Stiffer around than outwards; axes about the disc's own.
 const LINING: &str = "young_moduli = [2e9, 5e9, 1.5e9]\npoisson_ratios = [0.2, 0.3, 0.25]
@@ -75,7 +72,7 @@ fn solids(name: &'static str, contact: &str, support: &str, counts: [[usize; 3];
         block("plate", -0.005, 0.005, counts[2]),
     ];
     let further = contact.to_owned() + &on_springs("plate_x0", support);
-    kind(name, SOLIDS, &further).on(file_of(&blocks, |point| point))
+    kind(name, include_str!("solids.toml"), &further).on(file_of(&blocks, |point| point))
 }
 
 /// The kinds, in the order of the table.
@@ -117,7 +114,7 @@ normal_stiffness = 1e12\n[boundaries.bottom]\ncondition = \"guide\"\n";
             .on(grids(&[Grid { is_cut: true, ..disc(&|_| "disc") }])),
         kind("two materials", FILE, &rim)
             .on(grids(&[disc(&|layer| if layer < 4 { "disc" } else { "rim" })])),
-        kind("block, contact opens in part", BLOCK, "").on(opening),
+        kind("block, contact opens in part", include_str!("block.toml"), "").on(opening),
         kind("two bodies, matching", FILE, &journal).on(two_bodies(32)).like("annulus and shaft"),
         kind("two bodies, not matching", FILE, &journal).on(two_bodies(24)),
         kind("body of revolution, contact on the edge", REVOLUTION, ""),
@@ -126,6 +123,6 @@ normal_stiffness = 1e12\n[boundaries.bottom]\ncondition = \"guide\"\n";
         // Its own friction lies above the onset at 0.2, which coarser meshes do not have.
         solids("solid bodies, squealing", "normal_stiffness = 1e11\n", "1e10", coarse),
         solids("solid bodies, stiffening contact", STIFFENING, "1e10", stiffens),
-        kind("solid of sectors", SECTORS, "").on(file_of(&[sector], polar)),
+        kind("solid of sectors", include_str!("sectors.toml"), "").on(file_of(&[sector], polar)),
     ]
 }

@@ -3,21 +3,10 @@
 use super::*;
 use frictionsim::case::{Default, reference};
 
-fn whole() -> String {
-    let further = "
-        [cycle]
-        [cycle.continuation]
-        key = \"contact.rotation_speed_rpm\"
-        from = 10
-        to = 6000
-        [frf]
-        force_node = 36
-        frequencies_hz = [100]
-        [convergence]
-        [sweep]
-        \"contact.interference\" = 1e-5";
-    format!("{RUN}\n{further}")
-}
+/// What makes of the run a case of every section.
+const WHOLE: &str = "frf={ force_node = 36, frequencies_hz = [100] } ; convergence={} ; \
+    cycle={ continuation = { key = \"contact.rotation_speed_rpm\", from = 10, to = 6000 } } ; \
+    sweep={ \"contact.interference\" = 1e-5 }";
 
 #[test]
 fn the_guide_documents_every_key_as_it_is_declared() {
@@ -26,7 +15,7 @@ fn the_guide_documents_every_key_as_it_is_declared() {
 
 #[test]
 fn a_default_written_out_changes_nothing() {
-    let plain = valid(&whole(), &[]);
+    let plain = valid(RUN, &[WHOLE]);
     for key in KEYS.iter() {
         let Default::Value(value) = key.default else { continue };
         // What the case gives itself is no default, and a section that it lacks has none.
@@ -34,7 +23,7 @@ fn a_default_written_out_changes_nothing() {
         if plain.raw.find(key.name).is_some() || lacks_section {
             continue;
         }
-        let written = match parse(&whole(), &[&format!("{}={value}", key.name)]) {
+        let written = match parse(RUN, &[WHOLE, &format!("{}={value}", key.name)]) {
             Ok(written) => written,
             // A seed needs the noise that it is the seed of.
             Err(errors) => {

@@ -102,8 +102,7 @@ fn overrides_change_exactly_their_key() {
     // A part of a range, one way to select modes in place of the other, and a word in place of a number.
     let case = valid(DISC, &["cea.friction_coefficients.count=101"]);
     assert_eq!(case.cea.unwrap().friction_coefficients.len(), 101);
-    let case = valid(DISC, &["cea.modes=28"]);
-    assert_eq!(case.cea.unwrap().modes, Lowest(28));
+    assert_eq!(valid(DISC, &["cea.modes=28"]).cea.unwrap().modes, Lowest(28));
     let case = valid(DISC, &["contact.normal_stiffness=rigid"]);
     assert_eq!(case.contact.stiffness.normal_stiffness, None);
 }

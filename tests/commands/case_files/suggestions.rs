@@ -3,8 +3,7 @@
 use crate::prelude::*;
 
 fn parse(name: &str, further: &str) -> Case {
-    let text = fs::read_to_string(shipped(name)).unwrap() + further;
-    case_of(shipped(name), &text, AS_IT_IS)
+    case_of(shipped(name), &(fs::read_to_string(shipped(name)).unwrap() + further), AS_IT_IS)
 }
 
 #[test]

@@ -182,8 +182,7 @@ fn texts_of_any_length_stay_on_the_sheet_at_every_width() {
     let figure =
         Figure::new("long", "Long.").columns(2).note(long).panel(panel("one")).panel(panel("two"));
     for width in [70.0, 85.0, 120.0, 178.0] {
-        let svg = figure.to_svg(Some(width)).unwrap();
-        check_texts(&format!("long texts at {width} mm"), &svg);
+        check_texts(&format!("long texts at {width} mm"), &figure.to_svg(Some(width)).unwrap());
     }
 }
 

@@ -21,10 +21,8 @@ fn a_run_gets_every_figure_of_its_record() {
     let mut record = Recorder::new(&run, &wanted).unwrap();
     run.run(&mut record).unwrap();
     let analysis = TransientAnalysis::of(&record, &[2]);
-    let growth = analysis.growth.iter();
-    let growth =
-        growth.filter_map(|g| Some((g.harmonic?, g.stage.as_ref().ok()?.rate_per_s.value)));
-    let growth: Vec<(usize, f64)> = growth.collect();
+    let rate = |own: &Growth| Some((own.harmonic?, own.stage.as_ref().ok()?.rate_per_s.value));
+    let growth_rates = analysis.growth.iter().filter_map(rate).collect();
     let solved = SolvedTransient {
         record,
         analysis,
@@ -51,7 +49,7 @@ fn a_run_gets_every_figure_of_its_record() {
         peripheral_speed: rotation_speed * 0.0205,
         stage: LinearStage {
             references: vec![ModeLine { frequency_hz: 9901.0, label: "mode 5, *n* = 2".into() }],
-            growth_rates: growth,
+            growth_rates,
             mode_rates: Vec::new(),
         },
     };

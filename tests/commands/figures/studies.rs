@@ -5,14 +5,10 @@ use crate::prelude::*;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::sweep::{PointRecord, draw_sweep};
 
-fn point(number: usize, swept: Value, summaries: Value) -> PointRecord {
-    let object = |value: Value| value.as_object().cloned().unwrap_or_default();
-    PointRecord {
-        point: number,
-        swept: object(swept),
-        summaries: object(summaries),
-        ..PointRecord::default()
-    }
+fn point(point: usize, swept: Value, summaries: Value) -> PointRecord {
+    let objects = [swept, summaries].map(|value| value.as_object().cloned().unwrap_or_default());
+    let [swept, summaries] = objects;
+    PointRecord { point, swept, summaries, ..PointRecord::default() }
 }
 
 /// A transient whose wave has one nodal diameter up to some speed and two beyond, and sticks up to another.
@@ -34,10 +30,9 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
             json!({ "contact.friction_coefficient": mu, "contact.rotation_speed_rpm": rpm });
         point(index + 1, swept, transient(rpm, 100.0))
     });
-    let records: Vec<PointRecord> = records.collect();
     let modes = [(9901.0, "mode 5, *n* = 2"), (7660.0, "mode 3, *n* = 1")];
     let modes = modes.map(|(frequency_hz, label)| ModeLine { frequency_hz, label: label.into() });
-    let figures = draw_sweep(&records, (0.3, 1.0), &modes);
+    let figures = draw_sweep(&records.collect::<Vec<_>>(), (0.3, 1.0), &modes);
     let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
     assert_eq!(names, ["frequencies", "status"]);
     let words = "μ = 0.2 ; n = 1 ; n = 2 ; ω*, μ = 0.4 ; 9.90 kHz, mode 5 ; at μ = 0.3 ; \
@@ -56,8 +51,7 @@ fn points_over_any_key_have_frequencies_and_status_too() {
         let swept = json!({ "contact.interference": interference });
         point(i as usize, swept, transient(interference, 2.5e-5))
     });
-    let records: Vec<PointRecord> = records.collect();
-    let figures = draw_sweep(&records, (0.3, 1.0), &[]);
+    let figures = draw_sweep(&records.collect::<Vec<_>>(), (0.3, 1.0), &[]);
     assert_eq!(figures.len(), 2);
     let svg = figures[0].to_svg(None).unwrap();
     check("study-interference", &svg, &["interference δ ; main frequency f (kHz)"]);
@@ -76,10 +70,8 @@ fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_bra
         let swept = json!({ "damping.stiffness_coefficient": damping });
         point(i as usize + 1, swept, json!({ "cea": { "critical_frictions": found } }))
     });
-    let records: Vec<PointRecord> = records.collect();
-    let figures = draw_sweep(&records, (0.3, 1.0), &[]);
+    let figures = draw_sweep(&records.collect::<Vec<_>>(), (0.3, 1.0), &[]);
     assert_eq!(figures.len(), 1);
-    let svg = figures[0].to_svg(None).unwrap();
     let words = "stiffness damping βR (s) ; n = 2, branch 0 ; stable ; μ (–)";
-    check("critical-friction", &svg, &[words]);
+    check("critical-friction", &figures[0].to_svg(None).unwrap(), &[words]);
 }

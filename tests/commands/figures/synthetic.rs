@@ -13,8 +13,7 @@ const PAIRS: &str = "\
     14832 0 2 0 ; 16361 4 1 345 ; 16433 6 0 2 ; 16641 0 3 0 ; 17165 1 2 423 ; 17447 2 2 66";
 
 pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh {
-    let disc = annulus(Quad4, circumferential_elements, radial_elements);
-    AnnulusMesh::generate(&disc).unwrap().mesh
+    AnnulusMesh::generate(&annulus(Quad4, circumferential_elements, radial_elements)).unwrap().mesh
 }
 
 fn rayleigh(omega: f64) -> f64 {
@@ -142,7 +141,6 @@ pub fn sweep(count: usize) -> FrictionSweep {
         let modes = modes(friction_coefficient, None);
         FrictionPoint { friction_coefficient, modes, above: Vec::new() }
     });
-    let points = points.collect();
     let mut intervals = Vec::new();
     for [frequency, harmonic, branch, split] in rows_of(PAIRS) {
         let (harmonic, branch) = (harmonic as usize, branch as usize);
@@ -155,7 +153,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         }
     }
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-    FrictionSweep { points, intervals, ..FrictionSweep::default() }
+    FrictionSweep { points: points.collect(), intervals, ..FrictionSweep::default() }
 }
 
 /// A wave of one harmonic, clamped outside, with an arbitrary solver phase; friction shears it.

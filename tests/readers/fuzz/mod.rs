@@ -20,26 +20,22 @@ fn variable(name: &str, default: u64) -> u64 {
     text.and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-/// Tries inputs until the time is over: `make` builds one from a seed, `try_one` must neither panic nor take long.
-pub fn hold<T: AsRef<[u8]>>(
-    target: &str,
-    make: impl Fn(&mut mutation::Random) -> T,
-    try_one: impl Fn(&[u8]),
-) {
+/// Tries inputs until the time is over: `make` builds one from a seed, `hold_one` must neither panic nor take long.
+pub fn hold<T: AsRef<[u8]>>(name: &str, make: impl Fn(&mut Random) -> T, hold_one: impl Fn(&[u8])) {
     let seconds = Duration::from_secs(variable("FRICTIONSIM_FUZZ_SECONDS", sized(1, 10)));
     let (begin, first) = (Instant::now(), variable("FRICTIONSIM_FUZZ_SEED", 0));
     let mut seed = first;
     while begin.elapsed() < seconds {
-        let input = make(&mut mutation::Random::new(seed));
+        let input = make(&mut Random::new(seed));
         let start = Instant::now();
-        let outcome = catch_unwind(AssertUnwindSafe(|| try_one(input.as_ref())));
+        let outcome = catch_unwind(AssertUnwindSafe(|| hold_one(input.as_ref())));
         let took = start.elapsed().as_secs_f64();
         if outcome.is_err() || took > LONGEST {
-            let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{target}-{seed}"));
+            let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{seed}"));
             let _ = fs::write(&path, input.as_ref());
-            panic!("{target}: seed {seed} after {took:.1} s, input in {}", path.display());
+            panic!("{name}: seed {seed} after {took:.1} s, input in {}", path.display());
         }
         seed += 1;
     }
-    println!("{target}: {} inputs held", seed - first);
+    println!("{name}: {} inputs held", seed - first);
 }

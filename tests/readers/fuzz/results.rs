@@ -7,8 +7,8 @@ use frictionsim::results::sweep::{Found, SweepFolder};
 use frictionsim::results::transient::{CHECKPOINT, read_checkpoint, write_checkpoint};
 use frictionsim::results::{read_manifest, read_record};
 
-/// One finished folder of a command with the files that `plot` reads, of a run that takes moments.
-fn finished(folder: &Path, command: &str) -> PathBuf {
+/// One finished run of a command with the files that `plot` reads, which takes moments.
+fn finished(command: &str) -> Answer {
     let (name, changes) = match command {
         "mesh" => ("polycarbonate-disc", "mesh.radial_elements=4"),
         "cea" => ("polycarbonate-disc", "cea.friction_coefficients=[0.0, 0.3]"),
@@ -28,11 +28,10 @@ fn finished(folder: &Path, command: &str) -> PathBuf {
     // Without the transient of the study of the mesh, which takes seconds.
     let text = fs::read_to_string(shipped(&format!("{name}.toml"))).unwrap();
     let lines = text.lines().filter(|line| !line.starts_with("time_step_factors"));
-    let case = folder.join(format!("{name}.toml"));
-    fs::write(&case, lines.collect::<Vec<&str>>().join("\n")).unwrap();
-    let run = Run::new(&[command, case.to_str().unwrap(), "--format=svg", "-qq"]).within(folder);
+    let case = lines.collect::<Vec<&str>>().join("\n");
+    let run = Run::new(&[command, "case.toml", "--format=svg", "-qq"]);
     let small = "mesh.circumferential_elements=24 ; mesh.radial_elements=4";
-    run.set(&[small, changes]).out(command).done().out
+    run.beside(&[("case.toml", case)]).set(&[small, changes]).out(command).done()
 }
 
 /// Gives a framed file the checksum and length of its changed contents, so that only what they say can refuse it.
@@ -54,8 +53,7 @@ fn figures_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
     let changed = binary(random, &bytes);
     let mut deflated = DeflateEncoder::new(Vec::new(), Compression::fast());
     deflated.write_all(&changed).unwrap();
-    let payload = (changed.len() as u64, deflated.finish().unwrap());
-    let payload = postcard::to_stdvec(&payload).unwrap();
+    let payload = postcard::to_stdvec(&(changed.len() as u64, deflated.finish().unwrap())).unwrap();
     with_right_checksum([&original[..24], &payload].concat())
 }
 
@@ -72,29 +70,21 @@ fn plot(folder: &Path) -> bool {
     manifest.is_ok_and(|manifest| redraw(folder, &manifest, &coarse).is_ok())
 }
 
-fn hold_figures(command: &str) {
-    let scratch = folder();
-    let folder = finished(scratch.path(), command);
-    let original = fs::read(folder.join("figures.bin")).unwrap();
-    assert!(plot(&folder), "{command}: the folder as it was written");
-    let make = |random: &mut Random| match random.below(4) {
-        0 => record_of(random, &original),
-        _ => figures_of(random, &original),
-    };
-    hold(&format!("figures-{command}"), make, |bytes| {
-        fs::write(folder.join("figures.bin"), bytes).unwrap();
-        plot(&folder);
-    });
-}
-
 #[test]
-fn no_figures_of_a_transient_make_plot_panic() {
-    hold_figures("transient");
-}
-
-#[test]
-fn no_figures_of_limit_cycles_make_plot_panic() {
-    hold_figures("cycle");
+fn no_figures_of_transients_and_limit_cycles_make_plot_panic() {
+    for command in ["transient", "cycle"] {
+        let run = finished(command);
+        let original = run.bytes("figures.bin");
+        assert!(plot(&run.out), "{command}: the folder as it was written");
+        let make = |random: &mut Random| match random.below(4) {
+            0 => record_of(random, &original),
+            _ => figures_of(random, &original),
+        };
+        hold(&format!("figures-{command}"), make, |bytes| {
+            fs::write(run.path("figures.bin"), bytes).unwrap();
+            plot(&run.out);
+        });
+    }
 }
 
 #[test]
@@ -104,8 +94,7 @@ fn no_checkpoint_makes_its_reader_panic() {
     let file = folder.join(CHECKPOINT);
     let manifest = Manifest::new("transient");
     // What stands in it is a record of a run; a state without fields is enough for the reader.
-    let run = finished(scratch.path(), "transient");
-    let record: Recorder = read_record(&run).unwrap();
+    let record: Recorder = read_record(&finished("transient").out).unwrap();
     let state = TransientState {
         step: 1,
         displacement: vec![0.0; 4],
@@ -137,27 +126,25 @@ fn says_the_same(bytes: &[u8], original: &[u8]) -> bool {
 
 #[test]
 fn a_damaged_manifest_or_summary_is_never_used() {
-    let scratch = folder();
-    let [mesh, convergence] = ["mesh", "convergence"].map(|name| finished(scratch.path(), name));
+    let [mesh, convergence] = ["mesh", "convergence"].map(finished);
     let files = [(&mesh, "manifest.json"), (&mesh, "summary.json"), (&convergence, "summary.json")];
-    for (folder, name) in files {
-        let original = fs::read(folder.join(name)).unwrap();
+    for (run, name) in files {
+        let original = run.bytes(name);
         let make = |random: &mut Random| text(random, std::slice::from_ref(&original));
         hold(name, make, |bytes| {
-            fs::write(folder.join(name), bytes).unwrap();
+            fs::write(run.path(name), bytes).unwrap();
             let is_same = says_the_same(bytes, &original);
-            assert!(is_same || !plot(folder), "used although it was changed");
+            assert!(is_same || !plot(&run.out), "used although it was changed");
         });
-        fs::write(folder.join(name), &original).unwrap();
-        assert!(plot(folder));
+        fs::write(run.path(name), &original).unwrap();
+        assert!(plot(&run.out));
     }
 }
 
 #[test]
 fn a_damaged_point_counts_as_missing() {
-    let scratch = folder();
-    let path = finished(scratch.path(), "sweep");
-    let folder = SweepFolder::find(&path, "sweep").unwrap();
+    let run = finished("sweep");
+    let folder = SweepFolder::find(&run.out, "sweep").unwrap();
     let file = folder.point_path(1);
     let original = fs::read(&file).unwrap();
     let make = |random: &mut Random| text(random, std::slice::from_ref(&original));

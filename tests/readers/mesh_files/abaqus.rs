@@ -14,11 +14,9 @@ fn instances_stand_where_their_translation_and_rotation_put_them() {
     for volume in mesh.region_measures() {
         assert!((volume - 6.0).abs() < 1e-12);
     }
-    let areas = [("One_Top", 2.0), ("Two_Top", 2.0), ("Two_Skin", 22.0), ("Both_feet", 4.0)];
-    has_areas(&mesh, &areas);
+    has_areas(&mesh, &[("One_Top", 2.0), ("Two_Top", 2.0), ("Two_Skin", 22.0), ("Both_feet", 4.0)]);
     // Node 3 of the second instance, (1, 2, 0): moved to (11, 2, 0), turned to (8, 1, 0). Its number follows those of the first.
-    let node = mesh.labels.iter().position(|&label| label == 99 + 3).unwrap();
-    let [x, y, z] = mesh.nodes[node];
+    let [x, y, z] = mesh.nodes[mesh.labels.iter().position(|&label| label == 99 + 3).unwrap()];
     assert!((x - 8.0).abs() + (y - 1.0).abs() + z.abs() < 1e-12, "{x} {y} {z}");
     // Two nodes are no surface: they bound nothing but can be held.
     let corner = mesh.boundary("Corner").unwrap();
@@ -111,26 +109,21 @@ fn pairs_with_a_rigid_surface_of_a_part_are_left_out_with_it() {
 /// What moves with nodes of the body and resists nothing leaves what holds between these alone.
 #[test]
 fn nodes_without_elements_vanish_from_equations() {
-    let equation = |terms: &[[&str; 3]]| {
-        let terms: String = terms.iter().map(|term| term.join(", ") + "\n").collect();
-        format!("*EQUATION\n{}\n{terms}", terms.lines().count())
+    let equation = |terms: &str| {
+        let terms = terms.replace(" ; ", "\n");
+        format!("*EQUATION\n{}\n{terms}\n", terms.lines().count())
     };
     let nodes = "*NODE\n901, 0., 0., 0.\n902, 1., 0., 0.\n903, 2., 0., 0.\n";
     let equations = [
-        equation(&[["901", "1", "2."], ["One.1", "1", "-1."]]),
-        equation(&[["902", "1", "1."], ["901", "1", "-1."], ["903", "1", "-1."]]),
-        equation(&[["One.2", "1", "1."], ["901", "1", "-2."]]),
-        equation(&[
-            ["902", "1", "1."],
-            ["903", "1", "-1."],
-            ["One.1", "1", "-1."],
-            ["One.2", "1", "1."],
-        ]),
-        equation(&[["901", "2", "1."], ["One.2", "2", "-1."]]),
-        equation(&[["902", "1", "1."], ["903", "1", "-1."], ["901", "1", "-1."]]),
+        "901, 1, 2. ; One.1, 1, -1.",
+        "902, 1, 1. ; 901, 1, -1. ; 903, 1, -1.",
+        "One.2, 1, 1. ; 901, 1, -2.",
+        "902, 1, 1. ; 903, 1, -1. ; One.1, 1, -1. ; One.2, 1, 1.",
+        "901, 2, 1. ; One.2, 2, -1.",
+        "902, 1, 1. ; 903, 1, -1. ; 901, 1, -1.",
     ];
-    let text =
-        ASSEMBLY.replace("*END ASSEMBLY", &format!("{nodes}{}*END ASSEMBLY", equations.concat()));
+    let equations = equations.map(equation).concat();
+    let text = ASSEMBLY.replace("*END ASSEMBLY", &format!("{nodes}{equations}*END ASSEMBLY"));
     let file = read("bricks.inp", &text).unwrap();
     let told: Vec<Vec<_>> = file.equations.iter().filter(|own| !own.is_empty()).cloned().collect();
     assert_eq!(told, [[(0, 0, -1.0), (1, 0, 1.0)], [(0, 0, -0.5), (1, 0, 1.0)]]);
@@ -167,6 +160,5 @@ fn the_stiffness_of_an_orthotropic_material_gives_its_engineering_constants() {
     let begin = ASSEMBLY.find("*ELASTIC").unwrap();
     let end = ASSEMBLY.find("*DENSITY").unwrap();
     let text = [&ASSEMBLY[..begin], &constants, &ASSEMBLY[end..]].concat();
-    let model = read("bricks.inp", &text).unwrap().model;
-    is_that_material(model.materials[0].elasticity.as_ref());
+    is_that_material(read("bricks.inp", &text).unwrap().model.materials[0].elasticity.as_ref());
 }

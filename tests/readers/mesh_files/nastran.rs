@@ -45,11 +45,9 @@ fn materials_supports_and_pressures_are_those_that_the_subcase_names() {
     assert_eq!(found, expected);
     let listed: Vec<String> = model.left_out.iter().map(ToString::to_string).collect();
     assert_eq!(listed.len(), 3, "{listed:#?}");
-    has(
-        &format!("\n{}", listed.join("\n")),
-        &["\nFORCE (line 31) ; set 21, directions 3 ; no subcase names this set ; \
-           \nCQUAD4 (line 29): read as a surface"],
-    );
+    let said = "\nFORCE (line 31) ; set 21, directions 3 ; no subcase names this set ; \
+           \nCQUAD4 (line 29): read as a surface";
+    has(&format!("\n{}", listed.join("\n")), &[said]);
 }
 
 /// MAT9 holds the stiffness; E 2e5, nu 0.3 in it is an isotropic material.

@@ -11,17 +11,14 @@ fn bent([x, y, z]: [f64; 3]) -> [f64; 3] {
 
 /// Element number (from 1), local face and nodes of every face of a side.
 fn faces_of(file: &FileMesh, side: &str) -> Vec<(usize, Vec<usize>, Vec<u32>)> {
-    let mut found = Vec::new();
-    for (kind, nodes) in &file.surfaces[side] {
+    let faces = file.surfaces[side].iter().map(|(kind, nodes)| {
         let corners = &nodes[..kind.corner_count()];
-        let element =
-            file.elements.iter().position(|e| corners.iter().all(|n| e.nodes.contains(n)));
-        let element = element.unwrap();
-        let local =
-            |node: &u32| file.elements[element].nodes.iter().position(|n| n == node).unwrap();
-        found.push((element + 1, corners.iter().map(local).collect(), corners.to_vec()));
-    }
-    found
+        let is_own = |own: &FileElement| corners.iter().all(|node| own.nodes.contains(node));
+        let element = file.elements.iter().position(is_own).unwrap();
+        let place = |node| file.elements[element].nodes.iter().position(|own| own == node).unwrap();
+        (element + 1, corners.iter().map(place).collect(), corners.to_vec())
+    });
+    faces.collect()
 }
 
 /// What `kinds.txt` says of a kind: type and faces in Abaqus, card and order in Nastran, descriptor and order in universal files.
@@ -102,8 +99,7 @@ fn bdf(file: &FileMesh) -> String {
 fn unv(file: &FileMesh) -> String {
     let mut out = String::from("    -1\n  2411\n");
     for (label, [x, y, z]) in file.labels.iter().zip(&file.points) {
-        let exponent = |value: &f64| format!("{value:.17e}").replace('e', "D");
-        let [x, y, z] = [x, y, z].map(exponent);
+        let [x, y, z] = [x, y, z].map(|value| format!("{value:.17e}").replace('e', "D"));
         writeln!(out, "{label:10}         1         1        11\n  {x}  {y}  {z}").unwrap();
     }
     out.push_str("    -1\n    -1\n  2412\n");
@@ -133,14 +129,9 @@ fn unv(file: &FileMesh) -> String {
         groups.push((side, (first..next).collect()));
     }
     out.push_str("    -1\n    -1\n  2467\n");
-    for (number, (name, items)) in groups.into_iter().enumerate() {
-        writeln!(
-            out,
-            "{:10}         0         0         0         0         0         0{:10}\n{name}",
-            number + 1,
-            items.len()
-        )
-        .unwrap();
+    for ((name, items), number) in groups.into_iter().zip(1..) {
+        let zeros = "         0".repeat(6);
+        writeln!(out, "{number:10}{zeros}{:10}\n{name}", items.len()).unwrap();
         for line in items.chunks(2) {
             line.iter()
                 .for_each(|item| write!(out, "         8{item:10}         0         0").unwrap());
@@ -158,8 +149,7 @@ fn assert_same(name: &str, found: &Mesh, expected: &Mesh, sides: [&str; 2]) {
     assert_eq!(found.elements, expected.elements, "{name}");
     assert_eq!(found.regions, expected.regions, "{name}");
     for (own, side) in sides.into_iter().zip(SIDES) {
-        let [own, other] =
-            [(found, own), (expected, side)].map(|(mesh, name)| mesh.boundary(name).unwrap());
+        let [own, other] = [found.boundary(own), expected.boundary(side)].map(Option::unwrap);
         assert_eq!(own.faces, other.faces, "{name} {side}");
     }
 }

@@ -1,6 +1,6 @@
 //! What a case takes from its mesh file: units, sections, includes, and the case that `init --from` writes.
 
-use super::said_of as refused;
+use super::said_of;
 use crate::prelude::*;
 use crate::program;
 
@@ -9,8 +9,13 @@ const BRICKS: &str = include_str!("../meshes/bricks-in-contact.inp");
 
 const CASE: &str = "[mesh]\nfile = \"bricks.inp\"\nunits = \"mm-t-s\"\n[cea]\nmodes = 3\n";
 
-fn taken(folder: &Path, text: &str) -> Case {
-    case_of(folder.join("case.toml"), text, AS_IT_IS)
+fn taken(folder: impl AsRef<Path>, text: &str) -> Case {
+    case_of(folder.as_ref().join("case.toml"), text, AS_IT_IS)
+}
+
+/// What is said of a case of this file.
+fn refused(deck: &str, text: &str) -> String {
+    said_of(folder_with(deck).path(), text)
 }
 
 fn folder_with(deck: &str) -> TempDir {
@@ -22,8 +27,7 @@ fn folder_with(deck: &str) -> TempDir {
 
 #[test]
 fn a_file_in_millimetres_gives_a_case_in_si_units() {
-    let folder = folder_with(BRICKS);
-    let case = taken(folder.path(), CASE);
+    let case = taken(folder_with(BRICKS), CASE);
     let body = case.body.assembly().unwrap();
     let region = |name: &str| body.mesh.regions.iter().position(|r| r == name).unwrap();
     let lower = &case.body.materials[region("Lower")];
@@ -53,7 +57,7 @@ fn sections_of_the_case_win_over_those_of_the_file() {
     let folder = folder_with(BRICKS);
     let text = CASE.to_owned()
         + "[materials.Upper]\nyoung_modulus = 8e9\n[boundaries.Back]\ncondition = \"free\"\n[contacts.Under]\nfriction_coefficient = 0.1\n";
-    let case = taken(folder.path(), &text);
+    let case = taken(&folder, &text);
     let body = case.body.assembly().unwrap();
     let region = body.mesh.regions.iter().position(|r| r == "Upper").unwrap();
     let upper = &case.body.materials[region];
@@ -63,13 +67,11 @@ fn sections_of_the_case_win_over_those_of_the_file() {
     // A contact of the same surfaces under another name replaces that of the file.
     let own = CASE.to_owned()
         + "[contacts.mine]\nsurface = \"Over\"\ncounter = \"Under\"\nfriction_coefficient = 0.2\n";
-    let case = taken(folder.path(), &own);
-    let body = case.body.assembly().unwrap();
-    assert_eq!(body.contacts.len(), 1);
+    assert_eq!(taken(&folder, &own).body.assembly().unwrap().contacts.len(), 1);
     // Nothing but the mesh.
     let bare = CASE.replace("[cea]\nmodes = 3\n", "").replace("units", "take = \"nothing\"\nunits")
         + "[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
-    let case = taken(folder.path(), &bare);
+    let case = taken(&folder, &bare);
     let body = case.body.assembly().unwrap();
     assert!(body.contacts.is_empty() && body.motions.is_empty());
     assert!(case.taken.left_out.iter().any(|left_out| left_out.reason.contains("mesh.take")));
@@ -77,28 +79,23 @@ fn sections_of_the_case_win_over_those_of_the_file() {
 
 #[test]
 fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
-    let folder = folder_with(&BRICKS.replace("*STEP", "*CLOAD\n1, 1, 5.\n*STEP"));
-    has(&refused(folder.path(), CASE), &["*CLOAD (line "]);
+    let load = BRICKS.replace("*STEP", "*CLOAD\n1, 1, 5.\n*STEP");
+    has(&refused(&load, CASE), &["*CLOAD (line "]);
     let dropped = CASE.replace("[mesh]", "[mesh]\ndrop = [\"*CLOAD\"]");
-    let case = taken(folder.path(), &dropped);
-    let left_out = &case.taken.left_out;
+    let left_out = taken(folder_with(&load), &dropped).taken.left_out;
     assert!(left_out.iter().any(|own| format!("{own:?}").contains("CLOAD")), "{left_out:?}");
     let folder = folder_with(&BRICKS.replace("*STEP", "*AMPLITUDE, NAME=A\n0., 1.\n*STEP"));
-    let case = taken(folder.path(), CASE);
-    has(&warnings(&case), &["*AMPLITUDE (line "]);
-    let folder = folder_with(&BRICKS.replace("6000., 0.25", "6000., 0.75"));
-    let said = "materials.Upper.poisson_ratio ; bricks.inp, line ";
-    has(&refused(folder.path(), CASE), &[said]);
+    has(&warnings(&taken(folder, CASE)), &["*AMPLITUDE (line "]);
+    let wrong = BRICKS.replace("6000., 0.25", "6000., 0.75");
+    has(&refused(&wrong, CASE), &["materials.Upper.poisson_ratio ; bricks.inp, line "]);
     // A material of two regions is told of once.
-    let shared = BRICKS.replace("MATERIAL=Iron", "MATERIAL=Lining");
-    let folder = folder_with(&shared.replace("6000., 0.25", "6000., 0.75"));
-    assert_eq!(refused(folder.path(), CASE).matches("poisson_ratio = 0.75").count(), 1);
-    let folder = folder_with(BRICKS);
+    let said = refused(&wrong.replace("MATERIAL=Iron", "MATERIAL=Lining"), CASE);
+    assert_eq!(said.matches("poisson_ratio = 0.75").count(), 1);
     let both = CASE.replace("units", "scale = 0.001\nunits");
-    has(&refused(folder.path(), &both), &["mesh.units and mesh.scale"]);
+    has(&refused(BRICKS, &both), &["mesh.units and mesh.scale"]);
     // Millimetres read as metres.
     let metres = CASE.replace("units = \"mm-t-s\"\n", "");
-    has(&refused(folder.path(), &metres), &["20.0000 m wide ; mesh.scale"]);
+    has(&refused(BRICKS, &metres), &["20.0000 m wide ; mesh.scale"]);
 }
 
 #[test]
@@ -111,11 +108,9 @@ fn included_files_stand_in_their_place_and_errors_name_them() {
     fs::write(path("parts/nodes.inp"), nodes).unwrap();
     fs::write(path("parts/mesh.inp"), "** a comment\n*INCLUDE, INPUT=nodes.inp\n").unwrap();
     fs::write(path("bricks.inp"), format!("*Include, Input=\"parts/mesh.inp\"\n{rest}")).unwrap();
-    let case = taken(folder.path(), CASE);
-    let body = case.body.assembly().unwrap();
-    assert_eq!(body.mesh.node_count(), 16);
+    assert_eq!(taken(&folder, CASE).body.assembly().unwrap().mesh.node_count(), 16);
     fs::write(path("parts/nodes.inp"), nodes.replace("7, 10, 10, 10", "7, 10, 1O, 10")).unwrap();
-    let is_refused = |said: &str| has(&refused(folder.path(), CASE), &[said]);
+    let is_refused = |said: &str| has(&said_of(folder.path(), CASE), &[said]);
     is_refused("nodes.inp, line 8: a coordinate expected, found \"1O\"");
     fs::write(path("parts/nodes.inp"), "*INCLUDE, INPUT=mesh.inp\n").unwrap();
     is_refused("nodes.inp, line 1: cannot include mesh.inp: it includes this file itself");
@@ -129,17 +124,16 @@ fn the_case_to_start_from_says_all_that_the_file_holds() {
     let folder = folder_with(BRICKS);
     let text = case_from(&folder.path().join("bricks.inp"), "bricks.inp").unwrap();
     has(&text, &["units = \"mm-t-s\""]);
-    let started = taken(folder.path(), &text);
+    let started = taken(&folder, &text);
     let sections = &started.taken.sections;
     assert!(sections.iter().all(|section| section.path.0 == "material"), "{sections:?}");
-    assert_eq!(started.body, taken(folder.path(), CASE).body);
+    assert_eq!(started.body, taken(&folder, CASE).body);
     // A file without a motion gets one about the normal of the counter surface.
     let still = BRICKS
         .replace("*MOTION, ROTATION\nDisc, 6.283185307179586, 100., 0., 0., 100., 0., 5.\n", "");
     let folder = folder_with(&still);
     let text = case_from(&folder.path().join("bricks.inp"), "bricks.inp").unwrap();
-    let case = taken(folder.path(), &text);
-    let body = case.body.assembly().unwrap();
-    let motion = &body.motions[0];
+    let case = taken(&folder, &text);
+    let motion = &case.body.assembly().unwrap().motions[0];
     assert_eq!((motion.axis, motion.center), ([0.0, 0.0, 1.0], [0.005; 3]));
 }

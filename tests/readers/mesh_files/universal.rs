@@ -24,10 +24,9 @@ fn coordinates_that_touch_are_three() {
     let lines: Vec<&str> = nodes.lines().collect();
     let line = |node: &[&str]| {
         let label = node[0].split_whitespace().next().unwrap();
-        let numbers =
-            node[1].split_whitespace().map(|x| x.replace('D', "e").parse::<f64>().unwrap());
-        let place: String =
-            numbers.map(|x| format!("{:>13}", format!("{:.6}E+00", x - 5.0))).collect();
+        let number = |x: &str| x.replace('D', "e").parse::<f64>().unwrap() - 5.0;
+        let field = |x| format!("{:>13}", format!("{:.6}E+00", number(x)));
+        let place: String = node[1].split_whitespace().map(field).collect();
         format!("{label:>10}         0         0        11{place}\n")
     };
     let nodes: String = lines.chunks(2).map(line).collect();
@@ -41,10 +40,6 @@ fn wrong_universal_files_are_told_by_line() {
     check_errors("brick.unv", BRICK, include_str!("../meshes/wrong-universal.txt"));
     // Truncated behind any line.
     let lines: Vec<&str> = BRICK.lines().collect();
-    for count in 11..lines.len() {
-        let text = lines[..count].join("\n");
-        if let Err(error) = read("brick.unv", &text) {
-            has(&error.to_string(), &["line"]);
-        }
-    }
+    let said = |count| read("brick.unv", &lines[..count].join("\n")).err();
+    (11..lines.len()).filter_map(said).for_each(|error| has(&error.to_string(), &["line"]));
 }

@@ -41,8 +41,7 @@ fn parts_of_several_responses_are_paired_by_their_names() {
         assert_eq!(found.len(), 2);
         for (found, want) in found.iter().zip(&want) {
             assert_eq!(found.name, want.name);
-            let pairs = found.response.values().iter().zip(want.response.values());
-            pairs.for_each(|(a, b)| assert!((a - b).norm() < 1e-9 * b.norm(), "{text}"));
+            near_each(found.response.values(), want.response.values(), 1e-9);
         }
     }
 }
@@ -53,25 +52,21 @@ fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
     let want = &want.responses[0].response;
     let level = |h: c64, reference: f64| 20.0 * (h.norm() / reference).log10();
     let degrees = |h: c64| h.arg().to_degrees();
-    let polar = |f: f64, h: c64| format!("{f};{};{}", level(h, 1.0), degrees(h));
+    let polar = |reference: f64| {
+        move |f: f64, h: c64| format!("{f};{};{}", level(h, reference), degrees(h))
+    };
+    let lbf = 4.448_221_615_260_5;
     let parts = |f: f64, h: c64| format!("{f};{};{}", h.re, h.im);
     let scaled = |scale: f64| move |f: f64, h: c64| parts(f, h / scale);
     let tables = [
         table("Frequency (Hz);Real (mm/s2/N);Imag (mm/s2/N)", scaled(1e-3)),
         table("Frequency;Real;Imag\nHz;(m/s^2)/kN;(m/s^2)/kN", scaled(1e-3)),
-        table(
-            "f_hz;re_in_per_s2_per_lbf;im_in_per_s2_per_lbf",
-            scaled(0.0254 / 4.448_221_615_260_5),
-        ),
+        table("f_hz;re_in_per_s2_per_lbf;im_in_per_s2_per_lbf", scaled(0.0254 / lbf)),
         table("# unit: g/N\nf [Hz];Re;Im", scaled(9.806_65)),
-        table("f [Hz];H (dB re 1 mm/s^2/N);Phase (deg)", |f, h| {
-            format!("{f};{};{}", level(h, 1e-3), degrees(h))
-        }),
+        table("f [Hz];H (dB re 1 mm/s^2/N);Phase (deg)", polar(1e-3)),
         table("f [Hz];Magnitude;Phase", |f, h| format!("{f};{};{}", h.norm(), h.arg())),
-        table("Frequency (Hz);Magnitude (dB re 1 m/s2/N);Phase (deg)", polar),
-        table("Frequency (Hz);Magnitude (dB re 1e-6 m/s2/N);Phase (deg)", |f, h| {
-            format!("{f};{};{}", level(h, 1e-6), degrees(h))
-        }),
+        table("Frequency (Hz);Magnitude (dB re 1 m/s2/N);Phase (deg)", polar(1.0)),
+        table("Frequency (Hz);Magnitude (dB re 1e-6 m/s2/N);Phase (deg)", polar(1e-6)),
         table("Frequency;Real;Imaginary\nHz;m/s2/N;m/s2/N", parts),
         table("Frequency;Real;Imaginary\nHz;(m/s^2)/N;(m/s^2)/N", parts),
         table("Fr\u{e9}quence (Hz);Partie r\u{e9}elle;Partie imaginaire", parts),
@@ -90,10 +85,8 @@ fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
             |f, h| format!("  {f:.4}   {:.15E}   {:.13}", h.norm(), degrees(h)),
         ),
     ];
-    let headerless = table("", parts);
-    let named = read(&headerless, &["f", "re", "im"], &[]);
-    let all = tables.iter().map(|text| read(text, &[], &[]));
-    for file in all.chain([named]) {
+    let named = read(&table("", parts), &["f", "re", "im"], &[]);
+    for file in tables.iter().map(|text| read(text, &[], &[])).chain([named]) {
         let got = &file.responses[0].response;
         assert_eq!(got.frequencies_hz(), want.frequencies_hz());
         // Fifteen digits, and the logarithm of a level.
@@ -144,8 +137,7 @@ fn frequencies_that_look_like_kilohertz_are_doubted_where_no_unit_is_written() {
 #[test]
 fn phases_that_look_like_radians_and_units_of_no_response_are_doubted() {
     let polar = |header: &str, unit: f64| {
-        let text = table(header, |f, h| format!("{f};{};{}", h.norm(), h.arg() * unit));
-        read(&text, &[], &[]).notes
+        read(&table(header, |f, h| format!("{f};{};{}", h.norm(), h.arg() * unit)), &[], &[]).notes
     };
     has(&polar("f_hz;mag;phase", 1.0).join(" "), &["taken as radians ; `phase_deg`"]);
     has(&polar("f_hz;mag (mV/N);phase_rad", 1.0).join(" "), &["`mV/N` is no unit"]);
@@ -159,8 +151,7 @@ fn columns_without_names_ask_for_them_and_a_wrong_number_of_names_is_refused() {
     let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
     has(&message(&doubtful), &["--columns f,re,im"]);
     let options = ResponseOptions { columns: vec!["f".into(), "re".into()], ..Default::default() };
-    let complex = rows(",", ".", "\n");
-    let error = reader::read_response(complex.as_bytes(), "x", &options);
+    let error = reader::read_response(rows(",", ".", "\n").as_bytes(), "x", &options);
     has(&error.unwrap_err().to_string(), &["names 2 columns, the table has 3"]);
     let no_unit = read_response(b"10,0.1+0.2j,x\n20,0.1+0.2j,y\n", "x", None).err().unwrap();
     assert!(no_unit.to_string().starts_with("x:1:13: `x` in column 3"), "{no_unit}");

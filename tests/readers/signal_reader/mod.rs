@@ -24,8 +24,7 @@ fn read_response(
 }
 
 fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<SignalFile, ReadError> {
-    let options = SignalOptions { rate, ..SignalOptions::default() };
-    reader::read_signal(bytes, source, &options)
+    reader::read_signal(bytes, source, &SignalOptions { rate, ..SignalOptions::default() })
 }
 
 /// Ten rows `f, re, im` with a given field separator, decimal sign and line end.
@@ -175,25 +174,23 @@ fn columns_without_names_are_read_only_where_the_numbers_leave_no_doubt() {
 
 #[test]
 fn signals_are_read_with_time_column_or_rate() {
+    let read = |text: &str, rate| read_signal(text.as_bytes(), "x", rate).unwrap();
     let tone = |i: usize| (0.3 * i as f64).sin();
     let timed: String =
         (0..40).map(|i| format!("{:.6},{},{i}\n", 2e-6 * i as f64, tone(i))).collect();
-    let file =
-        read_signal(format!("time_s,a_r_m_per_s2,other\n{timed}").as_bytes(), "x", None).unwrap();
+    let file = read(&format!("time_s,a_r_m_per_s2,other\n{timed}"), None);
     assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
     let [first, second] = &file.channels[..] else { panic!("two channels") };
     assert_eq!((first.name.as_str(), second.samples[39]), ("a_r_m_per_s2", 39.0));
     // Without names: the first column advances evenly, so it is the time.
-    let file = read_signal(timed.as_bytes(), "x", None).unwrap();
-    assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
+    assert!((read(&timed, None).sampling_rate / 5e5 - 1.0).abs() < 1e-9);
     let milli: String =
         (0..40).map(|i| format!("{}\t{}\n", 0.02 * f64::from(i), tone(i as usize))).collect();
-    let file = read_signal(format!("Time (ms)\tacc\n{milli}").as_bytes(), "x", None).unwrap();
+    let file = read(&format!("Time (ms)\tacc\n{milli}"), None);
     assert!((file.sampling_rate / 5e4 - 1.0).abs() < 1e-9);
     let bare: String = (0..40).map(|i| format!("{}\n", tone(i))).collect();
-    assert_eq!(read_signal(bare.as_bytes(), "x", Some(51_200.0)).unwrap().sampling_rate, 51_200.0);
-    let stated = format!("# Sampling rate: 51.2 kHz\n{bare}");
-    assert_eq!(read_signal(stated.as_bytes(), "x", None).unwrap().sampling_rate, 51_200.0);
+    assert_eq!(read(&bare, Some(51_200.0)).sampling_rate, 51_200.0);
+    assert_eq!(read(&format!("# Sampling rate: 51.2 kHz\n{bare}"), None).sampling_rate, 51_200.0);
     let error = read_signal(bare.as_bytes(), "x", None).unwrap_err();
     assert!(error.problem.starts_with("no time column and no sampling rate"), "{error}");
 }

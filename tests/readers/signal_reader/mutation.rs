@@ -9,8 +9,7 @@ use proptest::prelude::*;
 
 /// What is done with a file of responses and with one of signals, to the end.
 fn analyse(bytes: &[u8]) {
-    let read = reader::read_response(bytes, "x", &ResponseOptions::default());
-    if let Ok(file) = read {
+    if let Ok(file) = reader::read_response(bytes, "x", &ResponseOptions::default()) {
         let responses = file.responses.into_iter().map(|named| named.response);
         if let Ok(found) = identify(&responses.collect::<Vec<_>>(), None) {
             assert!(found.rayleigh.mass_coefficient.value.is_finite());
@@ -18,8 +17,7 @@ fn analyse(bytes: &[u8]) {
         }
     }
     for rate in [None, Some(5e4)] {
-        let options = SignalOptions { rate, ..SignalOptions::default() };
-        let Ok(file) = reader::read_signal(bytes, "x", &options) else { continue };
+        let Ok(file) = read_signal(bytes, "x", rate) else { continue };
         for channel in file.channels.iter().take(3) {
             let (x, rate) = (&channel.samples, file.sampling_rate);
             let _ = exponential_stage(x, rate);
