@@ -140,13 +140,9 @@ fn the_energy_of_an_assembly_closes_from_rest_to_sliding_and_a_run_goes_on_bit_b
     for springs in SPRINGS {
         let assembly = assembly(&mesh, &STEEL, springs, None, 0.05);
         let (record, _) = run(&assembly, &settings(InitialState::Rest, 1e-3, 0.05));
-        let rows = record.rows.iter().map(|row| row.counts);
-        let counts = rows.fold([0; 3], |[stick, slip, open], own| {
-            [stick + own.stick, slip + own.slip, open + own.open]
-        });
-        let residual = TransientAnalysis::without_symmetry(&record).largest_residual;
-        assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
-        assert!(residual < 1e-11, "{residual:e}");
+        let seen = |of: fn(&StatusCounts) -> u64| record.rows.iter().any(|row| of(&row.counts) > 0);
+        assert!(seen(|own| own.stick) && seen(|own| own.slip) && seen(|own| own.open));
+        below(TransientAnalysis::without_symmetry(&record).largest_residual, 1e-11, "residual");
         assert_eq!(record.unconverged_steps, 0);
         goes_on_to_the_same_bits(&assembly, InitialState::Rest);
     }
@@ -215,8 +211,8 @@ fn grows_as_one_of(modes: &[ComplexMode], record: &Recorder) -> [f64; 2] {
     let found = [stage.rate_per_s.value, stage.frequency_hz.value.abs()];
     let expected = nearest(modes, found[1]);
     assert!(analysis.largest_residual < 1e-10);
-    assert!((found[0] / expected[0] - 1.0).abs() < 0.01, "{found:?} {expected:?}");
-    assert!((found[1] / expected[1] - 1.0).abs() < 1e-3, "{found:?} {expected:?}");
+    near(found[0], expected[0], 0.01);
+    near(found[1], expected[1], 1e-3);
     expected
 }
 
@@ -231,15 +227,14 @@ const BAND: [f64; 2] = [200.0, 2e5];
 
 /// Materials in time, a chain for the losses of the upper block, and those of the eigenvalue analysis, with its modulus as a table.
 fn losing(mesh: &Mesh) -> [Vec<RegionMaterial>; 2] {
-    let upper = mesh.regions.iter().position(|name| name == "upper");
+    let upper = mesh.regions.iter().position(|name| name == "upper").unwrap();
     let chain = || MaxwellChain::fit(&|_| c64::new(1.0, 0.01), BAND);
     let count = mesh.regions.len();
-    let in_time =
-        |region| RegionMaterial::in_time(&STEEL, region, (Some(region) == upper).then(chain));
+    let in_time = |region| RegionMaterial::in_time(&STEEL, region, (region == upper).then(chain));
     let table = modulus_table(&chain(), STEEL.young_modulus, BAND);
     let lossy = ElasticMaterial { young_modulus: table.static_modulus(), ..STEEL };
     let mut materials = vec![RegionMaterial::from(STEEL); count];
-    materials[upper.unwrap()] = RegionMaterial { table: Some(Arc::new(table)), ..lossy.into() };
+    materials[upper] = RegionMaterial { table: Some(Arc::new(table)), ..lossy.into() };
     [(0..count).map(in_time).collect(), materials]
 }
 

@@ -28,10 +28,6 @@ fn branch(case: &Case) -> PeriodicBranch {
     searched(case, &Unwatched).branch.unwrap()
 }
 
-fn at_speed(folder: &Path, speed: f64) -> EventDriven {
-    EventDriven::new(&oscillator(folder, &[&format!("contact.speed={speed}")]))
-}
-
 #[test]
 fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_loses_the_cycle() {
     let folder = folder();
@@ -41,22 +37,21 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
     let (fold, onset) = (folds[0], branch.onsets[0]);
     assert!(fold > 1.02 * onset, "{fold} {onset}");
     // A large start goes on for hundreds of periods below the fold, and dies above it; just below it few end on the cycle.
-    let lives = |speed: f64| at_speed(folder.path(), speed).run(LARGE, 1.2e-8, 300, 20);
+    let lives = |speed: f64| {
+        let case = oscillator(folder.path(), &[&format!("contact.speed={speed}")]);
+        EventDriven::new(&case).run(LARGE, 1.2e-8, 300, 20)
+    };
     assert!(lives(1.02 * fold).is_none());
     let (frequency, stick) = lives(0.9 * fold).expect("a cycle below the fold");
     assert!(stick > 0.0 && frequency > 0.0);
     // Stable before the fold, unstable after it, down to the onset, where the cycle shrinks into steady sliding.
     let at = branch.motions.iter().position(|own| own.is_fold).unwrap();
-    let known = |own: &[frictionsim::cycle::periodic::BranchMotion], wanted: bool| {
-        let verdicts: Vec<bool> = own.iter().filter_map(|own| own.is_stable()).collect();
-        let is_right = !verdicts.is_empty() && !verdicts.contains(&!wanted);
-        assert!(is_right, "{verdicts:?}, wanted {wanted}");
-    };
-    known(&branch.motions[..at], true);
-    known(&branch.motions[at + 1..], false);
+    for (own, wanted) in [(&branch.motions[..at], true), (&branch.motions[at + 1..], false)] {
+        let verdicts: BTreeSet<bool> = own.iter().filter_map(|own| own.is_stable()).collect();
+        assert_eq!(verdicts, BTreeSet::from([wanted]));
+    }
     assert_eq!(branch.ends, [BranchEnd::Range, BranchEnd::Birth]);
-    let last = branch.motions.last().unwrap();
-    assert!((last.value / onset - 1.0).abs() < 0.02, "{} {onset}", last.value);
+    near(branch.motions.last().unwrap().value, onset, 0.02);
     assert_eq!(branch.coexistence(), [[onset, fold]]);
 }
 
@@ -79,11 +74,11 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     // Between the case's own speed and that at which a mode grows: the onset beside the branch.
     let critical = report.critical_value.unwrap();
     assert_eq!(critical.key, Parameter::Speed.key());
-    assert!((critical.value / onset - 1.0).abs() < 1e-3, "{critical}");
+    near(critical.value, onset, 1e-3);
     // The large one of both cycles, as integration has it.
     let reference = EventDriven::new(&case);
     let (frequency, stick) = reference.run(LARGE, 1.2e-8, 200, 20).unwrap();
-    assert!((motion.frequency_hz / frequency - 1.0).abs() < 1e-4);
+    near(motion.frequency_hz, frequency, 1e-4);
     assert!((motion.fractions[0] - stick).abs() < 2e-3);
     // Beyond the fold there is none, which the reason says.
     let beyond = format!("contact.speed={}", 1.1 * fold);

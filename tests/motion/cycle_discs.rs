@@ -74,22 +74,21 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
         (onset, stepping.settle(&cycle, None).unwrap())
     });
     assert_eq!(one.0.harmonic, two.0.harmonic);
-    let ratio = |a: f64, b: f64| (a / b - 1.0).abs();
-    assert!(ratio(one.0.friction_coefficient, two.0.friction_coefficient) < 1e-9);
-    assert!(ratio(one.0.frequency, two.0.frequency * time) < 1e-9);
+    near(one.0.friction_coefficient, two.0.friction_coefficient, 1e-9);
+    near(one.0.frequency, two.0.frequency * time, 1e-9);
     let [first, second] = [&one.1, &two.1];
-    assert!(ratio(first.cycle.state.frequency(), second.cycle.state.frequency() * time) < 1e-8);
+    near(first.cycle.state.frequency(), second.cycle.state.frequency() * time, 1e-8);
     // W/m: stress times length times velocity.
     let power = modulus * length * length / time;
     let [own, other] = [first, second].map(|own| own.cycle.powers.contact.external);
-    assert!(ratio(own * power, other) < 1e-4);
-    let leading = |s: &frictionsim::cycle::SteppedCycle| {
+    near(own * power, other, 1e-4);
+    let leading = |s: &SteppedCycle| {
         let own = s.stability.leading().unwrap();
         c64::new(own.growth_rate, own.mode.unwrap().frequency)
     };
     let difference = (leading(first) - leading(second) * time).norm();
     // A hundredth of a per cent of omega: where a node lands between two steps is round-off's choice.
-    assert!(difference < 1e-4 * first.cycle.state.frequency(), "{difference}");
+    below(difference, 1e-4 * first.cycle.state.frequency(), "exponents");
 }
 
 #[test]

@@ -46,12 +46,10 @@ fn the_cycle_of_a_block_is_that_of_its_transient() {
     // A stable cycle: perturbations decay, a transient beside it comes back.
     let multipliers = cycle.stability.as_ref().unwrap().as_ref().unwrap();
     assert_eq!(multipliers.verdict(), Verdict::Stable);
-    let confirmation = cycle.confirmation.as_ref().unwrap();
-    assert!(confirmation.agrees, "{confirmation:?}");
+    assert!(cycle.confirmation.as_ref().unwrap().agrees, "{:?}", cycle.confirmation);
     // The shift in phase has the multiplier 1, but for nodes that change their status at whole steps. That bends the map, which
     // differences over a finite perturbation see: 0.0004 to 0.008 off with 216 to 2443 steps of a period, without a law in them.
-    let shift = multipliers.shift.unwrap();
-    assert!((shift - 1.0).abs() < 0.01, "{shift}");
+    near(multipliers.shift.unwrap(), 1.0, 0.01);
 }
 
 /// Nodes that set out at whole steps under falling friction take the shift in phase as far as 1.5 from 1: no perturbation that
@@ -66,8 +64,7 @@ fn a_cycle_on_which_a_transient_stays_is_not_called_unstable() {
         );
         let result = cycles(&block(&[&law, cycle])).remove(0);
         let cycle = found(&result);
-        let confirmation = cycle.confirmation.as_ref().unwrap();
-        assert!(confirmation.agrees, "{confirmation:?}");
+        assert!(cycle.confirmation.as_ref().unwrap().agrees, "{:?}", cycle.confirmation);
         let multipliers = cycle.stability.as_ref().unwrap().as_ref().unwrap();
         assert_ne!(multipliers.verdict(), Verdict::Unstable, "{multipliers:?}");
     }
@@ -127,11 +124,9 @@ fn energy_of_a_cycle_closes_and_its_parts_add_up() {
     // The balance of the time loop closes to round-off; what the motion misses its start by is left, times the energies that
     // go to and fro, a few times those that are lost.
     assert!(motion.residual < 1e-8, "{}", motion.residual);
-    let balance = motion.powers.balance_residual();
-    assert!(balance < 1e-7, "{balance}");
+    below(motion.powers.balance_residual(), 1e-7, "balance");
     let contact = motion.powers.contact;
-    let parts = contact.stick + contact.slide + contact.contact_dissipated;
-    assert!((parts / contact.external - 1.0).abs() < 1e-12);
+    near(contact.stick + contact.slide + contact.contact_dissipated, contact.external, 1e-12);
     // Statuses are those of the nodes, harmonics those of the motion, both sum to the whole.
     let sum = |k: usize| motion.shares.iter().map(|share| share[k]).sum::<f64>();
     let means = [0, 1, 2].map(|k| sum(k) / motion.shares.len() as f64);
@@ -196,16 +191,13 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
         let case = shipped_case("limit-cycle.toml", &[coarse, &own, over]);
         let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
         let report = study.report(Vec::new(), Vec::new());
-        let Origin::Waves { lowest_onset } = report.origin else {
-            panic!("a disc");
-        };
+        let Origin::Waves { lowest_onset } = report.origin else { panic!("a disc") };
         (report.critical_value, lowest_onset.unwrap())
     };
     let (critical, onset) = at(4.5e-7);
     let critical = critical.unwrap();
     assert!(onset.critical_friction > 0.05 && critical.value < 4.5e-7);
-    let (_, there) = at(critical.value);
-    assert!((there.critical_friction / 0.05 - 1.0).abs() < 1e-3, "{there:?}");
+    near(at(critical.value).1.critical_friction, 0.05, 1e-3);
 }
 
 /// In slow sliding the nodes of the pad stick together, at whole steps, and the motion repeats itself to no more than 1e-5; it is that
@@ -217,7 +209,7 @@ fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
     let results = cycles(&shipped_case("pad-on-disc.toml", &[slow]));
     let motion = &found(&results[0]).motion;
     assert!(motion.residual < 1e-4, "{}", motion.residual);
-    assert!((motion.frequency_hz / 15_368.5 - 1.0).abs() < 1e-3, "{}", motion.frequency_hz);
+    near(motion.frequency_hz, 15_368.5, 1e-3);
     assert!((motion.fractions[0] - 0.375).abs() < 0.01, "{:?}", motion.fractions);
 }
 

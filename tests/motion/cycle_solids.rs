@@ -8,7 +8,7 @@ use crate::prelude::*;
 /// A pad on a disc that turns, the seam of the disc glued.
 const PAD: &str = include_str!("../cases/pad-on-a-turning-disc.toml");
 
-fn pad(folder: &Path, around: usize, overrides: &[&str]) -> Case {
+pub fn pad(folder: &Path, around: usize, overrides: &[&str]) -> Case {
     let blocks = [
         brick("disc", [0.03, 0.0, 0.0], [0.04, TAU, 0.006], [2, around, 1]),
         brick("pad", [0.045, -0.3, 0.006], [0.022, 0.6, 0.01], [2, 3, 1]),
@@ -72,8 +72,6 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
         assert_eq!(a.motion, b.motion);
         let [a, b] = [a, b].map(|own| &own.branch.as_ref().unwrap().motions);
         assert!(a.len() > count - 1 && a.len() == b.len(), "{} {}", a.len(), b.len());
-        for (a, b) in a.iter().zip(b) {
-            assert_eq!((a.value, &a.motion), (b.value, &b.motion));
-        }
+        assert!(a.iter().zip(b).all(|(a, b)| (a.value, &a.motion) == (b.value, &b.motion)));
     }
 }

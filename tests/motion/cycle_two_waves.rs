@@ -4,9 +4,8 @@ use crate::prelude::*;
 
 const FRICTION: f64 = 0.2;
 
-fn solver(elements: [usize; 2]) -> CycleSolver {
-    let disc = annulus(Quad4, elements[0], elements[1]);
-    crate::cycle::solver_of(&disc, 1)
+fn solver([around, across]: [usize; 2]) -> CycleSolver {
+    crate::cycle::solver_of(&annulus(Quad4, around, across), 1)
 }
 
 fn cycle(solver: &CycleSolver, rpm: f64) -> LimitCycle {

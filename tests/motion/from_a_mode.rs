@@ -1,10 +1,9 @@
 //! Transients that start from a mode of the eigenvalue analysis: both have one model.
 
+use crate::cycle_solids::pad;
 use crate::prelude::*;
 use frictionsim::study::eigenvalues::modes_with_waves_below;
 
-/// A pad on a disc that turns, the seam of the disc glued.
-const PAD: &str = include_str!("../cases/pad-on-a-turning-disc.toml");
 /// A lining glued to a plate that presses it on a turning disc.
 const GLUED: &str = include_str!("../cases/lining-glued-to-a-plate.toml");
 const BLOCK: &str = include_str!("../cases/block-under-falling-friction.toml");
@@ -25,13 +24,8 @@ fn grows_from_its_mode(case: &Case, limit_hz: f64) {
 /// A pad of six bricks on a disc that turns, half of its nodes open.
 #[test]
 fn a_pad_on_springs_on_a_disc_grows_from_its_mode() {
-    let blocks = [
-        brick("disc", [0.03, 0.0, 0.0], [0.04, TAU, 0.006], [2, 16, 1]),
-        brick("pad", [0.045, -0.3, 0.006], [0.022, 0.6, 0.01], [2, 3, 1]),
-    ];
-    let file = [("body.msh", &file_of(&blocks, polar)[..])];
     let springs = "contacts.pad.normal_stiffness=1e11";
-    grows_from_its_mode(&case_beside("pad-from-a-mode", &file, PAD, &[AS_STEPPED, springs]), 6e3);
+    grows_from_its_mode(&pad(folder().path(), 16, &[AS_STEPPED, springs]), 6e3);
 }
 
 /// A damped lining glued to a plate of another mesh, whose nodes it follows: velocities of such nodes counted twice.

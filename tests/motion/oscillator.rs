@@ -7,9 +7,7 @@ pub fn oscillator(folder: &Path, overrides: &[&str]) -> Case {
     let mesh = plane_block([0.01; 2], [1; 2], ["face", "back", "body"]);
     let text = include_str!("../cases/oscillator.toml");
     fs::write(folder.join("square.msh"), mesh).unwrap();
-    let path = folder.join("case.toml");
-    fs::write(&path, text).unwrap();
-    case_of(path, text, overrides)
+    case_of(folder.join("case.toml"), text, overrides)
 }
 
 /// The periodic motions that a case's study finds.
@@ -126,15 +124,14 @@ impl EventDriven {
                 return None;
             }
             let next = self.step(&x, states, step);
-            let leaves = |i: usize, at: &Motion| self.overrun(i, at, states) > 0.0;
-            let event = (0..2).any(|i| leaves(i, &next));
+            let leaves = |at: &Motion| (0..2).any(|i| self.overrun(i, at, states) > 0.0);
+            let event = leaves(&next);
             let mut h = step;
             if event {
                 let (mut low, mut high) = (0.0, step);
                 for _ in 0..60 {
                     h = 0.5 * (low + high);
-                    let middle = self.step(&x, states, h);
-                    let is_beyond = (0..2).any(|i| leaves(i, &middle));
+                    let is_beyond = leaves(&self.step(&x, states, h));
                     (low, high) = if is_beyond { (low, h) } else { (h, high) };
                 }
                 h = high;

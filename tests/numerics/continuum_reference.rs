@@ -3,11 +3,10 @@
 
 use crate::continuum;
 use crate::continuum::bessel::{determinant, of_real_argument, root_near};
+use crate::convergence::rates::{DISC as FITTED, NORMAL_STIFFNESS, RAYLEIGH};
 use crate::prelude::*;
 
-/// The disc of the paper as it fits Table 1, and with rounded material data.
-const FITTED: Annulus = crate::convergence::rates::DISC;
-
+/// The disc of the paper with rounded material data; `FITTED` is as it fits Table 1.
 const DISC: Annulus = Annulus { poisson_ratio: 0.38, ..FITTED };
 
 /// Radius of the node `i` of the spectral element.
@@ -16,12 +15,6 @@ fn radius(i: usize) -> f64 {
     let half = 0.5 * (DISC.outer_radius - DISC.inner_radius);
     middle - half * (PI * i as f64 / continuum::DEGREE as f64).cos()
 }
-
-/// Contact stiffness that fits Table 1, Pa/m.
-const NORMAL_STIFFNESS: f64 = 7.4e12;
-
-/// `alpha_R` and `beta_R` of the paper.
-const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);
 
 fn table_1_reference(annulus: &Annulus, contact: &Contact) -> Vec<Eigenvalue> {
     let of_row = |&(real, _, harmonic, branch): &(f64, f64, usize, usize)| {
@@ -65,9 +58,7 @@ fn eigenvalues_with_friction_are_complex_roots_of_the_bessel_determinant() {
         for harmonic in 0..=6 {
             for kappa in FITTED.kappas(harmonic, &contact).iter().take(3) {
                 let omega = kappa.sqrt();
-                let root = root_near(&FITTED, harmonic, &contact, omega);
-                let error = (root - omega).norm() / omega.norm();
-                assert!(error < 1e-9, "n = {harmonic}, {kappa}: {error:e}");
+                near_each(&[root_near(&FITTED, harmonic, &contact, omega)], &[omega], 1e-9);
             }
         }
     }
@@ -132,7 +123,7 @@ fn critical_frictions_are_those_of_the_continuum_model() {
         (26, 2, 3, 0.301, 5e-4),
     ] {
         let critical = FITTED.critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0).unwrap();
-        assert!((critical - expected).abs() < 1.02 * digit, "mode {mode}: {critical}");
+        below((critical - expected).abs(), 1.02 * digit, format_args!("mode {mode}"));
     }
 }
 
@@ -142,8 +133,7 @@ fn steady_sliding_gives_the_known_pressure_and_torque() {
     assert!((state.pressure - 2.827e6).abs() < 500.0, "{state:?}");
     assert!((state.torque - 2239.0).abs() < 0.5, "{state:?}");
     // 141 kW/m at 600 rpm.
-    let power = state.torque * 600.0 / 60.0 * TAU;
-    assert!((power - 141e3).abs() < 500.0, "{power}");
+    within(&[state.torque * 600.0 / 60.0 * TAU], &[141e3], 500.0);
 }
 
 #[test]
@@ -165,9 +155,8 @@ fn exact_steady_state_is_the_static_solution_of_the_spectral_element() {
             1 => c64::new(0.0, -DISC.inner_radius * state.shear),
             _ => c64::new(0.0, 0.0),
         };
-        let error = (force(row) - expected).norm() / scale;
         // 1/r is no polynomial: its interpolant's slope is off by degree^2 2.8^-degree = 1e-8.
-        assert!(error < 1e-6, "row {row}: {error:e}");
+        below((force(row) - expected).norm() / scale, 1e-6, row);
     }
 }
 
@@ -182,7 +171,6 @@ fn a_rigid_rotation_leaves_the_prestressed_inner_edge_in_balance() {
     for row in 0..2 * degree {
         let residual: c64 = (0..=degree).map(|i| stiffness[(row, 2 * i + 1)] * radius(i)).sum();
         // Round-off of entries of size degree^2 G against p a = 6e4.
-        let bound = 1e-6 * pressure * DISC.inner_radius;
-        assert!(residual.norm() < bound, "row {row}: {residual}");
+        below(residual.norm(), 1e-6 * pressure * DISC.inner_radius, row);
     }
 }

@@ -45,4 +45,4 @@ mod two_bodies;
 mod verification;
 mod waves;
 
-use common::{disc, draws, mesh_text, program, triangles};
+use common::{disc, draws, program, triangles};

@@ -125,8 +125,7 @@ fn strut(lean: f64) -> TempDir {
 fn static_growth(text: &str, folder: &TempDir, friction: f64) -> Vec<f64> {
     let set = [format!("contact.friction_coefficient={friction:?}")];
     let case = case_of(folder.path().join("case.toml"), text, &set);
-    let [mass, damping, stiffness, losses] = sums(&matrices(&case, Some(friction)).unwrap());
-    let values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
+    let values = lossy_eigenvalues(sums(&matrices(&case, Some(friction)).unwrap()).each_ref());
     let real = values.iter().filter(|own| own.re > 0.0 && own.im.abs() < 1e-6 * own.re);
     real.map(|own| own.re).collect()
 }

@@ -21,6 +21,12 @@ pub use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
 pub use frictionsim::study::matrices::matrices;
 pub use nalgebra::{Matrix3, Rotation3, Vector3};
 
+/// Holds a number to another, to a share of it.
+#[track_caller]
+pub fn near(found: f64, expected: f64, share: f64) {
+    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
+}
+
 /// A case's body in its base state, and its eigenvalue analysis.
 pub fn solution(case: &Case) -> (SlidingModel, Solution) {
     let cea = case.cea.as_ref().unwrap();

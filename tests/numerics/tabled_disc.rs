@@ -5,11 +5,7 @@ use crate::prelude::*;
 /// A lining whose modulus and losses rise over the modes of a disc.
 const LINING: &[u8] = include_bytes!("../cases/lining.csv");
 
-fn disc_of(material: &str, sections: &str) -> Case {
-    disc_with(material, sections, &[])
-}
-
-fn disc_with(material: &str, sections: &str, set: &[&str]) -> Case {
+fn disc_of(material: &str, sections: &str, set: &[&str]) -> Case {
     let flat = b"frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
     let folder = folder_with(&[("lining.csv", LINING), ("flat.csv", flat)]);
     let material = format!("[material]\n{material}\npoisson_ratio = 0.3805\ndensity = 1228.0\n");
@@ -23,7 +19,7 @@ const GRID: &str = "[mesh]\ncircumferential_elements = 24\nradial_elements = 4\n
 /// same friction there; with those of the lowest frequency it does not.
 #[test]
 fn an_onset_has_the_modulus_of_its_own_frequency() {
-    let case = disc_of("table = \"lining.csv\"", GRID);
+    let case = disc_of("table = \"lining.csv\"", GRID, &[]);
     let table = case.materials().table(0).unwrap();
     // The table lies beside the results, which are drawn again without it in its place.
     assert_eq!(case.raw.kept_tables()[0].1.bytes[..], *LINING);
@@ -33,7 +29,7 @@ fn an_onset_has_the_modulus_of_its_own_frequency() {
     for onset in crossed.iter().take(2) {
         let nearest = |[modulus, loss_factor]: [f64; 2]| {
             let material = format!("young_modulus = {modulus:?}\nloss_factor = {loss_factor:?}");
-            let frozen = modes_and_onsets(&disc_of(&material, GRID)).unwrap().intervals;
+            let frozen = modes_and_onsets(&disc_of(&material, GRID, &[])).unwrap().intervals;
             let distance = |own: &f64| (own - onset.critical_friction).abs();
             distance(&nearest_by(criticals(&frozen), distance))
         };
@@ -50,7 +46,7 @@ fn a_flat_table_of_a_shaft_is_its_material() {
         let sections = format!(
             "shaft_inner_radius = 0.006\n{grid}[materials.shaft]\n{own}\npoisson_ratio = 0.3\ndensity = 1200.0\n"
         );
-        let case = disc_of("young_modulus = 2.5e9", &sections);
+        let case = disc_of("young_modulus = 2.5e9", &sections, &[]);
         let points = modes_and_onsets(&case).unwrap().points;
         points.iter().flat_map(|point| point.modes.iter().map(|mode| mode.eigenvalue)).collect()
     };
@@ -79,17 +75,14 @@ fn losses_of_an_annulus_by_harmonics_are_those_of_its_whole_mesh() {
     ] {
         let [waves, whole] = METHODS.map(|method| {
             let set = [sets, &["cea.geometric_stiffness=true", method]].concat();
-            let case = disc_with(material, &sections, &set);
-            modes_and_onsets(&case).unwrap()
+            modes_and_onsets(&disc_of(material, &sections, &set)).unwrap()
         });
         for (a, b) in waves.points.iter().zip(&whole.points) {
             let [a, b] = [a, b].map(|point| eigenvalues_of(&point.modes));
             let error = largest_error(&a, &b).max(largest_error(&b, &a));
             assert!(a.len() == b.len() && error < 1e-9, "{name}: {error:e}");
         }
-        let directions = |point: &frictionsim::cea::FrictionPoint| {
-            point.modes.iter().any(|mode| mode.direction == 1)
-        };
+        let directions = |point: &FrictionPoint| point.modes.iter().any(|own| own.direction == 1);
         assert!(waves.points.iter().skip(1).all(directions), "{name}");
         let onsets = [&waves, &whole]
             .map(|found| criticals(found.intervals.iter().filter(|own| !own.unstable_from_start)));

@@ -6,9 +6,8 @@ mod linear_stage;
 mod operators;
 mod restart;
 mod seeds;
-mod settings;
 mod settling;
-mod time_order;
+mod steps;
 
 use crate::prelude::*;
 

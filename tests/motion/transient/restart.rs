@@ -12,8 +12,7 @@ impl Observer for StopAt {
     fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
         let _ = self.record.observe(sample);
         if sample.index == self.index {
-            let saved = postcard::to_stdvec(&(sample.state(), &self.record)).unwrap();
-            self.saved = Some(saved);
+            self.saved = Some(postcard::to_stdvec(&(sample.state(), &self.record)).unwrap());
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())

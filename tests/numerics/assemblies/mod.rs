@@ -131,9 +131,7 @@ fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     let whole = [brick("whole", [0.0; 3], [0.05, 0.04, 0.04], [4, 3, 4])];
     let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
     let expected = Assembly::new(&whole, &STEEL, (&[], &[]), (&[], Closed), Consistent).unwrap();
-    let half = |name: &'static str, height: f64| {
-        brick(name, [0.0, 0.0, height], [0.05, 0.04, 0.02], [4, 3, 2])
-    };
+    let half = |name, height: f64| brick(name, [0.0, 0.0, height], [0.05, 0.04, 0.02], [4, 3, 2]);
     let halves = file_of(&[half("lower", 0.0), half("upper", 0.02)], |point| point);
     let halves = mesh_of(&halves, &[("lower_z0", Clamped)]);
     let glue = tie(&halves, "upper_z0", "lower_z1");
@@ -144,8 +142,8 @@ fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
 
 /// A rotation about an axis of no symmetry.
 fn turned(place: [f64; 3]) -> [f64; 3] {
-    let turn = nalgebra::Vector3::new(2.0, 3.0, 6.0) * (0.83 / 7.0);
-    (nalgebra::Rotation3::new(turn) * nalgebra::Vector3::from(place)).into()
+    let turn = Rotation3::new(Vector3::new(2.0, 3.0, 6.0) * (0.83 / 7.0));
+    (turn * Vector3::from(place)).into()
 }
 
 #[test]

@@ -27,8 +27,7 @@ fn a_plane_of_gaps_at_scattered_points_is_exact_and_measured_points_keep_their_o
         let (_, surface) = &assembly.contacts()[0];
         for (point, site) in surface.points.iter().zip(&surface.sites) {
             // Dual weights give a node the value there of what is linear over its faces.
-            let error = (point.gap - plane(site.position)).abs();
-            assert!(error < 1e-15, "{error:e}");
+            below((point.gap - plane(site.position)).abs(), 1e-15, "gap");
         }
     }
 }

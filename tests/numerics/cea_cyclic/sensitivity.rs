@@ -4,9 +4,8 @@ use crate::prelude::*;
 
 /// The branches at the limit are looked for far above it.
 fn hold(model: &AnnulusModel, [factor, tolerance]: [f64; 2], what: &str) {
-    let limits_hz = [12000.0, 17600.0];
-    let differences =
-        Differences { limits_hz, is_whole: false, factor, tolerance, by_friction: [1e-3, 1e-9] };
+    let (limits_hz, by_friction) = ([12000.0, 17600.0], [1e-3, 1e-9]);
+    let differences = Differences { limits_hz, is_whole: false, factor, tolerance, by_friction };
     assert!(differences.hold(model, what) > 5, "{what}");
 }
 
@@ -28,9 +27,8 @@ fn sensitivities_equal_finite_differences() {
     let mut lossy = springs.clone();
     lossy.material.loss_factor = 0.02;
     lossy.options.contact.loss_factor = 0.1;
-    let models =
-        [(springs, "springs"), (rigid, "rigid"), (dashpots, "dashpots"), (lossy, "losses")];
-    for (model, what) in models {
+    let all = [(springs, "springs"), (rigid, "rigid"), (dashpots, "dashpots"), (lossy, "losses")];
+    for (model, what) in all {
         hold(&model, [2.5, 2e-7], what);
     }
 }

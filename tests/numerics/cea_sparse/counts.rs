@@ -47,9 +47,8 @@ fn counts_are_those_of_a_dense_spectrum() {
             let spectrum = dense_eigenvalues(&tangent, mu);
             let top = gap(&spectrum, 15..25);
             let below: Vec<c64> = spectrum.iter().copied().filter(|own| own.im < top).collect();
-            if mu > 1.0 {
-                assert!(below.iter().any(|own| own.re > 1e-3), "no flutter: {below:?}");
-            }
+            let flutters = below.iter().any(|own| own.re > 1e-3);
+            assert!(flutters || mu < 1.0, "no flutter: {below:?}");
             let (none, near, determinants) = missing(&tangent, mu, &spectrum, top);
             assert_eq!((none, near), (0, None), "{size} {mu}");
             assert!(determinants < 200, "{size} {mu} {determinants}");
@@ -78,12 +77,11 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
     let tangent = disc(24, 4, BodyOnly);
     let counter = ModeCounter::new(&tangent).unwrap();
     let (mu, size) = (0.6, tangent.mass.dimension());
-    let dense = [&tangent.mass, &tangent.damping, &tangent.stiffness]
-        .map(|p| crate::structural_damping::dense(p, mu));
+    let [mass, damping, stiffness] =
+        [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
     let random = random_columns(4, 2, 3);
     for k in 0..4 {
         let lambda = c64::new(2e4 * random[(k, 0)], TAU * 1e4 * (1.0 + random[(k, 1)].abs()));
-        let [mass, damping, stiffness] = &dense;
         let matrix = Mat::from_fn(size, size, |i, j| {
             lambda * (lambda * mass[(i, j)] + damping[(i, j)]) + stiffness[(i, j)]
         });

@@ -4,15 +4,11 @@
 //! solved by one spectral element of polynomial degree [`DEGREE`], whose error is near round-off. No mesh, shape function or assembly of
 //! the program is used: the only thing shared with it is the theory.
 
-// Each test file that includes this module uses its own part of it.
-#![allow(dead_code)]
-
 pub mod bessel;
 pub mod prestress;
 pub mod radial;
 
-use faer::prelude::*;
-use faer::{Mat, c64};
+use crate::prelude::*;
 use prestress::Stress;
 use radial::RadialElement;
 
@@ -69,12 +65,12 @@ pub struct Eigenvalue {
 impl Eigenvalue {
     /// `Re(lambda) / 2 pi`, Hz.
     pub fn real_hz(&self) -> f64 {
-        self.lambda.re / std::f64::consts::TAU
+        self.lambda.re / TAU
     }
 
     /// `Im(lambda) / 2 pi`, Hz.
     pub fn frequency_hz(&self) -> f64 {
-        self.lambda.im / std::f64::consts::TAU
+        self.lambda.im / TAU
     }
 }
 

@@ -11,6 +11,12 @@ pub const DISC: Annulus = Annulus {
     plane_strain: true,
 };
 
+/// Contact stiffness that fits Table 1, Pa/m.
+pub const NORMAL_STIFFNESS: f64 = 7.4e12;
+
+/// `alpha_R` and `beta_R` of the paper.
+pub const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);
+
 pub fn coarsest(element: ElementKind) -> (usize, usize) {
     if element.is_quadratic() { (64, 16) } else { (120, 30) }
 }

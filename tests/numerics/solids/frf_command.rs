@@ -27,8 +27,7 @@ fn damping_is_identified_from_the_response_of_a_disc_with_thickness() {
     let coefficients = [("mass_coefficient", 40.0, 0.1), ("stiffness_coefficient", 4.5e-7, 0.05)];
     for (key, exact, bound) in coefficients {
         // Noise of 1 %: a few standard errors of the estimates of a dozen modes.
-        let value = found[key]["value"].as_f64().unwrap();
-        assert!((value / exact - 1.0).abs() < bound, "{key}: {value}");
+        near(found[key]["value"].as_f64().unwrap(), exact, bound);
     }
     // The figures again from the folder alone.
     let figure = "figures/response.svg";

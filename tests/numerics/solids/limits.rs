@@ -25,10 +25,8 @@ fn guided_faces_give_plane_strain() {
         model.options.geometric_stiffness = geometric_stiffness;
         let solid = modes(&model, 0.3, 11_500.0);
         for mode in plane(&model, PlaneStrain, 11_000.0) {
-            let found = nearest(&solid, &mode);
             // A 20-node brick has no node at mid-thickness between its sides, a plane quadrilateral has: 0.3 Hz at 11 kHz.
-            let error = (found.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
-            assert!(error < 3e-5, "{geometric_stiffness} n = {}: {error:e}", mode.harmonic);
+            near_each(&[nearest(&solid, &mode).eigenvalue], &[mode.eigenvalue], 3e-5);
         }
     }
 }
@@ -52,16 +50,13 @@ fn the_estimate_of_what_the_small_space_of_a_harmonic_leaves_out_is_what_it_leav
 fn a_thin_disc_has_the_modes_of_plane_stress() {
     let mut model = disc(Quad8, [24, 8, 1]);
     model.specification.thickness = 2e-4;
-    let solid = modes(&model, 0.3, 9000.0);
-    let in_plane: Vec<ComplexMode> =
-        solid.into_iter().filter(|mode| mode.axial_share.unwrap() < 0.1).collect();
+    let mut in_plane = modes(&model, 0.3, 9000.0);
+    in_plane.retain(|mode| mode.axial_share.unwrap() < 0.1);
     let reference = plane(&model, PlaneStress, 8900.0);
     assert!(reference.len() > 3);
     for mode in reference {
-        let error = (nearest(&in_plane, &mode).eigenvalue - mode.eigenvalue).norm()
-            / mode.eigenvalue.norm();
         // The elements at the clamp cannot thin as they are stretched.
-        assert!(error < 1e-2, "n = {}: {error:e}", mode.harmonic);
+        near_each(&[nearest(&in_plane, &mode).eigenvalue], &[mode.eigenvalue], 1e-2);
     }
 }
 
@@ -96,9 +91,7 @@ fn the_stress_of_a_stretched_tube_is_that_of_the_theory() {
         }
         worst
     };
-    for kind in [Quad4, Quad8] {
-        assert!(worst(kind, [24, 4, 2], 0.0) < 1e-9);
-    }
+    assert!([Quad4, Quad8].iter().all(|&kind| worst(kind, [24, 4, 2], 0.0) < 1e-9));
     // b / r^2 is 1e-4 inside.
     let inner = disc(Quad4, [24, 4, 1]).specification.annulus.inner_radius;
     let b = 1e-4 * inner * inner;

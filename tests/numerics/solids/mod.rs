@@ -18,4 +18,4 @@ mod transient;
 mod whole_ring;
 
 use crate::prelude::*;
-use model::{base, bending, body, disc, guided, modes};
+use model::{base, bending, body, disc, guided, modes, opens_in_part};

@@ -18,6 +18,11 @@ pub fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), Prestress
     Ok((sector, base))
 }
 
+/// Whether some of its contact is pressed, and some open.
+pub fn opens_in_part(base: &SolidSliding) -> bool {
+    [true, false].iter().all(|own| base.sliding.is_pressed.contains(own))
+}
+
 /// A disc clamped at its bore, under a ring in the middle of its face, from which it bends away.
 pub fn bending(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
     let mut model = disc(element, divisions);

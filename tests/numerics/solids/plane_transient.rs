@@ -11,17 +11,6 @@ struct Course {
     kinetic: Vec<f64>,
 }
 
-/// The course of a guided body, and that of plane strain.
-fn courses([around, radial]: [usize; 2]) -> [Course; 2] {
-    let model = guided(Quad4, [around, radial, 1]);
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let annulus = AnnulusMesh::generate(&model.specification.annulus).unwrap();
-    let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
-    let damping = model.options.damping;
-    let flat = TransientModel::of_annulus(&annulus, &material, damping, model.contact);
-    [course(body(&model, (&sector, &sector.whole())), true), course(flat, false)]
-}
-
 /// Three periods of a wave strong enough that nodes stick and lift.
 fn course(body: TransientModel<'_>, is_solid: bool) -> Course {
     let (initial, kick) = (InitialState::SteadySliding, Perturbation::of(&[2], 8.0));
@@ -43,8 +32,16 @@ fn course(body: TransientModel<'_>, is_solid: bool) -> Course {
 }
 
 /// Share of statuses that differ, and the largest relative differences of displacement, normal force and kinetic energy.
-fn differences(divisions: [usize; 2]) -> [f64; 4] {
-    let [thick, flat] = courses(divisions);
+fn differences([around, radial]: [usize; 2]) -> [f64; 4] {
+    // The course of a guided body, and that of plane strain.
+    let model = guided(Quad4, [around, radial, 1]);
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let annulus = AnnulusMesh::generate(&model.specification.annulus).unwrap();
+    let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
+    let damping = model.options.damping;
+    let flat = TransientModel::of_annulus(&annulus, &material, damping, model.contact);
+    let thick = course(body(&model, (&sector, &sector.whole())), true);
+    let flat = course(flat, false);
     assert_eq!(thick.status.len(), flat.status.len());
     let thickness = 0.009;
     let (mut other, mut total, mut seen) = (0, 0, [false; 3]);

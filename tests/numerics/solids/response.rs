@@ -5,9 +5,8 @@ use crate::solids::whole_ring::WholeRing;
 
 pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let options = &model.options;
-    let body = (&sector.strip, &model.material);
-    let tangent = WaveTangent::of_free(body.0, body.1, options.mass, options.damping, is_clamped);
+    let (mass, damping) = (model.options.mass, model.options.damping);
+    let tangent = WaveTangent::of_free(&sector.strip, &model.material, mass, damping, is_clamped);
     CyclicSystem::sliding(&tangent, 0.0)
 }
 
@@ -32,8 +31,8 @@ pub fn at(
     half_step: usize,
     direction: Direction,
 ) -> Terminal {
-    let found = sector.nodes.iter();
-    let node = found.clone().position(|node| node.place == place && node.half_step == half_step);
+    let mut all = sector.nodes.iter();
+    let node = all.position(|node| node.place == place && node.half_step == half_step);
     Terminal { node: s * sector.node_count() + node.unwrap(), direction }
 }
 
@@ -104,13 +103,12 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() 
     let rigid = ContactStiffness::default();
     let springs = compliant(1e12, [3e4, 2e4]);
     let ring = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.06 };
-    let (hex8, hex20) = (Quad4, Quad8);
     for (element, contact, place) in [
-        (hex8, rigid, SolidContact::Inner),
-        (hex20, rigid, SolidContact::Inner),
-        (hex8, springs, SolidContact::Inner),
-        (hex8, rigid, ring),
-        (hex8, springs, ring),
+        (Quad4, rigid, SolidContact::Inner),
+        (Quad8, rigid, SolidContact::Inner),
+        (Quad4, springs, SolidContact::Inner),
+        (Quad4, rigid, ring),
+        (Quad4, springs, ring),
     ] {
         let mut model = small(element);
         model.options.contact = contact;

@@ -25,11 +25,7 @@ const LAWS: [NormalLaw; 2] = [exponential(2e6, 4e-5), cubic(1e11, 1e19)];
 
 /// A strong prestress, so that its share cannot hide, and friction that falls with the speed.
 fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
-    let divisions = match element {
-        Quad4 => [8, 3, 2],
-        _ => [6, 2, 1],
-    };
-    let mut model = disc(element, divisions);
+    let mut model = disc(element, if element == Quad4 { [8, 3, 2] } else { [6, 2, 1] });
     model.options.contact = contact;
     model.options.geometric_stiffness = true;
     model.contact.interference = 2e-4;

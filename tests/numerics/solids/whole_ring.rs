@@ -157,11 +157,6 @@ fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     [mass, stiffness]
 }
 
-/// Two nodes of an element and a direction of each.
-fn pairs_of_directions(nodes: usize) -> impl Iterator<Item = (usize, usize, usize, usize)> {
-    (0..9 * nodes * nodes).map(move |k| (k / 9 / nodes, k / 9 % nodes, k / 3 % 3, k % 3))
-}
-
 /// Consistent `M` and `K` of bricks of 20 nodes in global coordinates, turned into nodal frames at the end.
 fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     assert_eq!(model.options.mass, Consistent);
@@ -197,7 +192,10 @@ fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
                 let gradients: Vec<[f64; 3]> = gradients.collect();
                 let dot = |x: [f64; 3], y: [f64; 3]| -> f64 { (0..3).map(|i| x[i] * y[i]).sum() };
                 let mass = volume * model.material.density;
-                for (a, b, c, f) in pairs_of_directions(numbers.len()) {
+                // Two nodes of an element and a direction of each.
+                let n = numbers.len();
+                let pairs = (0..9 * n * n).map(|k| (k / 9 / n, k / 9 % n, k / 3 % 3, k % 3));
+                for (a, b, c, f) in pairs {
                     let (g, h, d, e) = (gradients[a], gradients[b], frames[a][c], frames[b][f]);
                     // sigma(h, e) : grad(g d) of an isotropic body.
                     let turned = dot(g, h) * dot(d, e) + dot(g, e) * dot(h, d);

@@ -2,33 +2,26 @@
 
 use crate::prelude::*;
 
-/// A body with the names that its boundaries have in the file.
-pub struct Part<'a> {
-    pub mesh: Mesh,
-    pub region: &'a str,
-    pub names: [&'a str; 2],
-    /// Angle by which it is turned, rad.
-    pub turn: f64,
-}
+/// A body, its region, the names that its boundaries have in the file, and the angle by which it is turned, rad.
+type Part<'a> = (Mesh, &'a str, [&'a str; 2], f64);
 
 /// Both bodies in one file.
-pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
+fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
     let (mut points, mut groups, mut elements) = (Vec::new(), Vec::new(), Vec::new());
-    for part in parts {
+    for (mesh, region, names, turn) in parts {
         let first = points.len();
-        let (sin, cos) = part.turn.sin_cos();
-        points.extend(
-            part.mesh.nodes.iter().map(|[x, y, _]| [cos * x - sin * y, sin * x + cos * y, 0.0]),
-        );
+        let (sin, cos) = turn.sin_cos();
+        points
+            .extend(mesh.nodes.iter().map(|[x, y, _]| [cos * x - sin * y, sin * x + cos * y, 0.0]));
         let number = |node: &u32| first + *node as usize;
-        for e in 0..part.mesh.element_count() {
-            let nodes = part.mesh.element_nodes(e).iter().map(number).collect();
-            elements.push((part.mesh.element_kind(e).gmsh_type(), groups.len(), nodes));
+        for e in 0..mesh.element_count() {
+            let nodes = mesh.element_nodes(e).iter().map(number).collect();
+            elements.push((mesh.element_kind(e).gmsh_type(), groups.len(), nodes));
         }
-        groups.push((2, part.region));
+        groups.push((2, *region));
         // Corners and middles alternate where edges have a middle.
-        let (stride, kind) = if part.mesh.is_quad4() { (1, 1) } else { (2, 8) };
-        for (boundary, name) in part.mesh.boundaries.iter().zip(part.names) {
+        let (stride, kind) = if mesh.is_quad4() { (1, 1) } else { (2, 8) };
+        for (boundary, name) in mesh.boundaries.iter().zip(*names) {
             let count = boundary.nodes.len();
             for i in (0..count - usize::from(!boundary.is_closed)).step_by(stride) {
                 let place = |k: usize| number(&boundary.nodes[(i + k) % count]);
@@ -70,10 +63,8 @@ pub fn rings_of(
 ) -> Mesh {
     let shaft = ring(element, [0.006, 0.0205], around[0], radial[0]);
     let disc = ring(element, [0.0205, outer_radius], around[1], radial[1]);
-    let parts = [
-        Part { mesh: disc, region: "disc", names: ["inner", "outer"], turn: 0.0 },
-        Part { mesh: shaft, region: "shaft", names: ["bore", "journal"], turn },
-    ];
+    let parts =
+        [(disc, "disc", ["inner", "outer"], 0.0), (shaft, "shaft", ["bore", "journal"], turn)];
     let held = ["outer", "bore"].map(|name| (name, Clamped));
     let specification = plane_body("inner", CYLINDER, Some("journal"), &held);
     Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification).unwrap()

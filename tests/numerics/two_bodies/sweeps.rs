@@ -6,7 +6,6 @@ use super::*;
 fn write_case(folder: &Path, along: [usize; 2]) {
     let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 2]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 3]);
-    fs::create_dir_all(folder).unwrap();
     fs::write(folder.join("blocks.msh"), blocks_of([lower, upper])).unwrap();
     let text = include_str!("../../commands/refused/blocks.toml");
     fs::write(folder.join("case.toml"), text).unwrap();

@@ -10,8 +10,7 @@
 //! `G_nn`, `G_nt` the normal response of the body without contact to a normal force and to one along the sliding. At a
 //! critical friction of `cea` the root lies on the axis, where `frf` has both responses.
 
-use super::{folder, table};
-use crate::mesh_text::quadrilaterals;
+use super::*;
 
 #[test]
 fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
@@ -27,7 +26,7 @@ fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
     let cea = "[cea]\nmodes = 6\nfriction_coefficients = { from = 0.0, to = 0.4, count = 5 }\n\
                geometric_stiffness = false\n";
     let onsets = table(&folder, "cea", &format!("{body}{cea}"), "", "stability.csv");
-    let pressed = crate::program::rows(&folder.join("cea/prestress.csv"));
+    let pressed = rows(&folder.join("cea/prestress.csv"));
     assert_eq!(pressed.iter().filter(|node| node.number("pressure_pa") > 0.0).count(), 1);
     assert!(!onsets.is_empty());
     for onset in &onsets {
@@ -39,7 +38,7 @@ fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
                 onset.number("frequency_hz")
             );
             let line = &table(&folder, "frf", &format!("{body}{frf}"), "", "frf.csv")[0];
-            faer::c64::new(line.number("receptance_real"), line.number("receptance_imaginary"))
+            c64::new(line.number("receptance_real"), line.number("receptance_imaginary"))
         };
         let (normal, along) = (response("y"), response("x"));
         let rest = normal + along * onset.number("critical_friction");

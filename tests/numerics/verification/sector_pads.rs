@@ -89,10 +89,9 @@ fn sector_pads_friction_couples_what_the_springs_part() {
     });
     assert!(errors[1].iter().all(|error| error.abs() < 6e-3), "{errors:?}");
     for k in [0, 1] {
-        let order = order(errors[0][k], errors[1][k], 2.0);
-        assert!((order - 2.0).abs() < 0.4, "{order}");
+        within(&[order(errors[0][k], errors[1][k], 2.0)], &[2.0], 0.4);
     }
     // The pads part the waves by 5e-7 and 8e-7 of their frequency: round-off leaves onsets open by 1e-5, for any friction values.
     let [few, more] = [2, 9].map(|count| found(2e-3, count));
-    assert!((0..2).all(|k| (few[k] / more[k] - 1.0).abs() < 1e-5), "{few:?} {more:?}");
+    near_each(&few, &more, 1e-5);
 }
