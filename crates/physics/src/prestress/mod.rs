@@ -10,7 +10,6 @@
 mod assembly;
 mod complementarity;
 mod contact_system;
-mod copies;
 mod elimination;
 mod error;
 mod face;
@@ -32,7 +31,6 @@ mod waves;
 pub use crate::contact::PressedState;
 pub use crate::fem::{LossGain, TabledGain};
 pub use assembly::{Assembly, Joined};
-pub(crate) use copies::without_symmetry;
 pub use elimination::{Elimination, RigidFriction};
 pub use error::PrestressError;
 use error::Result;
@@ -47,3 +45,8 @@ pub use tangent::{ContactDofs, ContactPart, SlidingTangent};
 pub use terms::{Kind, Part, PartForms, PartLaw, Term, Terms};
 pub use wave_harmonic::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
 pub use wave_tangent::{WaveContact, WaveTangent};
+
+/// Entry `k` of a vector that has no symmetry, between -0.5 and 0.5.
+pub(crate) fn without_symmetry(k: usize) -> f64 {
+    (1.0 + k as f64).sqrt().fract() - 0.5 // Fractions of roots repeat nowhere.
+}
