@@ -115,3 +115,15 @@ fn a_branch_without_a_fold_says_so() {
     assert!(branch.folds().is_empty() && branch.coexistence().is_empty());
     assert_eq!(branch.ends, [BranchEnd::Range; 2]);
 }
+
+/// A first step so long that the branch bends within it leads on, not back along itself beyond a fold that there is none of.
+#[test]
+fn a_branch_that_bends_within_its_first_step_is_not_followed_back() {
+    let folder = folder();
+    let mesh = include_bytes!("../cases/uneven-block.msh");
+    fs::write(folder.path().join("uneven-block.msh"), mesh).unwrap();
+    let text = include_str!("../cases/uneven-block.toml");
+    let branch = branch(&case_of::<&str>(folder.path().join("case.toml"), text, &[]));
+    let values: Vec<f64> = branch.motions.iter().map(|own| own.value).collect();
+    assert!(branch.folds().is_empty() && values.is_sorted(), "{values:?}");
+}

@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 /// few e-folds below saturation, in which waves with the rotor die.
 pub(super) const SEED: f64 = 0.01;
 /// Looks at the edge in each period of the first wave.
-pub(super) const LOOKS: usize = 8;
+const LOOKS: usize = 8;
 /// Periods over which amplitudes are averaged before they are compared.
 pub(super) const WINDOW: usize = 10;
 /// A wave with less than this share of the other's amplitude has lost, if it goes on falling.
@@ -27,7 +27,7 @@ pub(super) const LOST: f64 = 0.02;
 /// Change of the amplitude ratio over one window that is none.
 pub(super) const CONSTANT: f64 = 2e-3;
 /// Windows after saturation that must agree on the end.
-pub(super) const AGREEING_WINDOWS: usize = 3;
+const AGREEING_WINDOWS: usize = 3;
 
 /// What is asked of two competing waves.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,46 +164,22 @@ struct Contest<'a> {
     request: &'a BasinRequest,
 }
 
-impl Contest<'_> {
+impl<'a> Contest<'a> {
     fn run(&self, seed_ratio: f64) -> Result<BasinRun, CycleError> {
         let mut run = self.start(seed_ratio)?;
         let steps = (self.period / run.plan().time_step).round().max(1.0) as usize;
-        let look_every = (steps / LOOKS).max(1);
-        let mut sums = [0.0; 2];
-        let mut saturation_ratio = None;
-        let (mut share, mut agreeing) = (seed_ratio, 0);
-        for step in 1..=self.request.periods * steps {
-            interruption::check();
-            run.advance();
-            if saturation_ratio.is_none() && is_saturated(&run) {
-                let [first, second] = self.amplitudes(&run);
-                saturation_ratio = Some(second / first);
-            }
-            if step % look_every == 0 {
-                let found = self.amplitudes(&run);
-                sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
-            }
-            if step % (WINDOW * steps) == 0 {
-                let before = std::mem::replace(&mut share, sums[1] / sums[0]); // A_2 / A_1, both averaged over the window.
-                sums = [0.0; 2];
-                let is_end = saturation_ratio.is_some() && is_final(before, share);
-                agreeing = if is_end { agreeing + 1 } else { 0 };
-                if agreeing >= AGREEING_WINDOWS {
-                    break;
-                }
-            }
-        }
-        Ok(BasinRun {
-            seed_ratio,
-            saturation_ratio,
-            winner: self.request.harmonics[usize::from(share > 1.0)],
-            is_settled: agreeing >= AGREEING_WINDOWS,
-            duration_s: run.steps_done() as f64 * run.plan().time_step,
-        })
+        let rivals = self.request.harmonics;
+        // Amplitudes of both harmonics of the edge's tangential displacement.
+        let amplitudes = |run: &CentralDifference<'a>| {
+            let edge = slips(run);
+            rivals.map(|harmonic| amplitude(&edge, harmonic as isize).norm())
+        };
+        let rivalry = Rivalry { rivals, amplitudes, even: 1.0, constant: CONSTANT, open: 0 };
+        Ok(rivalry.run(&mut run, (seed_ratio, None), [self.request.periods, steps]))
     }
 
     /// Steady sliding with both waves seeded, the larger with a fixed share of what saturates it.
-    fn start(&self, seed_ratio: f64) -> Result<CentralDifference<'_>, CycleError> {
+    fn start(&self, seed_ratio: f64) -> Result<CentralDifference<'a>, CycleError> {
         let contact = &self.model.contact;
         let surface_speed = self.model.interface().surface_speed(contact.rotation_speed).abs();
         let opening = contact.interference * TAU / self.period; // omega delta: a wave of amplitude delta opens the contact.
@@ -218,23 +194,78 @@ impl Contest<'_> {
         };
         Ok(CentralDifference::start(self.model, self.operator, &settings)?)
     }
+}
 
-    /// Amplitudes of both harmonics of the edge's tangential displacement, m.
-    fn amplitudes(&self, run: &CentralDifference<'_>) -> [f64; 2] {
-        let edge = slips(run);
-        self.request.harmonics.map(|harmonic| amplitude(&edge, harmonic as isize).norm())
+/// A transient in which two motions compete, and how they are told apart.
+pub(super) struct Rivalry<A> {
+    /// Both, by their numbers.
+    pub rivals: [usize; 2],
+    /// Their amplitudes, m.
+    pub amplitudes: A,
+    /// Ratio of these, second over first, above which the second has won.
+    pub even: f64,
+    /// Change of that over one window that is none.
+    pub constant: f64,
+    /// Contact nodes that are open in steady sliding.
+    pub open: usize,
+}
+
+impl<'a, A: Fn(&CentralDifference<'a>) -> [f64; 2]> Rivalry<A> {
+    /// Steps to its end, `steps` in a period, window by window until enough of them in a row say the same. The ratio at `saturation`,
+    /// when a node sticks or more of them open, may be known before.
+    pub fn run(
+        &self,
+        run: &mut CentralDifference<'a>,
+        (seed_ratio, mut saturation_ratio): (f64, Option<f64>),
+        [periods, steps]: [usize; 2],
+    ) -> BasinRun {
+        let look_every = (steps / LOOKS).max(1);
+        let (mut sums, mut share, mut agreeing, mut step) = ([0.0; 2], seed_ratio, 0, 0);
+        while step < periods * steps && agreeing < AGREEING_WINDOWS {
+            interruption::check();
+            run.advance();
+            step += 1;
+            if saturation_ratio.is_none() && self.is_saturated(run) {
+                let [first, second] = (self.amplitudes)(run);
+                saturation_ratio = Some(second / first);
+            }
+            if step % look_every == 0 {
+                let found = (self.amplitudes)(run);
+                sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
+            }
+            if step % (WINDOW * steps) == 0 {
+                let before = std::mem::replace(&mut share, sums[1] / sums[0]); // A_2 / A_1, both averaged over the window.
+                sums = [0.0; 2];
+                let is_end = saturation_ratio.is_some() && self.is_final(before, share);
+                agreeing = if is_end { agreeing + 1 } else { 0 };
+            }
+        }
+        BasinRun {
+            seed_ratio,
+            saturation_ratio,
+            winner: self.rivals[usize::from(share > self.even)],
+            is_settled: agreeing >= AGREEING_WINDOWS,
+            duration_s: step as f64 * run.plan().time_step,
+        }
+    }
+
+    /// Whether the amplitude ratio stays as it is from one window to the next, or leaves one motion less and less.
+    fn is_final(&self, before: f64, share: f64) -> bool {
+        let change = share / before - 1.0;
+        let is_lost = share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0;
+        is_lost || change.abs() < self.constant
+    }
+
+    fn is_saturated(&self, run: &CentralDifference<'a>) -> bool {
+        let status = &run.contact().status;
+        status.contains(&ContactStatus::Stick) || open_nodes(run) > self.open
     }
 }
 
-/// Whether the amplitude ratio stays as it is from one window to the next, or leaves one wave less and less.
-pub(super) fn is_final(before: f64, share: f64) -> bool {
-    let change = share / before - 1.0;
-    share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0 || change.abs() < CONSTANT
-}
-
-/// Whether a node sticks or is open.
-fn is_saturated(run: &CentralDifference<'_>) -> bool {
-    run.contact().status.iter().any(|&status| status != ContactStatus::Slip)
+/// Contact nodes that are open.
+pub(super) fn open_nodes(run: &CentralDifference<'_>) -> usize {
+    let status = run.contact().status.iter();
+    status.filter(|status| **status == ContactStatus::Open).count()
 }
 
 #[cfg(test)]

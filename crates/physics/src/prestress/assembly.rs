@@ -175,18 +175,6 @@ impl<'a> Assembly<'a> {
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
     /// [`PrestressError::Separation`] where a node would open.
     pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
-        self.range_beyond(None, friction_coefficients)
-    }
-
-    /// [`Self::range`] without computing again what is `known` from fewer friction coefficients.
-    ///
-    /// # Errors
-    /// As [`Self::range`].
-    pub fn range_beyond(
-        &self,
-        known: Option<&PressedRange>,
-        friction_coefficients: &[f64],
-    ) -> Result<PressedRange> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();
         let of_points = || {
@@ -216,9 +204,7 @@ impl<'a> Assembly<'a> {
         }
         // How far each point is pushed in along its normal.
         let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap); // p_i = delta - g_i.
-        // An edge is the only contact of its body, and has no section with a name.
-        let named = contacts.iter().filter(|(own, _)| !own.is_edge());
-        let named = named.map(|(own, surface)| (own.section(), surface.points.len()));
+        let named = contacts.iter().map(|(own, surface)| (own.section(), surface.points.len()));
         let pressing = Pressing {
             laws: of_points().map(|(own, _)| own.base_law()).collect(),
             stiffness: &stiffness,
@@ -228,7 +214,6 @@ impl<'a> Assembly<'a> {
             together: Vec::new(),
             pushed: pushed.collect(),
             points: &points,
-            known,
         };
         if !self.mesh.is_cyclic {
             return pressing.states(self.mesh, friction_coefficients);

@@ -29,26 +29,25 @@ pub(super) fn range(
         state_of: vec![0; friction_coefficients.len()],
         ..PressedRange::default()
     };
-    let mut sets: Vec<Vec<bool>> = Vec::new(); // The sets in turn, and where each gives way to the next.
+    let mut sets: Vec<(Vec<bool>, f64)> = Vec::new(); // The sets in turn, and the lowest friction coefficient of each.
     let all = vec![true; bodies.pressing().points.len()];
     let at_rest = pressed_points(bodies, 0.0, &all).unwrap_or(all);
-    let (mut before, mut last) = (0.0, at_rest.clone());
+    let mut before = 0.0;
     for &i in &order {
         let friction = friction_coefficients[i];
-        let known = bodies.pressing().known.and_then(|known| known.set_at(friction));
-        let known = known.map(<[bool]>::to_vec);
-        let set = known.map_or_else(|| pressed_points(bodies, friction, &at_rest), Ok)?;
+        let set = pressed_points(bodies, friction, &at_rest)?;
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
         }
-        if sets.last() != Some(&set) {
-            if !sets.is_empty() {
-                found.changes.push(end_between(bodies, &last, [before, friction])?);
+        let last = sets.last().map(|own| &own.0);
+        if last != Some(&set) {
+            if let Some(last) = last {
+                found.changes.push(end_between(bodies, last, [before, friction])?);
             }
-            sets.push(set.clone());
+            sets.push((set, friction));
         }
         found.state_of[i] = sets.len() - 1;
-        (before, last) = (friction, set);
+        before = friction;
     }
     follow(bodies, &sets, &mut found)?;
     Ok(found)
@@ -58,23 +57,17 @@ pub(super) fn range(
 /// others hold.
 fn follow(
     bodies: &mut ContactSystem<'_>,
-    sets: &[Vec<bool>],
+    sets: &[(Vec<bool>, f64)],
     found: &mut PressedRange,
 ) -> Result<()> {
-    // The friction coefficients at which each set was found.
-    let asked_of = |state: usize| -> Vec<f64> {
-        let all = found.state_of.iter().zip(&found.friction_coefficients);
-        all.filter_map(|(own, friction)| (*own == state).then_some(*friction)).collect()
-    };
-    let asked: Vec<Vec<f64>> = (0..sets.len()).map(asked_of).collect();
-    let lowest = |k: usize| asked[k].iter().copied().fold(f64::INFINITY, f64::min);
-    // Downwards from there each set but the first begins where it breaks.
-    for k in 0..found.changes.len() {
-        let change = found.changes[k];
-        let begin = end_between(bodies, &sets[k + 1], [lowest(k + 1), change])?;
+    // Downwards from where it was found each set but the first begins where it breaks.
+    for (&change, (set, lowest)) in found.changes.iter().zip(sets.iter().skip(1)) {
+        let begin = end_between(bodies, set, [*lowest, change])?;
         found.begins.push(begin.max(change));
     }
-    for (k, set) in sets.iter().enumerate() {
+    for (k, (set, lowest)) in sets.iter().enumerate() {
+        let own = found.state_of.iter().zip(&found.friction_coefficients);
+        let asked: Vec<f64> = own.filter(|own| *own.0 == k).map(|own| *own.1).collect();
         let [lower, upper] = found.span(k);
         // The first set holds below what is asked, too: as far as its polynomial needs.
         let own_range = |bodies: &mut ContactSystem<'_>| {
@@ -82,13 +75,13 @@ fn follow(
                 Some(before) => found.begins[before],
                 None => {
                     let least = lower.min(upper - LEAST_RANGE).max(0.0);
-                    end_between(bodies, set, [lowest(0).min(upper), least])?
+                    end_between(bodies, set, [lowest.min(upper), least])?
                 }
             };
             Ok([begin.min(upper - SHORTEST_RANGE), upper]) // Long enough for a polynomial.
         };
         bodies.begin(set)?;
-        let own = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked[k])?;
+        let own = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked)?;
         found.left_out = found.left_out.max(own.left_out);
         found.states.push(own.state);
     }
@@ -119,11 +112,7 @@ pub(super) fn pressed_points(
         };
         let is_circling = seen.contains(&set);
         if is_circling && !was_circling {
-            // Without friction the points of a contact that nothing presses pull as much as they push.
-            let all = bodies.state_of(0.0, &vec![true; set.len()])?;
-            if let Some(error) = bodies.pressing().unpressed(&all.normal_forces) {
-                return Err(error);
-            }
+            check_pressed(bodies)?;
         }
         was_circling |= is_circling;
         seen.push(set.clone());
@@ -132,7 +121,15 @@ pub(super) fn pressed_points(
         let turned = wrong.filter(|(i, _)| !is_circling || worst.contains(i));
         turned.for_each(|(i, _)| set[i] = !set[i]);
     }
+    check_pressed(bodies)?;
     Err(PrestressError::NoState { friction_coefficient })
+}
+
+/// Refuses a contact that nothing presses: without friction its points pull as much as they push.
+fn check_pressed(bodies: &mut ContactSystem<'_>) -> Result<()> {
+    let all = vec![true; bodies.pressing().points.len()];
+    let forces = bodies.state_of(0.0, &all)?.normal_forces;
+    bodies.pressing().check_pressed(&forces, bodies.push())
 }
 
 /// How far each point violates its condition, N: the pull on a pressed one, the force of the point's own stiffness over
@@ -153,15 +150,12 @@ fn bound(state: &ContactState) -> f64 {
 }
 
 /// The friction coefficient up to which the set at `inside` holds on the way to `outside`, which may be smaller: the root of the largest
-/// violation, unless it is known; `outside` where it holds all the way.
+/// violation; `outside` where it holds all the way.
 fn end_between(
     bodies: &mut ContactSystem<'_>,
     set: &[bool],
     [inside, outside]: [f64; 2],
 ) -> Result<f64> {
-    if let Some(end) = bodies.pressing().known.and_then(|own| own.end_of(set, [inside, outside])) {
-        return Ok(end);
-    }
     let mut violation = |friction: f64| -> Result<f64> {
         let state = bodies.state_of(friction, set)?;
         let largest = excesses(bodies, &state, set).into_iter().fold(f64::NEG_INFINITY, f64::max);

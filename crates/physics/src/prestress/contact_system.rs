@@ -181,6 +181,11 @@ impl<'a> ContactSystem<'a> {
         self.points.pressing
     }
 
+    /// What the bodies would take where they are pushed in if nothing else gave way, N.
+    pub fn push(&self) -> f64 {
+        self.bodies.iter().zip(&self.points.pressing.pushed).map(|(k, push)| k * push.abs()).sum()
+    }
+
     /// Stiffness against the penetration of a point, N/m.
     pub fn stiffness_at(&self, point: usize) -> f64 {
         self.even[point]

@@ -46,7 +46,6 @@ impl Pressing<'_> {
             together: Vec::new(),
             pushed: firsts.iter().map(|&i| self.pushed[i]).collect(),
             laws: firsts.iter().map(|&i| self.laws[i]).collect(),
-            known: None,
         };
         let mut range = range(&mut ContactSystem::new(&own)?, friction_coefficients)?;
 

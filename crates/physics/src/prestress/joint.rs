@@ -87,6 +87,6 @@ impl SlidingSurfaces {
 
     /// Whether the case describes it as `[contact]`.
     pub fn is_short_form(&self) -> bool {
-        self.name == Self::SHORT_FORM && self.counter.rigid().is_some()
+        self.name == Self::SHORT_FORM && self.counter.surface().is_none()
     }
 }

@@ -52,22 +52,4 @@ impl PressedRange {
         let is_empty = begin - end <= 4.0 * CHANGE_WIDTH; // Either is known to a width of its own.
         end..if is_empty { end } else { begin }
     }
-
-    /// The pressed points at a friction coefficient of these.
-    pub(super) fn set_at(&self, friction_coefficient: f64) -> Option<&[bool]> {
-        let place =
-            self.friction_coefficients.iter().position(|own| *own == friction_coefficient)?;
-        Some(&self.states[self.state_of[place]].is_pressed)
-    }
-
-    /// Where a set that holds at `inside` ends on the way to `outside`, up or down, if it does before.
-    pub(super) fn end_of(&self, set: &[bool], [inside, outside]: [f64; 2]) -> Option<f64> {
-        let ends = self.changes.iter().zip(&self.states).filter(|_| outside > inside);
-        let begins = self.begins.iter().zip(self.states.iter().skip(1));
-        let begins = begins.filter(|_| outside <= inside);
-        // Upwards a set ends where it gives way, downwards where it began.
-        let is_between = |at: f64| at != outside && (at - inside) * (at - outside) <= 0.0;
-        let mut all = ends.chain(begins);
-        all.find(|(at, own)| is_between(**at) && own.is_pressed == set).map(|own| *own.0)
-    }
 }

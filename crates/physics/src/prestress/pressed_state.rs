@@ -1,14 +1,15 @@
 //! Bodies pressed together at their contact points, and the state of these.
 
-use super::PrestressError;
 use super::elimination::Elimination;
-use super::pressed_range::PressedRange;
+use super::{PrestressError, Result};
 use crate::contact::{NormalLaw, Point, PressedState, Turning};
 use crate::fem::Triplets;
 use std::ops::Range;
 
 /// Share of all contact forces that round-off leaves of a sum that is zero.
 const UNPRESSED: f64 = 1e-9;
+/// Share of the force that the bodies themselves would take where they are pushed in that is none.
+const NO_FORCE: f64 = 1e-12;
 
 /// What presses bodies together.
 #[derive(Clone, Debug)]
@@ -23,31 +24,31 @@ pub struct Pressing<'a> {
     pub points: &'a [Point],
     /// Numbers of points that touch together or not at all; empty where each is by itself.
     pub together: Vec<usize>,
-    /// Section and name of each contact and its number of points, in their order; empty where there is one contact.
+    /// Section and name of each contact and its number of points, in their order; empty for one sector.
     pub contacts: Vec<(String, usize)>,
     /// How far the counterface is pushed in at each, `delta_i - g_i`, m.
     pub pushed: Vec<f64>,
     /// Law of the contact of each; `None` is rigid contact.
     pub laws: Vec<Option<NormalLaw>>,
-    /// Their states at some friction coefficients, as found before.
-    pub known: Option<&'a PressedRange>,
 }
 
 impl Pressing<'_> {
-    /// The contact whose forces on all its points are in balance by themselves, so that nothing presses it.
-    pub(super) fn unpressed(&self, forces: &[f64]) -> Option<PrestressError> {
-        let all: f64 = forces.iter().map(|force| force.abs()).sum();
-        let mut first = 0;
-        let found = self.contacts.iter().find(|(_, count)| {
-            let own: f64 = forces[first..first + count].iter().sum();
-            first += count;
-            own.abs() <= UNPRESSED * all
-        });
-        let (name, _) = found?;
-        Some(PrestressError::Asked(format!(
-            "nothing presses the two sides of {name} together: one of them is held by the contact alone. Press it with a boundary pressure \
-             or an interference, or hold it by springs"
-        )))
+    /// Refuses a contact whose forces on all its points are in balance by themselves, so that nothing presses it: they are none at all
+    /// beside the `push`, N, where nothing presses any.
+    pub(super) fn check_pressed(&self, forces: &[f64], push: f64) -> Result<()> {
+        let forces = forces.iter().map(|force| if force.is_finite() { *force } else { 0.0 }); // 0 / 0.
+        let all: f64 = forces.clone().map(f64::abs).sum();
+        let mut own = forces;
+        for (name, count) in &self.contacts {
+            let sum: f64 = own.by_ref().take(*count).sum();
+            if sum.abs() <= (UNPRESSED * all).max(NO_FORCE * push) {
+                return Err(PrestressError::Asked(format!(
+                    "nothing presses the two sides of {name} together: one of them is held by the contact alone. Press it with a boundary \
+                     pressure or an interference, or hold it by springs"
+                )));
+            }
+        }
+        Ok(())
     }
 
     /// The points that touch together with one of them.

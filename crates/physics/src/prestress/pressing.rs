@@ -70,7 +70,6 @@ fn of_sector(
         laws: vec![law; points.len()],
         points: &points,
         together,
-        known: None,
     };
     let mut system = ContactSystem::new(&pressing)?;
     let set = pressed(&mut system)?;

@@ -80,7 +80,7 @@ impl WholeMesh {
                 });
             }
             let more = [frictions.as_slice(), &open].concat();
-            match self.states_at(case, &more, range) {
+            match self.states_at(case, &more) {
                 Ok(range) => {
                     earlier = refined.replace(range);
                     known = frictions.len();

@@ -54,19 +54,18 @@ impl WholeMesh {
         Ok(Self { symmetry, mesh, range, options, joined })
     }
 
-    /// Base states at the friction coefficients of those `known` and at some between, which come first.
+    /// Base states at some friction coefficients, which come first.
     pub(super) fn states_at(
         &self,
         case: &Case,
         frictions: &[f64],
-        known: &PressedRange,
     ) -> Result<PressedRange, CeaError> {
         let (assembly, own) = (self.assembly(case), [case.contact.sliding.friction_coefficient]);
         let further = match self.mesh.dimension {
             2 => &own[..],
             _ => start_of(assembly.contacts()),
         };
-        Ok(assembly.range_beyond(Some(known), &[frictions, further].concat())?)
+        Ok(assembly.range(&[frictions, further].concat())?)
     }
 
     /// The model of a case with the base states of this one: for a case that differs in nothing that these depend on.

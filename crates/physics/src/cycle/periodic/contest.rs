@@ -2,11 +2,11 @@
 
 use super::ladder::GrowingMode;
 use super::map::PeriodMap;
-use crate::contact::ContactStatus;
-use crate::cycle::basin::{AGREEING_WINDOWS, CONSTANT, LOOKS, LOST, SEED, WINDOW, is_final};
+use crate::cycle::basin::{CONSTANT, LOST, Rivalry, SEED, WINDOW, open_nodes};
 use crate::cycle::{BasinRequest, BasinRun};
+use crate::linalg::c64;
 use crate::linalg::dense::{add, difference, dot, norm};
-use crate::linalg::{c64, interruption};
+use crate::transient::CentralDifference;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -72,7 +72,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         // One step of steady sliding tells which nodes are open.
         map.place(&rest);
         map.run.advance();
-        let open = open_nodes(&map);
+        let open = open_nodes(&map.run);
         Self { map, modes: seeded, request, base: rest.motion, inverse, period, open }
     }
 
@@ -88,57 +88,32 @@ impl<'m, 'a> ModeContest<'m, 'a> {
     /// one at which the first contact node sticks.
     pub fn run(&mut self, ratio: f64) -> BasinRun {
         self.start(ratio);
-        let steps = self.map.steps();
-        let look_every = (steps / LOOKS).max(1);
-        let is_alone = self.modes.len() == 1;
-        let mut saturation = is_alone.then_some(ratio);
-        let (mut share, mut agreeing, mut periods) = (ratio, 0, 0);
-        // Window by window, until enough of them in a row say the same.
-        while periods < self.request.periods && agreeing < AGREEING_WINDOWS {
-            interruption::check();
-            let mut sums = vec![0.0; self.modes.len()];
-            for step in 1..=WINDOW * steps {
-                self.map.run.advance();
-                if saturation.is_none() && self.is_saturated() {
-                    let found = self.amplitudes();
-                    saturation = Some(found[1] / found[0]);
-                }
-                if step % look_every == 0 {
-                    let found = self.amplitudes();
-                    sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
-                }
-            }
-            periods += WINDOW;
-            // Mean amplitude over that of sticking of one mode, the ratio of both of two.
-            let looks = (WINDOW * steps / look_every) as f64;
-            let before = share;
-            share = match is_alone {
-                true => sums[0] / looks / self.modes[0].sticking,
-                false => sums[1] / sums[0],
-            };
-            let is_end = match is_alone {
-                true => self.is_over(before, share),
-                false => saturation.is_some() && is_final(before, share),
-            };
-            agreeing = if is_end { agreeing + 1 } else { 0 };
+        let asked = [self.request.periods, self.map.steps()];
+        let (rivals, open, base, inverse) = (self.rivals(), self.open, &self.base, &self.inverse);
+        let PeriodMap { run, moving, .. } = &mut self.map;
+        let motion = |run: &CentralDifference<'a>| {
+            let fields = run.fields();
+            difference(&moving.motion(&fields.displacement, &fields.velocity), base)
+        };
+        if let [one] = &self.modes[..] {
+            // It stands for whatever vibrates, beside sticking: only what is at rest is steady sliding. On a cycle its amplitude changes
+            // much more slowly than the mode grows or decays: by a share of the logarithm of what that gains in a window.
+            let slow = OWN_RATE * one.mode.eigenvalue.re.abs() * WINDOW as f64 * self.period;
+            let constant = slow.min(CONSTANT);
+            let amplitudes = |run: &_| [one.sticking, norm(&motion(run)) / norm(&one.patterns[0])];
+            let rivalry = Rivalry { rivals, amplitudes, even: LOST, constant, open };
+            return rivalry.run(run, (ratio, Some(ratio)), asked);
         }
-        let limit = if is_alone { LOST } else { 1.0 }; // Whoever has more in the end has won.
-        BasinRun {
-            seed_ratio: ratio,
-            saturation_ratio: saturation,
-            winner: self.rivals()[usize::from(share > limit)],
-            is_settled: agreeing >= AGREEING_WINDOWS,
-            duration_s: periods as f64 * self.period,
-        }
-    }
-
-    /// Whether the amplitude of one mode ends where it is from one window to the next: gone, or changing much more slowly than the
-    /// mode itself grows or decays, as on a cycle.
-    fn is_over(&self, before: f64, share: f64) -> bool {
-        let rate = self.modes[0].mode.eigenvalue.re.abs();
-        let slow = OWN_RATE * rate * WINDOW as f64 * self.period; // A share of the logarithm of what the mode gains in a window.
-        let change = share / before - 1.0;
-        share < LOST && change < 0.0 || change.abs() < slow.min(CONSTANT)
+        // Slip amplitudes of least squares.
+        let patterns = || self.modes.iter().flat_map(|own| &own.patterns);
+        let amplitudes = |run: &_| {
+            let motion = motion(run);
+            let products = patterns().map(|pattern| dot(pattern, &motion)).collect();
+            let found = inverse * DVector::from_vec(products);
+            [0, 2].map(|first| found[first].hypot(found[first + 1])) // Both phases: s_1 cos + s_2 sin.
+        };
+        let rivalry = Rivalry { rivals, amplitudes, even: 1.0, constant: CONSTANT, open };
+        rivalry.run(run, (ratio, None), asked)
     }
 
     /// Steady sliding with the modes seeded.
@@ -162,31 +137,4 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         }
         self.map.place(&state);
     }
-
-    /// Slip amplitude of each mode in the motion, m: that of least squares. One mode alone stands for whatever vibrates: only what is
-    /// at rest is steady sliding.
-    fn amplitudes(&self) -> Vec<f64> {
-        let motion = difference(&self.map.motion(), &self.base);
-        if let [one] = &self.modes[..] {
-            return vec![norm(&motion) / norm(&one.patterns[0])];
-        }
-        let patterns = self.modes.iter().flat_map(|own| &own.patterns);
-        let products = DVector::from_iterator(
-            2 * self.modes.len(),
-            patterns.map(|pattern| dot(pattern, &motion)),
-        );
-        let found = &self.inverse * products;
-        found.as_slice().chunks_exact(2).map(|pair| pair[0].hypot(pair[1])).collect() // Both phases: s_1 cos + s_2 sin.
-    }
-
-    /// Whether a node sticks, or more of them are open than in steady sliding.
-    fn is_saturated(&self) -> bool {
-        let status = &self.map.run.contact().status;
-        open_nodes(&self.map) > self.open || status.contains(&ContactStatus::Stick)
-    }
-}
-
-fn open_nodes(map: &PeriodMap<'_>) -> usize {
-    let status = map.run.contact().status.iter();
-    status.filter(|status| **status == ContactStatus::Open).count()
 }

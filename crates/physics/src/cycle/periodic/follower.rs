@@ -28,12 +28,14 @@ pub(super) struct Follower<'c, 'b, 'a> {
     pub(super) length: f64,
     /// Largest amplitude so far, over its scale.
     pub(super) largest: f64,
+    /// Points after the first step.
+    begun: usize,
 }
 
 impl Way for Follower<'_, '_, '_> {
     type Error = TransientError;
-    /// The tangent, lengths of a step and the largest amplitude, steps of a period, and the points.
-    type Kept = (Place, [f64; 2], usize, Vec<Point>);
+    /// The tangent, lengths of a step and the largest amplitude, steps of a period, points after the first step, and all of them.
+    type Kept = (Place, [f64; 2], [usize; 2], Vec<Point>);
     const BLOCK: usize = 20;
 
     fn count(&self) -> usize {
@@ -55,14 +57,14 @@ impl Way for Follower<'_, '_, '_> {
 
     fn kept(&self) -> Self::Kept {
         let (lengths, steps) = ([self.length, self.largest], self.corrector.map.steps());
-        (self.tangent, lengths, steps, self.points.clone())
+        (self.tangent, lengths, [steps, self.begun], self.points.clone())
     }
 
-    fn take_up(&mut self, (tangent, lengths, steps, points): Self::Kept) -> Option<()> {
+    fn take_up(&mut self, (tangent, lengths, [steps, begun], points): Self::Kept) -> Option<()> {
         let points = points.into_iter().map(|own| self.corrector.recalled(own));
         let points: Vec<Point> = points.collect::<Option<_>>()?;
         points.first()?;
-        (self.points, self.tangent) = (points, tangent);
+        (self.points, self.tangent, self.begun) = (points, tangent, begun);
         [self.length, self.largest] = lengths;
         self.corrector.map.step_in(steps);
         Some(())
@@ -111,6 +113,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
             points: vec![first],
             tangent: [direction, 0.0],
             length: STEPS[0],
+            begun: 0,
         }
     }
 
@@ -182,6 +185,16 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
 
     /// Takes a point, and the fold that it shows.
     fn accept(&mut self, next: Point, reach: f64) -> Result<Option<BranchEnd>, TransientError> {
+        // Where the second step turns back the first was too long: around a bend its chord leads back along the branch.
+        let first = self.here().value - self.points[0].value;
+        let [way_back, scale] =
+            [(next.value - self.here().value) * first, self.corrector.scales[0]];
+        let is_second = self.points.len() > 1 && self.points.len() == self.begun;
+        if is_second && way_back < 0.0 && first.abs() > 2.0 * STEPS[1] * scale {
+            self.points.truncate(1);
+            (self.tangent, self.length) = ([first.signum(), 0.0], 0.5 * first.abs() / scale);
+            return Ok(None);
+        }
         let (_, cosine) = self.step_to(&next);
         let is_easy = next.found.residual < 10.0 * TOLERANCE;
         let to = next.place(self.corrector.scales);
@@ -203,9 +216,11 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
             return Ok(Some(BranchEnd::Range));
         }
         self.largest = self.largest.max(to[1]);
+        let is_first = self.points.len() == 1;
         let between = self.values.between(from, next.value, 0.0);
         self.fill(&next, between);
         self.points.push(next);
+        self.begun = if is_first { self.points.len() } else { self.begun };
         self.refine_fold();
         let is_born = self.place()[1] < BORN * self.largest;
         Ok(is_born.then_some(BranchEnd::Birth))

@@ -74,7 +74,7 @@ impl PeriodImage {
 /// changes its status at another step. For each metre of thickness, of a body in three dimensions for the whole.
 pub struct PeriodMap<'a> {
     pub(in crate::cycle) run: CentralDifference<'a>,
-    moving: MovingDofs,
+    pub(super) moving: MovingDofs,
     longest_step: f64,
     fewest_steps: usize,
     steps: usize,
