@@ -87,7 +87,7 @@ impl ContactSystem<'_> {
     /// The state of pressed points whose forces friction does not alter: `u(mu) = u_0 + mu u_1`.
     pub(super) fn unaltered_state(&mut self, is_pressed: Vec<bool>) -> Result<PressedState> {
         let state = self.state_of(0.0, &is_pressed)?;
-        let [pressed, sheared] = [0.0, 1.0].map(|mu| self.whole_displacement(mu, &state));
+        let [pressed, sheared] = [0.0, 1.0].map(|mu| self.whole_displacement(mu, &state)); // u_0 and u_0 + u_1.
         let sheared = difference(&sheared, &pressed);
         Ok(PressedState {
             displacements: vec![pressed, sheared],
@@ -151,7 +151,7 @@ impl SolidSliding {
         let (nodes, on_nodes) = face.on_nodes(&points, &state);
         let force = |ring: &ContactRing| -> f64 {
             let forces = nodes.iter().zip(&on_nodes.normal_forces[0]);
-            let own = forces.filter(|own| ring.nodes.contains(&(own.0.normal[0].0 / 3)));
+            let own = forces.filter(|own| ring.nodes.contains(&(own.0.normal[0].0 / 3))); // The normal dof tells the node.
             own.map(|own| own.1).sum()
         };
         let ring_forces: Vec<f64> = rings.iter().map(force).collect();
@@ -193,7 +193,7 @@ impl SolidSliding {
 fn turning(sector: &SolidSector, point: &Point) -> Turning {
     let curvature = 1.0 / sector.nodes[point.normal[0].0 / 3].radius;
     match sector.specification.contact.face().normal_component() {
-        0 => Turning::along(curvature, Default::default()),
+        0 => Turning::along(curvature, Default::default()), // Along a cylinder normal and slip turn with the place.
         _ => Turning { veer: scaled(&point.slip, -curvature), ..Turning::default() },
     }
 }
@@ -251,7 +251,7 @@ impl Face<'_> {
         let along = |own: &Point| self.on_normals(own).map(|own| own.1).sum::<f64>();
         let all = points.iter().map(|own| [own.weight * along(own), own.weight]);
         let [sum, area] = all.fold([0.0; 2], |[a, b], own| [a + own[0], b + own[1]]);
-        let seen = if area > 0.0 { sum / area } else { sign };
+        let seen = if area > 0.0 { sum / area } else { sign }; // Points at nodes, and a plane, see all of it.
         let approach = |ring: &ContactRing| {
             let normals = ring.nodes.iter().map(|node| displacement[3 * node + component]);
             self.contact.interference - seen * normals.sum::<f64>() / ring.nodes.len() as f64
@@ -273,7 +273,7 @@ impl Face<'_> {
             self.on_normals(point).for_each(|(node, along)| on_nodes[node] += along * force);
         }
         let signed = on_nodes.into_iter().map(|force| self.normal().0 * force).enumerate();
-        let pushed = signed.filter(|own| own.1 != 0.0);
+        let pushed = signed.filter(|own| own.1 != 0.0); // A node that something else holds may pull.
         let own = pushed.map(|(node, force)| (node_point(self.sector, node, self.contact), force));
         let (nodes, forces): (Vec<Point>, Vec<f64>) = own.unzip();
         let state = PressedState {

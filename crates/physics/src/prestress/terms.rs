@@ -94,7 +94,7 @@ impl PartLaw {
         let table =
             |table| TabledGain { table: Arc::clone(table), reference_hz: table.range_hz()[0] };
         Self {
-            damping: material.own_damping(region).unwrap_or(common),
+            damping: material.own_damping(region).unwrap_or(common), // Each region may damp by its own coefficients.
             loss_factor: material.of(region).loss_factor,
             table: material.table(region).map(table),
         }
@@ -170,7 +170,7 @@ impl<M> Terms<M> {
         match term.kind {
             Kind::Mass => [0.0, damping.mass_coefficient, 0.0],
             Kind::Stiffness => [reference, damping.stiffness_coefficient, *loss_factor],
-            Kind::Prestress => [1.0, self.tangent_damping.stiffness_coefficient, 0.0],
+            Kind::Prestress => [1.0, self.tangent_damping.stiffness_coefficient, 0.0], // Stress damps with the tangent, if at all.
             Kind::Transport => [1.0, 0.0, 0.0],
             Kind::Dashpots | Kind::Gyroscopic | Kind::FrictionDashpots => [0.0, 1.0, 0.0],
         }
@@ -182,7 +182,7 @@ impl<M> Terms<M> {
             Kind::Mass => root * root,
             Kind::Stiffness => self.law(term.part).ratio(root),
             Kind::Prestress | Kind::Transport => c64::ONE,
-            Kind::Dashpots | Kind::Gyroscopic | Kind::FrictionDashpots => c64::ZERO,
+            Kind::Dashpots | Kind::Gyroscopic | Kind::FrictionDashpots => c64::ZERO, // These are in C alone.
         };
         own + root * self.factors(term)[1] // What it has in C comes with lambda.
     }
@@ -219,7 +219,7 @@ impl<M> Terms<M> {
         let structural = has_losses.then(|| (LossGain(None), sum(&|term| self.factors(term)[2])));
         let tabled = self.bodies.iter().enumerate().filter_map(|(body, law)| {
             let table = LossGain(Some(law.table.clone()?));
-            let own = |term: &Term<M>| term.is(Part::Body(body), Kind::Stiffness);
+            let own = |term: &Term<M>| term.is(Part::Body(body), Kind::Stiffness); // Stress does not follow the modulus.
             Some((table, sum(&|term| f64::from(u8::from(own(term))))))
         });
         structural.into_iter().chain(tabled).collect()
@@ -243,7 +243,7 @@ impl<M> Terms<M> {
         options.damping_model == DampingModel::WholeTangent
             && !self.is_lossy()
             && self.regions().iter().all(is_common)
-            && !self.all.iter().any(is_further)
+            && !self.all.iter().any(is_further) // Supports, dashpots and what turns leave no common factor.
     }
 
     /// The same with other matrices, made of the power and the matrix of each term.
@@ -305,7 +305,7 @@ impl Terms<Vec<Triplets>> {
                 *matrix = Triplets::quotient(&own.collect::<Vec<_>>());
             }
         }
-        self.all.retain(|term| term.matrix.iter().any(|own| !own.entries.is_empty()));
+        self.all.retain(|term| term.matrix.iter().any(|own| !own.entries.is_empty())); // What the key leaves as it is.
         true
     }
 }

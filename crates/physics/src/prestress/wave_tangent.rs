@@ -72,7 +72,7 @@ impl WaveTangent {
 
     /// Whether harmonic `n` stands: `+n` and `-n` are one and the same.
     pub fn is_standing(&self, n: usize) -> bool {
-        n == 0 || 2 * n == self.dofs.sectors
+        n == 0 || 2 * n == self.dofs.sectors // The shift from sector to sector is real: 1 or -1.
     }
 
     /// Dofs of a sector at which a force can act and a displacement be observed: a distance between two bodies is no such place.
@@ -122,7 +122,7 @@ impl WaveTangent {
     pub fn body_terms(&self, n: usize) -> Vec<Term<CompactRows>> {
         let bodies = self.terms.all.iter().filter(|own| matches!(own.part, Part::Body(_)));
         let folded = bodies.map(|term| {
-            let own = self.dofs.fold(n, term.power, &term.matrix[term.power]);
+            let own = self.dofs.fold(n, term.power, &term.matrix[term.power]); // Of all copies, each turned by 2 pi n / N.
             term.with(CompactRows::new(&own))
         });
         folded.collect()
@@ -179,7 +179,7 @@ impl WaveTangent {
             shares: [contact, axial].map(share),
             mass,
             stiffness: self.polynomial(n, |term| self.terms.factors(term)[0]),
-            damping: (!is_proportional).then(|| self.polynomial(n, damping)),
+            damping: (!is_proportional).then(|| self.polynomial(n, damping)), // Else alpha M + beta K says it.
             friction_dashpots: has_dashpots.then(|| of_kind(Kind::FrictionDashpots)),
             losses: self.terms.losses(|factor| self.polynomial(n, factor)),
             rayleigh: self.options.damping,
