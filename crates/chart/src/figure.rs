@@ -131,7 +131,7 @@ mod tests {
         values[samples / 3] = 2.0;
         let panel = Panel::new(Axis::time(), Axis::new("value", ""))
             .layer(Fill::range_of(&times, &values, INK).opacity(0.2))
-            .layer(Fill::from(0.0, &times, &times, SERIES[2]).opacity(0.2))
+            .layer(Fill::from(0.0, &times, &times, SERIES[2]).opacity(0.2).name("area"))
             .layer(Line::new(&times, &values).solid(SERIES[0], 0.5).name("all"))
             .layer(Line::new(&times, &times).solid(SERIES[1], 0.5).whole());
         Figure::new("long", "A long line.").panel(panel)
