@@ -220,7 +220,10 @@ fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
 fn a_comparison_names_its_runs_in_each_figure_and_draws_no_bodies() {
     let folder = folder();
     let few = "cea.friction_coefficients=[0.0, 0.3] ; cea.modes=4";
-    for (out, change) in [("soft", "material.young_modulus=2.4e9"), ("stiff", COARSE)] {
+    // With twice the force the traction of one is in kPa, of the other in MPa.
+    for (out, change) in
+        [("soft", "contact.interference=1.25e-5"), ("stiff", "contact.interference=5e-5")]
+    {
         let own = Run::new(&["cea", &shipped("polycarbonate-disc.toml")]).within(&folder);
         let own = own.out(out).set(&[COARSE, few, change]).done();
         assert!(own.out.join("figures/modes-mu-0.3.svg").exists());
@@ -228,6 +231,7 @@ fn a_comparison_names_its_runs_in_each_figure_and_draws_no_bodies() {
     let both = Run::new(&["compare", "soft", "stiff"]).within(&folder).out("both").done();
     let figure = |name: &str| both.text(&format!("figures/{name}.svg"));
     ["locus", "prestress"].iter().for_each(|name| has(&figure(name), &[">soft< ; >stiff<"]));
+    has(&figure("prestress"), &["pressure ; traction"]);
     assert!(!both.out.join("figures/modes-mu-0.3.svg").exists());
     // Of a sweep, whose folder several processes write, too; its axes name what is swept.
     for out in ["two", "too"] {

@@ -44,11 +44,12 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
         .iter()
         .enumerate()
         .filter_map(|(at, panel)| {
-            let same = own.iter().filter_map(|figure| {
-                let other = figure.panels.get(at).filter(|other| is_alike(other, panel))?;
-                Some((figure.run, figure.title, other))
+            let others = own.iter().filter_map(|figure| {
+                let other = in_units_of(figure.panels.get(at)?.clone(), panel);
+                is_alike(&other, panel).then_some((figure.run, figure.title, other))
             });
-            let same: Vec<_> = same.collect();
+            let others: Vec<_> = others.collect();
+            let same: Vec<_> = others.iter().map(|(run, title, own)| (*run, *title, own)).collect();
             (same.len() > 1).then(|| panel_of(panel, &same))
         })
         .collect();
@@ -56,6 +57,31 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
     let caption = format!("{name} of {}.", runs.join(", "));
     let columns = if panels.len() > 2 { 2 } else { 1 };
     (!panels.is_empty()).then(|| Figure::new(name, caption).columns(columns).panels(panels))
+}
+
+/// A panel with the prefixes of units that another has: MPa for kPa.
+fn in_units_of(mut own: PanelData, other: &PanelData) -> PanelData {
+    let without_prefix = |unit: &str| unit.chars().skip(1).collect::<String>();
+    for (k, (axis, wanted)) in own.axes.iter_mut().zip(&other.axes).enumerate() {
+        let titles = [plain(&axis.title), plain(&wanted.title)];
+        let parts = titles.each_ref().map(|title| title.rsplit_once(" (").unwrap_or((title, "")));
+        let [(quantity, unit), (other, wanted_unit)] = parts;
+        let [one, wanted_one] = [without_prefix(unit), without_prefix(wanted_unit)];
+        // Behind a unit of one letter there is a closing bracket.
+        let is_other_prefix = one == wanted_one && one.len() > 1;
+        let is_one = is_other_prefix || one == wanted_unit || wanted_one == unit;
+        if unit == wanted_unit || quantity != other || !is_one {
+            continue;
+        }
+        let ratio = wanted.shown(1.0) / axis.shown(1.0);
+        (axis.low, axis.high, axis.title) =
+            (ratio * axis.low, ratio * axis.high, wanted.title.clone());
+        for series in &mut own.series {
+            let values = if k == 0 { &mut series.xs } else { &mut series.ys };
+            values.iter_mut().for_each(|value| *value *= ratio);
+        }
+    }
+    own
 }
 
 fn is_alike(one: &PanelData, other: &PanelData) -> bool {
