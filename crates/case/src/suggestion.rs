@@ -39,19 +39,19 @@ pub(super) fn usage(name: &str) -> Option<String> {
     ))
 }
 
-/// The candidate nearest to `word`, if it is near enough to be a slip of the keyboard; of two that are equally near
-/// the one that `word` is the beginning of.
+/// The candidate nearest to `word`, if it is near enough to be a slip of the keyboard; of some that are equally near
+/// one that has all its letters in turn, best that it is the beginning of.
 pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    candidates
-        // The distance is at least the difference of the lengths, and takes their product to find.
-        .filter(|candidate| {
-            let longest = word.len().max(candidate.len());
-            3 * word.len().abs_diff(candidate.len()) <= longest + 2
-        })
-        .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
-        .filter(|(distance, candidate)| 3 * distance <= word.len().max(candidate.len()) + 2)
-        .min_by_key(|(distance, candidate)| (*distance, !candidate.starts_with(word)))
-        .map(|(_, candidate)| candidate)
+    let bound = |own: &str| word.len().max(own.len()).div_ceil(3);
+    // The distance is at least the difference of the lengths, and takes their product to find.
+    let all = candidates.filter(|own| word.len().abs_diff(own.len()) <= bound(own));
+    let all = all.map(|own| (strsim::damerau_levenshtein(word, own), own));
+    // Letters are left out rather than taken for others.
+    let after = |rest: &'a str, letter: char| Some(rest.split_once(letter)?.1);
+    let order = |(distance, own): &(usize, &'a str)| {
+        (*distance, word.chars().try_fold(*own, after).is_none(), !own.starts_with(word))
+    };
+    all.filter(|(distance, own)| *distance <= bound(own)).min_by_key(order).map(|(_, own)| own)
 }
 
 /// The word of a choice that is meant by another: its synonym, else the nearest.
