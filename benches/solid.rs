@@ -29,10 +29,7 @@ const FLOOR: f64 = 2.0 * 243.0;
 const OPERATIONS: f64 = 9.0 * 34.0 + 6.0 + 39.0;
 
 pub fn run() {
-    let (divisions, batches) = match is_measured() {
-        true => ([180, 35, 4], 100),
-        false => ([36, 7, 2], 1),
-    };
+    let (divisions, batches) = if is_measured() { ([180, 35, 4], 100) } else { ([36, 7, 2], 1) };
     let peak = fma_peak();
     println!("fused multiply-add peak of one thread: {:.1} Gflop/s", peak / 1e9);
     let [around, radial, axial] = divisions;

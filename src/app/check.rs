@@ -2,7 +2,7 @@
 
 use super::cea::described_system;
 use super::options::CaseChanges;
-use super::session::{gibibytes, machine_memory, read_case};
+use super::session::{machine_memory, read_case};
 use super::{Failure, terminal};
 use crate::case::{Case, Convergence, Cost, FreeSystem, RunCost, StudyCost};
 use crate::results::plural;
@@ -224,9 +224,6 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
 }
 
 fn size(bytes: f64) -> String {
-    if bytes < f64::from(1 << 30) {
-        format!("{:.1} MiB", bytes / f64::from(1 << 20))
-    } else {
-        format!("{:.1} GiB", gibibytes(bytes))
-    }
+    let size = bytes / f64::from(1 << 20);
+    if size < 1024.0 { format!("{size:.1} MiB") } else { format!("{:.1} GiB", size / 1024.0) }
 }

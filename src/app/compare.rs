@@ -1,6 +1,6 @@
 //! `frictionsim compare`: runs side by side.
 
-use super::{Failure, OutputOptions, Told, terminal};
+use super::{Failure, LONGEST_NAME, OutputOptions, Told, terminal};
 use crate::case::hash_of;
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, SharedQuantity, document, file, overlaid, print, shared,
@@ -78,9 +78,6 @@ fn default_folder(runs: &[ComparedRun], manifest: &Manifest, is_forced: bool) ->
     }
 }
 
-/// Longest name of a folder that is made of the names of runs, characters.
-const LONGEST_NAME: usize = 100;
-
 /// What the comparison is made from: the folders and the cases of their results.
 fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {
     let parts = |run: &'_ ComparedRun| [&run.name[..], "\0", &run.manifest.case_hash].concat();
@@ -89,7 +86,7 @@ fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {
     Manifest {
         case_file: folders.next().unwrap_or_default(),
         case_hash,
-        overrides: folders.collect(),
+        arguments: folders.collect(),
         ..Manifest::new("compare")
     }
 }

@@ -1,7 +1,6 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
-use super::{Failure, RunOptions, Session, input_name, read_input};
-use crate::case::hash_of;
+use super::{Failure, RunOptions, Session, depend_on, input_name, read_input};
 use crate::results::fit::{BLOCK, FitSummary};
 use crate::signal::reader::{read_modes, read_shapes};
 use crate::study::fit::{fit_case, refuse_too_few};
@@ -37,9 +36,10 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     session.case.require_fit()?;
     let bytes = read_input(&asked.modes, MEASUREMENT)?;
     let lines = read_modes(&bytes, &input_name(&asked.modes))?;
-    // Results belong to case and table.
-    session.manifest.case_hash = hash_of([session.manifest.case_hash.as_bytes(), &bytes]);
-    let shapes = asked.shapes.as_ref().map(|path| measured_shapes(path, asked.scale, &mut session));
+    depend_on(&mut session.manifest, asked.modes.display().to_string(), Some(&bytes));
+    let of_shapes =
+        |path: &PathBuf| measured_shapes(path, ("--shapes ", asked.scale), &mut session);
+    let shapes = asked.shapes.as_ref().map(of_shapes);
     let shapes = shapes.transpose()?;
     refuse_too_few(&session.case, &lines)?;
     let folder = session.begin()?;
@@ -53,17 +53,19 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     session.finish_finding(folder, &found)
 }
 
-/// Measured shapes; results belong to them and their scale too.
+/// Measured shapes, named by an option or none; results belong to them and their scale too.
 pub(super) fn measured_shapes(
     path: &Path,
-    scale: f64,
+    (option, scale): (&str, f64),
     session: &mut Session,
 ) -> Result<MeasuredShapes, Failure> {
     if !(scale > 0.0 && scale.is_finite()) {
         return Err(Failure::usage(format!("--scale {scale} must be positive and finite")));
     }
     let bytes = read_input(path, MEASUREMENT)?;
-    let identity = format!("{} {scale:?}", session.manifest.case_hash);
-    session.manifest.case_hash = hash_of([identity.as_bytes(), &bytes]);
+    depend_on(&mut session.manifest, format!("{option}{}", path.display()), Some(&bytes));
+    if scale != 1.0 {
+        depend_on(&mut session.manifest, format!("--scale {scale}"), None);
+    }
     Ok(MeasuredShapes { shapes: read_shapes(&bytes, &input_name(path))?, scale })
 }

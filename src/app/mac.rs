@@ -26,7 +26,7 @@ pub struct Arguments {
 
 pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let mut session = Session::start("mac", &asked.options)?;
-    let shapes = measured_shapes(&asked.shapes, asked.scale, &mut session)?;
+    let shapes = measured_shapes(&asked.shapes, ("", asked.scale), &mut session)?;
     session.case.require_cea()?;
     let folder = session.begin()?;
     let found = assurance(&session.case, &shapes)?;

@@ -1,6 +1,6 @@
 //! `frictionsim matrices`: the matrices of a case, for other programs.
 
-use super::{Failure, RunOptions, Session};
+use super::{Failure, RunOptions, Session, depend_on};
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
 use crate::results::{write_summary, write_universal_mesh};
 use crate::study::matrices::matrices;
@@ -30,14 +30,14 @@ fn friction_coefficient(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("matrices", &asked.options)?;
+    let mut session = Session::start("matrices", &asked.options)?;
+    if let Some(friction) = asked.friction {
+        depend_on(&mut session.manifest, format!("--friction {friction}"), None);
+    }
     let case = &*session.case.on_whole_mesh()?;
     let folder = session.begin()?;
     let system = matrices(case, asked.friction)?;
-    let system = match asked.friction {
-        Some(_) => system.at_one_friction(),
-        None => system,
-    };
+    let system = if asked.friction.is_some() { system.at_one_friction() } else { system };
     let (summary, head) = (MatricesSummary::new(&system), session.head());
     write_matrices(&folder, &system, head, &summary)?;
     if case.output.universal {

@@ -1,6 +1,6 @@
 //! Options, input and output folder that the commands on measured tables share.
 
-use super::{Failure, OutputOptions, input_name, read_input, terminal};
+use super::{Failure, OutputOptions, depend_on, input_name, read_input, terminal};
 use crate::case::hash_of;
 use crate::results::{Head, Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
@@ -37,20 +37,13 @@ impl Measurement {
         let start = Instant::now();
         terminal::start_log(options.quiet, options.verbose);
         let bytes = read_input(path, MEASUREMENT)?;
-        let chosen = choices.iter().flat_map(|choice| [&[0][..], choice.as_bytes()]);
-        let case_hash = hash_of(std::iter::once(&bytes[..]).chain(chosen));
-        Ok(Self {
-            bytes,
-            source: input_name(path),
-            manifest: Manifest {
-                case_file: path.display().to_string(),
-                case_hash,
-                overrides: choices,
-                ..Manifest::new(command)
-            },
-            options: options.clone(),
-            start,
-        })
+        let mut manifest = Manifest {
+            case_file: path.display().to_string(),
+            case_hash: hash_of([&bytes[..]]),
+            ..Manifest::new(command)
+        };
+        choices.into_iter().for_each(|choice| depend_on(&mut manifest, choice, None));
+        Ok(Self { bytes, source: input_name(path), manifest, options: options.clone(), start })
     }
 
     /// Takes the output folder; it belongs to one table and one set of options.
@@ -69,7 +62,7 @@ pub fn chosen<T: Display>(
     name: &'static str,
     values: impl IntoIterator<Item = T>,
 ) -> impl Iterator<Item = String> {
-    values.into_iter().map(move |value| format!("{name}={value}"))
+    values.into_iter().map(move |value| format!("--{name} {value}"))
 }
 
 /// A file that a command writes outside the output folder.

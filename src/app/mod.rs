@@ -40,8 +40,8 @@ pub use options::{OutputOptions, ResumedRun, RunOptions};
 pub use session::Session;
 
 use limits::{input_name, read_input};
-use options::{SIMD_LEVELS, Told, one_of};
-use session::start_threads;
+use options::{LONGEST_NAME, SIMD_LEVELS, Told, one_of};
+use session::{depend_on, start_threads};
 
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;

@@ -288,10 +288,16 @@ fn difference(ours: &Manifest, found: &Manifest) -> Option<String> {
         let last = &names[names.len().saturating_sub(2)..];
         parts.extend((!last.is_empty()).then(|| last.join("-")));
     }
-    parts.extend(ours.overrides.iter().map(|text| {
-        let (key, value) = text.split_once('=').unwrap_or((text, ""));
-        let key = key.trim().rsplit('.').next().unwrap_or(key);
-        format!("{key}={}", value.trim())
+    if ours.arguments != found.arguments {
+        parts.extend(ours.arguments.iter().map(|text| match text.strip_prefix("--") {
+            Some(option) => option.replacen(' ', "=", 1),
+            None => text.clone(),
+        }));
+    }
+    let last = |key: &str| key.trim().rsplit('.').next().unwrap_or(key).to_owned();
+    parts.extend(ours.overrides.iter().map(|text| match text.split_once('=') {
+        Some((key, value)) => format!("{}={}", last(key), value.trim()),
+        None => format!("no_{}", last(text.trim_start_matches("unset "))),
     }));
     let fit = |c: char| match c {
         c if c.is_alphanumeric() || "=.,+-_".contains(c) => c,
@@ -310,8 +316,8 @@ fn difference(ours: &Manifest, found: &Manifest) -> Option<String> {
     }
 }
 
-/// Longest end of a folder's name that is made from overrides.
-const LONGEST_NAME: usize = 100;
+/// Longest part of a folder's name that is made from overrides or the names of runs, characters.
+pub const LONGEST_NAME: usize = 100;
 
 /// A SIMD level, or the widest that the machine has.
 pub type SimdOption = Option<SimdLevel>;
@@ -414,7 +420,8 @@ mod tests {
         let other_speed = manifest("disc.toml", &["contact.rotation_speed_rpm = 2000"]);
         let name = difference(&other_speed, &plain);
         assert_eq!(name.as_deref(), Some("rotation_speed_rpm=2000"));
-        let table = manifest("results/70rpm/transient/probe-1641.csv", &["from=0.01"]);
+        let table = manifest("results/70rpm/transient/probe-1641.csv", &[]);
+        let table = Manifest { arguments: vec!["--from 0.01".to_owned()], ..table };
         let other_table = manifest("results/610rpm/transient/probe-1641.csv", &[]);
         let name = difference(&table, &other_table);
         assert_eq!(name.as_deref(), Some("70rpm-transient,from=0.01"));

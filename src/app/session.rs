@@ -1,7 +1,7 @@
 //! Steps of every run before and after its analysis: read the case, take the output folder, report the results.
 
 use super::{Failure, RunOptions, Told, embedded, input_name, read_input, terminal};
-use crate::case::{Case, RawCase};
+use crate::case::{Case, RawCase, hash_of};
 use crate::chart::Figure;
 use crate::fem::operator::SimdLevel;
 use crate::output::Document;
@@ -126,6 +126,13 @@ impl Session {
     }
 }
 
+/// Takes an argument besides the case, with the content of what it names, into what identifies the results.
+pub fn depend_on(manifest: &mut Manifest, argument: String, content: Option<&[u8]>) {
+    let content = content.unwrap_or(argument.as_bytes());
+    manifest.case_hash = hash_of([manifest.case_hash.as_bytes(), content]);
+    manifest.arguments.push(argument);
+}
+
 /// Reads and validates a case file.
 ///
 /// # Errors
@@ -165,9 +172,4 @@ fn available_memory() -> Option<f64> {
         .and_then(|text| text.trim().parse().ok())
         .unwrap_or(f64::INFINITY);
     Some((1024.0 * kibibytes).min(limit))
-}
-
-/// Bytes in GiB.
-pub fn gibibytes(bytes: f64) -> f64 {
-    bytes / f64::from(1 << 30)
 }

@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, SideFile, chosen};
 use super::session::read_case;
-use super::{Failure, OutputOptions, Told, terminal};
+use super::{Failure, OutputOptions, Told, depend_on, terminal};
 use crate::case::{Case, Cea};
 use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
@@ -85,8 +85,13 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let wav = SideFile::prepare("--wav", asked.wav.as_deref(), signal, force)?;
     let uff = SideFile::prepare("--uff", asked.uff.as_deref(), signal, force)?;
     let case = asked.case.as_ref().map(|path| read_case(path, &asked.set)).transpose()?;
-    let measurement =
-        Measurement::start("signal", &asked.signal, &asked.output, choices(asked, case.as_ref()))?;
+    let mut measurement =
+        Measurement::start("signal", &asked.signal, &asked.output, choices(asked))?;
+    if let (Some(path), Some(case)) = (&asked.case, &case) {
+        let argument = format!("--case {}", path.display());
+        depend_on(&mut measurement.manifest, argument, Some(case.raw.hash().as_bytes()));
+        measurement.manifest.overrides.clone_from(&asked.set);
+    }
     let reading = SignalOptions {
         rate: asked.rate,
         columns: asked.columns.clone(),
@@ -256,12 +261,11 @@ fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failu
 }
 
 /// Options that change the result.
-fn choices(arguments: &Arguments, case: Option<&Case>) -> Vec<String> {
+fn choices(arguments: &Arguments) -> Vec<String> {
     chosen("rate", arguments.rate)
         .chain(chosen("from", arguments.from))
         .chain(chosen("to", arguments.to))
         .chain(chosen("resolution", arguments.resolution))
-        .chain(chosen("case", case.map(|case| case.raw.hash())))
         .chain(chosen("channel", &arguments.channel))
         .chain(chosen("columns", &arguments.columns))
         .collect()

@@ -37,7 +37,6 @@ pub struct Arguments {
 pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let session = Session::start("uncertainty", &asked.options)?;
     for design in &asked.robust {
-        // What the results depend on belongs to what they are made from.
         check(design, &session.case)?;
     }
     if !(asked.bound > 0.0 && asked.bound < 1.0) {

@@ -153,6 +153,14 @@ fn no_run_replaces_the_results_of_another_one_in_silence() {
     fs::write(folder.path().join("polycarbonate-disc.toml"), text).unwrap();
     // Another case of the same name, and then that case edited.
     run(&folder, &["mesh", "polycarbonate-disc.toml"]).refused(&["another case"]);
+    // What else the results depend on counts as overrides do.
+    for friction in ["0.2", "0.3"] {
+        run(&folder, &["matrices", &disc(), "--friction", friction]).set(&COARSE).done();
+    }
+    let own = "matrices-friction=0.3,circumferential_elements=16,radial_elements=3/K.mtx";
+    assert!(results.join(own).exists());
+    let again = ["matrices", &disc(), "--out", "results/polycarbonate-disc/matrices"];
+    run(&folder, &again).set(&COARSE).refused(&["matrices", "--friction 0.2 --set mesh"]);
 }
 
 #[test]

@@ -288,30 +288,24 @@ impl Case {
     fn larger_count(&self) -> &'static str {
         match self.body.grid() {
             None => "mesh.file",
-            Some(grid) if grid.radial_elements > grid.circumferential_elements => {
+            Some(own) if own.radial_elements > own.circumferential_elements => {
                 "mesh.radial_elements"
             }
             Some(_) => "mesh.circumferential_elements",
         }
     }
 
-    /// What makes the record of a transient large: its length, its samples, or its snapshots.
+    /// What makes the record of a transient large: its length, its samples, its snapshots, or the body.
     fn record_key(&self) -> &'static str {
-        // Usual ones: 0.05 s and 2 us.
-        let length = self.transient.as_ref().map_or(0.0, |run| run.settings.duration) / 0.05;
-        let density = 2e-6 / self.output.sample_interval;
         let [samples, frames, snapshots] = self.record_bytes();
         let body = 320.0 * self.body.node_count() as f64;
-        if snapshots > (samples + frames).max(body) {
-            "output.snapshots"
-        } else if self.output.recorder.contact_interval.is_some() && frames > samples {
-            "output.contact_interval"
-        } else if length.max(density) < 10.0 {
-            self.larger_count()
-        } else if density > length {
-            "output.sample_interval"
-        } else {
-            "transient.duration"
+        let (output, most) = (&self.output, samples.max(frames).max(snapshots).max(body));
+        match output.recorder.contact_interval {
+            _ if most == body => self.larger_count(),
+            _ if most == snapshots => "output.snapshots",
+            Some(_) if most == frames => "output.contact_interval",
+            _ if output.sample_interval < 2e-6 => "output.sample_interval", // A usual one.
+            _ => "transient.duration",
         }
     }
 }

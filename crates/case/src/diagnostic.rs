@@ -11,6 +11,9 @@ const MOST_ERRORS: usize = 10;
 /// Longest message, in characters: keys and words of a case have any length.
 const LONGEST_MESSAGE: usize = 2000;
 
+/// Remedy for a path of Windows.
+pub(super) const BACKSLASH: &str = "in \"...\" a backslash begins an escape: use / or '...'";
+
 /// A place in the case file (source 0) or in an override (source 1, 2, ...).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Location {
@@ -57,7 +60,10 @@ impl Diagnostic {
         at: Location,
         help: Option<String>,
     ) -> Self {
-        Self { message: message.into(), label: label.into(), at, help }
+        let (message, label) = (message.into(), label.into());
+        let is_escaped = message.contains(|c: char| c.is_control() && c != '\n');
+        let help = if is_escaped { Some(BACKSLASH.to_owned()) } else { help };
+        Self { message, label, at, help }
     }
 }
 

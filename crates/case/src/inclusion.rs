@@ -1,6 +1,6 @@
 //! Mesh files with the files that they include.
 
-use frictionsim_bounds::{Budget, MESH};
+use frictionsim_bounds::{Budget, MESH, Refusal};
 use frictionsim_physics::mesh::{MeshFormat, included_text};
 use std::path::{Path, PathBuf};
 
@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 /// Names are relative to the file that names them, else to the first one.
 pub(super) fn mesh_file(path: &Path) -> Result<Vec<u8>, String> {
     let mut budget = Budget::new(MESH);
-    let bytes = budget
-        .read(path)
+    let bytes = read(&mut budget, path)
         .map_err(|reason| format!("cannot read the mesh file {}: {reason}", path.display()))?;
     let format = MeshFormat::of(&path.to_string_lossy(), &bytes);
     let text = String::from_utf8_lossy(&bytes);
@@ -19,6 +18,14 @@ pub(super) fn mesh_file(path: &Path) -> Result<Vec<u8>, String> {
     }
     let mut expansion = Expansion { format, chain: vec![path.to_path_buf()], budget };
     expansion.expanded(&text).map(String::into_bytes)
+}
+
+/// A file without the byte order mark that editors on Windows put before a text.
+fn read(budget: &mut Budget, path: &Path) -> Result<Vec<u8>, Refusal> {
+    const MARK: &[u8] = "\u{feff}".as_bytes();
+    let mut bytes = budget.read(path)?;
+    bytes.drain(..if bytes.starts_with(MARK) { MARK.len() } else { 0 });
+    Ok(bytes)
 }
 
 /// A text on its way to one without includes.
@@ -48,7 +55,7 @@ impl Expansion {
                 return Err(at("it includes this file itself".to_owned()));
             }
             let depth = self.budget.descend(self.chain.len(), "files");
-            let bytes = depth.and_then(|()| self.budget.read(&path));
+            let bytes = depth.and_then(|()| read(&mut self.budget, &path));
             let bytes = bytes.map_err(|reason| at(reason.to_string()))?;
             self.chain.push(path);
             let inner = self.expanded(&String::from_utf8_lossy(&bytes))?;

@@ -196,9 +196,9 @@ impl Case {
         let (mut errors, mut warnings) = findings.into_parts();
         taken.name_places(&mut errors);
         if taken.is_unread {
-            // What cannot be read comes first: others follow from it.
-            let file = raw.place("mesh.file");
-            errors.sort_by_key(|error| error.at != file);
+            // What cannot be read comes first: others follow from it, and it may hold the materials.
+            errors.retain(|error| !error.message.starts_with("missing key `material"));
+            errors.sort_by_key(|error| error.at != raw.place("mesh.file"));
         }
         let at_file = raw.place("mesh.file");
         if let Some(lack) = taken.lack(&at_file) {
@@ -248,10 +248,7 @@ impl Case {
     /// The warnings of the case and those of a command, as errors.
     pub fn deny_warnings(&self, further: &[Diagnostic]) -> Result<(), CaseErrors> {
         let all = [self.warnings.as_slice(), further].concat();
-        if all.is_empty() {
-            return Ok(());
-        }
-        Err(self.raw.errors(all))
+        if all.is_empty() { Ok(()) } else { Err(self.raw.errors(all)) }
     }
 
     /// Whether the response is solved harmonic by harmonic where nothing else is asked for: of equal sectors, but not

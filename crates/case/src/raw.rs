@@ -1,5 +1,6 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
+use super::diagnostic::BACKSLASH;
 use super::value::{collect_leaves, convert_table, quote, table_of, with_point};
 use super::{
     CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides, placed,
@@ -203,16 +204,9 @@ impl RawCase {
     /// Where a dotted key is written, else the nearest section around it.
     pub fn place(&self, key: &str) -> Location {
         let key = keys::dotted(key);
-        let mut name = &*key;
-        loop {
-            if let Some(item) = self.find(name) {
-                return item.at.clone();
-            }
-            match name.rsplit_once('.') {
-                Some((section, _)) => name = section,
-                None => return Location::default(),
-            }
-        }
+        let names = std::iter::successors(Some(&*key), |name| Some(name.rsplit_once('.')?.0));
+        let mut items = names.filter_map(|name| self.find(name));
+        items.next().map(|item| item.at.clone()).unwrap_or_default()
     }
 
     /// The value of a dotted key, if the case gives it.
@@ -271,7 +265,10 @@ fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) 
     }
     for error in &errors {
         let span = error.span().unwrap_or(0..0);
-        let help = decimal_comma(text, span.start);
+        let help = match error.message().contains("escape") {
+            true => Some(BACKSLASH.to_owned()),
+            false => decimal_comma(text, span.start),
+        };
         diagnostics.push(Diagnostic::error(error.message(), "", Location::new(source, span), help));
     }
     convert_table(table.get_ref(), source, diagnostics)

@@ -117,7 +117,8 @@ impl Axis {
             None => prefixed(reach * 0.9995, &self.unit),
         };
         let title = titled(&self.quantity, &unit);
-        Ruler::new(title, self.scale, factor, (low, high), self.ticks.clone())
+        let ruler = Ruler::new(title, self.scale, factor, (low, high), self.ticks.clone());
+        Ruler { declared: self.title(), ..ruler }
     }
 
     pub(super) fn is_logarithmic(&self) -> bool {
@@ -153,8 +154,5 @@ changed! { Axis:
 }
 
 fn titled(quantity: &str, unit: &str) -> String {
-    match unit {
-        "" => quantity.to_owned(),
-        unit => format!("{quantity} ({unit})"),
-    }
+    if unit.is_empty() { quantity.to_owned() } else { format!("{quantity} ({unit})") }
 }

@@ -129,10 +129,7 @@ impl Layer for Line {
         if !(self.stroke.width > 0.0) || self.xs.is_empty() {
             return Vec::new();
         }
-        let kind = match self.stroke.is_dashed() {
-            false => SeriesKind::Line,
-            true => SeriesKind::Dashed,
-        };
+        let kind = if self.stroke.is_dashed() { SeriesKind::Dashed } else { SeriesKind::Line };
         vec![Series {
             name: exported_name(self.label.as_ref(), self.name.as_ref()),
             is_whole: self.is_whole,

@@ -17,9 +17,11 @@ pub struct Tick {
 pub struct Ruler {
     /// Quantity and unit, in mark-up.
     pub title: String,
+    /// The same without the prefix that suits the data.
+    pub declared: String,
     /// Whether equal steps are equal ratios.
     pub scale: Scale,
-    factor: f64,
+    pub(super) factor: f64,
     /// Its lower end in the unit shown.
     pub low: f64,
     /// Its upper end.
@@ -44,7 +46,7 @@ impl Ruler {
             Scale::Linear => non_empty(low, high),
             Scale::Logarithmic => positive(low, high),
         };
-        Self { title, scale, factor, low, high, fixed_ticks }
+        Self { title, declared: String::new(), scale, factor, low, high, fixed_ticks }
     }
 
     /// Position of a value in the unit of the data, 0 at the lower end and 1 at the upper.

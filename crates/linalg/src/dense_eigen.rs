@@ -341,10 +341,7 @@ mod tests {
     fn eigenvalues_of_a_complex_triangle_are_its_diagonal() {
         let (re, im) = (random_columns(12, 12, 3), random_columns(12, 12, 4));
         let entry = |i: usize, j: usize| c64::new(re[(i, j)], im[(i, j)]);
-        let triangle = Mat::from_fn(12, 12, |i, j| match i <= j {
-            true => entry(i, j),
-            false => c64::ZERO,
-        });
+        let triangle = Mat::from_fn(12, 12, |i, j| if i <= j { entry(i, j) } else { c64::ZERO });
         let found = complex_eigenvalues(triangle.as_ref()).unwrap();
         assert_eq!(found.len(), 12);
         for i in 0..12 {

@@ -80,7 +80,7 @@ pub fn reference() -> Vec<FileReference> {
             ("unit", "its unit"),
             ("KEY", "its value in the run of that name"),
             ("difference KEY", "difference of that run from the first"),
-            ("relative difference KEY", "the same over the value of the first"),
+            ("relative difference KEY", "the same over the magnitude of the first"),
         ])),
         summary::<ComparisonSummary>("compare"),
         file!("convergence", "convergence.csv"; convergence::ROWS),

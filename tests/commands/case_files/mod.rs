@@ -149,6 +149,11 @@ fn all_errors_of_a_case_are_reported_at_once() {
 fn windows_line_ends_and_a_byte_order_mark_are_read() {
     let text = format!("\u{feff}{}", DISC.replace('\n', "\r\n"));
     assert_eq!(valid(&text, &[]).raw.hash(), valid(DISC, &[]).raw.hash());
+    let [case, deck] = ["brake.toml", "meshes/brake.inp"].map(shipped);
+    let deck = fs::read_to_string(deck).unwrap().replace('\n', "\r\n");
+    let case = fs::read_to_string(case).unwrap().replace("meshes/", "");
+    let files = [("brake.toml", case), ("brake.inp", format!("\u{feff}{deck}"))];
+    Run::of("check", "brake.toml").beside(&files).done();
 }
 
 #[test]

@@ -105,6 +105,12 @@ fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
         has(&read(&folder, "report.html"), &["!harmonic n"]);
     }
     has(&document(&report, View::Short).to_text(), &["branch ; !travels"]);
+    // Of one friction value alone, 1, the bars begin at the onsets below, 0.3 and 0.6.
+    let mut one = solution.clone();
+    one.sweep.points.drain(..4);
+    let report = CeaReport { solution: &one, ..report };
+    let locus = texts(&read(&drawn(&report, &field, None), "figures/locus.svg")).join(" ");
+    has(&locus, &["0.3 0.4 0.5 0.6 ; !lowest friction ; !branch"]);
 }
 
 #[test]

@@ -200,8 +200,7 @@ impl Case {
                 weyl(&self.material, omega, self.body.area(), thickness)
             }
         };
-        let most = usize::try_from(2 * size.nodes).unwrap_or(usize::MAX);
-        (count as usize).clamp(1, most.max(1))
+        count.clamp(1.0, 2.0 * size.nodes.max(1) as f64) as usize
     }
 
     pub(super) fn transient_cost(&self, transient: &Transient, size: &Size) -> TransientCost {

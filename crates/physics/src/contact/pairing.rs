@@ -281,10 +281,7 @@ fn direction_of(normal: [f64; 3], whole: Vector3<f64>) -> ([f64; 3], f64) {
     let sliding = whole - n * whole.dot(&n);
     let speed = sliding.norm();
     // What is left of a velocity along the normal is round-off.
-    match speed > 1e-12 * whole.norm() {
-        true => ((sliding / speed).into(), speed),
-        false => ([0.0; 3], 0.0),
-    }
+    if speed > 1e-12 * whole.norm() { ((sliding / speed).into(), speed) } else { ([0.0; 3], 0.0) }
 }
 
 /// All nodes among those of points, ascending.

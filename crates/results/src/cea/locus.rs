@@ -57,20 +57,18 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
     let (left, right, hidden) = real_ends(&reals);
     let (lowest, highest) = extremes(report.modes().map(|(.., mode)| mode.frequency_hz()));
     let points = sweep.points.iter();
-    let first = points.map(|p| p.friction_coefficient).fold(f64::INFINITY, f64::min);
+    let first = points.clone().map(|p| p.friction_coefficient).fold(f64::INFINITY, f64::min);
 
     // Branches with their numbers at the ends of those that turn unstable.
     let unstable: BTreeSet<Branch> = sweep.intervals.iter().map(branch_of).collect();
     let all_branches = branches(sweep);
     let curves = all_branches.iter().flat_map(|(branch, points)| {
         let turns = unstable.contains(branch) && points.len() > 2;
-        pieces(points, sweep, report.contact_changes).into_iter().map(move |piece| {
+        let pieces = pieces(points, sweep, report.contact_changes).into_iter();
+        pieces.filter(|piece| piece.len() > 1).map(move |piece| {
             let line = Line::through(piece.iter().map(|(_, mode)| place(mode)));
             let line = line.solid("#b5b5b5", 0.5).arrows(2 * usize::from(turns));
-            match turns {
-                true => line.name("branch that turns unstable, *μ* rising along the arrow"),
-                false => line,
-            }
+            line.name("branch; with arrows: turns unstable as *μ* rises")
         })
     });
     let labels = unstable.iter().filter_map(|branch| {
@@ -101,7 +99,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
             .name("unstable, Re(*λ*) > 0"),
     )
     .layer(
-        marked(&|mu, _| mu == first)
+        marked(&|mu, _| mu == first && points.len() > 1)
             .marker(Marker::Circle, 1.7, MUTED)
             .name(format!("lowest friction, *μ* = {}", signed(first, 2))),
     )
@@ -164,12 +162,10 @@ fn steps(report: &CeaReport<'_>) -> Steps {
     let mark = |mode: &ComplexMode| {
         let branch = wave(report, mode).map_or(String::new(), |wave| wave + ", ");
         let (frequency, rate) = (mode.frequency_hz(), TAU * mode.real_hz());
+        let verb = if rate > 0.0 { "grows" } else { "decays" };
         Mark {
             place: (mode.real_hz(), frequency),
-            name: match rate > 0.0 {
-                true => format!("{branch}{frequency:.1} Hz, grows at {rate:.1} 1/s"),
-                false => format!("{branch}{frequency:.1} Hz, decays at {:.1} 1/s", rate.abs()),
-            },
+            name: format!("{branch}{frequency:.1} Hz, {verb} at {:.1} 1/s", rate.abs()),
             is_listed: mode.is_unstable(),
         }
     };
@@ -184,17 +180,17 @@ fn steps(report: &CeaReport<'_>) -> Steps {
 
 fn stability_bars(report: &CeaReport<'_>) -> Panel {
     let sweep = &report.solution.sweep;
-    let (low, high) = extremes(sweep.points.iter().map(|p| p.friction_coefficient));
+    let solved = sweep.points.iter().map(|p| p.friction_coefficient);
+    // An onset may lie below the values asked for.
+    let onsets = sweep.intervals.iter().map(|own| own.critical_friction);
+    let (low, high) = extremes(solved.chain(onsets));
     let rows = interval_rows(sweep);
     let names = rows.iter().enumerate().map(|(row, (branch, intervals))| {
         let number = report.mode_number(*branch);
         let number = number.map_or(String::new(), |number| format!("{number}: "));
         let frequency = signed(intervals[0].frequency_hz * 1e-3, 2);
-        let harmonic = match report.has_harmonics {
-            true => format!(", *n* = {}", branch.0),
-            false => String::new(),
-        };
-        (row as f64 + 0.5, format!("{number}{frequency} kHz{harmonic}"))
+        let n = if report.has_harmonics { format!(", *n* = {}", branch.0) } else { String::new() };
+        (row as f64 + 0.5, format!("{number}{frequency} kHz{n}"))
     });
     let y = Axis::new("", "").between(0.0, rows.len().max(1) as f64).ticks(names);
     let bars = rows.iter().enumerate().flat_map(|(row, (_, intervals))| {

@@ -45,11 +45,10 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
         .enumerate()
         .filter_map(|(at, panel)| {
             let others = own.iter().filter_map(|figure| {
-                let other = in_units_of(figure.panels.get(at)?.clone(), panel);
-                is_alike(&other, panel).then_some((figure.run, figure.title, other))
+                let other = figure.panels.get(at).filter(|other| is_alike(other, panel))?;
+                Some((figure.run, figure.title, in_units_of(other.clone(), panel)))
             });
-            let others: Vec<_> = others.collect();
-            let same: Vec<_> = others.iter().map(|(run, title, own)| (*run, *title, own)).collect();
+            let same: Vec<_> = others.collect();
             (same.len() > 1).then(|| panel_of(panel, &same))
         })
         .collect();
@@ -59,23 +58,11 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
     (!panels.is_empty()).then(|| Figure::new(name, caption).columns(columns).panels(panels))
 }
 
-/// A panel with the prefixes of units that another has: MPa for kPa.
+/// A panel with the prefixes of units that another like it has: MPa for kPa.
 fn in_units_of(mut own: PanelData, other: &PanelData) -> PanelData {
-    let without_prefix = |unit: &str| unit.chars().skip(1).collect::<String>();
     for (k, (axis, wanted)) in own.axes.iter_mut().zip(&other.axes).enumerate() {
-        let titles = [plain(&axis.title), plain(&wanted.title)];
-        let parts = titles.each_ref().map(|title| title.rsplit_once(" (").unwrap_or((title, "")));
-        let [(quantity, unit), (other, wanted_unit)] = parts;
-        let [one, wanted_one] = [without_prefix(unit), without_prefix(wanted_unit)];
-        // Behind a unit of one letter there is a closing bracket.
-        let is_other_prefix = one == wanted_one && one.len() > 1;
-        let is_one = is_other_prefix || one == wanted_unit || wanted_one == unit;
-        if unit == wanted_unit || quantity != other || !is_one {
-            continue;
-        }
         let ratio = wanted.shown(1.0) / axis.shown(1.0);
-        (axis.low, axis.high, axis.title) =
-            (ratio * axis.low, ratio * axis.high, wanted.title.clone());
+        (axis.low, axis.high) = (ratio * axis.low, ratio * axis.high);
         for series in &mut own.series {
             let values = if k == 0 { &mut series.xs } else { &mut series.ys };
             values.iter_mut().for_each(|value| *value *= ratio);
@@ -85,13 +72,13 @@ fn in_units_of(mut own: PanelData, other: &PanelData) -> PanelData {
 }
 
 fn is_alike(one: &PanelData, other: &PanelData) -> bool {
-    let axes = |own: &PanelData| own.axes.clone().map(|own| (plain(&own.title), own.fixed_ticks));
+    let axes = |own: &PanelData| own.axes.clone().map(|own| (own.declared, own.fixed_ticks));
     // Of the drawing of a body outlines alone say nothing.
-    let is_drawing = one.axes.iter().all(|own| plain(&own.title).is_empty());
+    let is_drawing = one.axes.iter().all(|own| own.declared.is_empty());
     axes(one) == axes(other) && !one.series.is_empty() && !is_drawing
 }
 
-fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
+fn panel_of(panel: &PanelData, runs: &[(usize, &str, PanelData)]) -> Panel {
     let ends = [0, 1].map(|k| {
         let ends = runs.iter().map(|(_, _, own)| (own.axes[k].low, own.axes[k].high));
         ends.fold((f64::INFINITY, -f64::INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)))
@@ -166,7 +153,7 @@ fn point_marker(number: usize) -> Marker {
 
 /// Legend entries of the series, in ink: what dashes and markers mean in every run.
 fn series_keys(
-    runs: &[(usize, &str, &PanelData)],
+    runs: &[(usize, &str, PanelData)],
     place: (f64, f64),
     [lines, points]: [&[&str]; 2],
 ) -> Vec<Points> {

@@ -367,13 +367,14 @@ pub(crate) fn check_owner(
     if is_allowed {
         return Ok(is_same || replace == Replace::Continued);
     }
-    let overrides: String = found.overrides.iter().map(|text| format!(" --set {text}")).collect();
+    let command = found.command_line();
+    let what = match command == ours.command_line() {
+        true => "of this command on earlier input".to_owned(),
+        false => format!("of another case or input ({command})"),
+    };
     Err(FolderError::OtherCase(format!(
-        "{} holds the results of another case (frictionsim {} {}{overrides}): choose another \
-         folder with --out, or replace it with --force",
+        "{} holds the results {what}: choose another folder with --out, or replace it with --force",
         path.display(),
-        found.command,
-        found.case_file
     )))
 }
 

@@ -15,6 +15,8 @@ keys! {
         case_text: String = "text of the case file";
         case_hash: String = "SHA-256 of the effective case, overrides included";
         overrides: Vec<String> = "overrides `KEY=VALUE` in the order given";
+        #[serde(default)]
+        arguments: Vec<String> = "other arguments that the results depend on, as given";
         threads: usize = "worker threads";
         simd: String = "SIMD level that the kernels ran with";
     }
@@ -33,8 +35,21 @@ impl Manifest {
         }
     }
 
-    /// The overrides in words.
+    /// Overrides and other arguments in words.
     pub fn overrides_text(&self) -> String {
-        if self.overrides.is_empty() { "none".to_owned() } else { self.overrides.join(", ") }
+        let all = [&self.overrides[..], &self.arguments].concat();
+        if all.is_empty() { "none".to_owned() } else { all.join(", ") }
+    }
+
+    /// The command that has made the results, for a shell.
+    pub fn command_line(&self) -> String {
+        let is_plain = |c: char| c.is_alphanumeric() || "=.,:+-_/".contains(c);
+        let given = self.overrides.iter().map(|text| match text.strip_prefix("unset ") {
+            Some(key) => format!("--unset {key}"),
+            None if text.chars().all(is_plain) => format!("--set {text}"),
+            None => format!("--set '{text}'"),
+        });
+        let words = self.arguments.iter().cloned().chain(given).map(|own| format!(" {own}"));
+        format!("frictionsim {} {}{}", self.command, self.case_file, words.collect::<String>())
     }
 }

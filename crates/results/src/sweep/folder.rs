@@ -227,7 +227,7 @@ impl SweepFolder {
         }
         let asked = points.len();
         let reason = format!(
-            "already holds {found} of the {asked} points asked for: go on with --resume, start \
+            "already holds {found} of the {asked} parts of this run: go on with --resume, start \
              over with --force, or choose another folder with --out"
         );
         Err(FolderError::unusable(self.output.path(), reason))

@@ -89,9 +89,10 @@ impl<'a> Follower<'a> {
     /// `T^-1 T' x`, or `T^-H T'^H x`, with the last factorization.
     pub fn inverse_step(&self, at: &Matrices, theta: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
         let mut image = self.problem.apply_slope(at, theta, x, adjoint);
-        match adjoint {
-            true => self.lu.solve_adjoint(&mut image),
-            false => self.lu.solve(&mut image),
+        if adjoint {
+            self.lu.solve_adjoint(&mut image)
+        } else {
+            self.lu.solve(&mut image)
         }
         image
     }

@@ -39,10 +39,7 @@ pub(super) fn follow(
     let problem = || HarmonicProblem::new(reduction.tangent(&harmonic, &across), false);
     let followed = reduction.kappas.iter().take_while(|kappa| **kappa < range.margin);
     let pairs: Modes = followed.enumerate().map(|(k, &kappa)| (kappa, reduction.mode(k))).collect();
-    let oscillating = match is_damped {
-        true => None,
-        false => follow_pairs(problem(), &pairs, range).ok(),
-    };
+    let oscillating = if is_damped { None } else { follow_pairs(problem(), &pairs, range).ok() };
     // Where a branch stops to oscillate, others may begin to.
     let paths = oscillating.map_or_else(|| follow_damped(problem(), &pairs, range), Ok)?;
 
