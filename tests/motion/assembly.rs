@@ -161,6 +161,16 @@ fn a_block_on_a_rigid_plane_rests_in_its_base_state_and_its_energy_closes() {
         let (record, _) = run(&slow, &settings(InitialState::Rest, 1e-3, 0.05));
         let residual = TransientAnalysis::without_symmetry(&record).largest_residual;
         below(residual, 1e-11, format_args!("{springs:?}: {speed:e} m/s, residual"));
+        // So it does from the powers that the samples list.
+        let energy = |row: &SampleRow| row.kinetic_energy + row.strain_energy + row.contact_energy;
+        let most = record.rows.iter().map(energy).fold(0.0, f64::max);
+        for pair in record.rows.windows(2) {
+            let (own, lost) = (&pair[1].powers, pair[1].material_damping);
+            let power = own.stick + own.slide + own.normal + own.pressure - own.damping - lost;
+            let left = energy(&pair[1]) - energy(&pair[0]) - power * record.sample_interval;
+            below(left.abs(), 1e-12 * most, "energy that no column has");
+            assert!(own.pressure != 0.0);
+        }
         assert_eq!(record.unconverged_steps, 0);
     }
 }

@@ -118,10 +118,7 @@ pub fn write_fits(
     fit: &ModalFit,
 ) -> Result<(), FolderError> {
     for (k, named) in responses.iter().enumerate() {
-        let name = match k {
-            0 => "fit.csv".to_owned(),
-            _ => format!("fit-{}.csv", k + 1),
-        };
+        let name = if k == 0 { "fit.csv".to_owned() } else { format!("fit-{}.csv", k + 1) };
         let lines = named.response.frequencies_hz().iter().zip(named.response.values());
         let lines = lines.map(|(&f, &h)| (f, h, fit.evaluate(k, f)));
         folder.write(&name, |out| write_rows(out, FITTED, lines))?;

@@ -65,6 +65,7 @@ keys! {
         material_damping: Option<f64> = "lost in the body";
         normal_contact: Option<f64> = "of the normal contact forces";
         contact_damping?: f64 = "lost in the dashpots of a contact that has some";
+        pressure?: f64 = "of the pressures on boundaries, where there are some";
     }
 }
 
@@ -79,6 +80,7 @@ impl MeanPowers {
             material_damping: present(material_damping),
             normal_contact: present(contact.normal),
             contact_damping: (contact.damping != 0.0).then_some(contact.damping),
+            pressure: (contact.pressure != 0.0).then_some(contact.pressure),
         }
     }
 }

@@ -91,10 +91,7 @@ fn powers<'a>(
             entries: entries.filter(|entry| entry.2 != 0.0).collect(),
         };
         (power == 0 || !matrix.entries.is_empty()).then(|| ExportedMatrix {
-            name: match power {
-                0 => name.to_owned(),
-                power => format!("{name}_mu{power}"),
-            },
+            name: if power == 0 { name.to_owned() } else { format!("{name}_mu{power}") },
             role: role(FrictionPower { friction_power: power }),
             matrix,
         })

@@ -67,10 +67,7 @@ impl Placed<'_> {
     pub(super) fn top_need(&self, letters: bool) -> f64 {
         let headings = self.heading_lines(letters).len() as f64 * 1.25 * HEADING_SIZE;
         let lines = self.caption_lines().len().max(usize::from(letters));
-        let line = match lines {
-            0 => 0.0,
-            lines => 9.5 + CAPTION_STEP * (lines - 1) as f64,
-        };
+        let line = if lines == 0 { 0.0 } else { 9.5 + CAPTION_STEP * (lines - 1) as f64 };
         let legend = match self.legend.width() {
             _ if self.legend.is_empty() => 0.0,
             width if width <= self.legend_room() => LINE_HEIGHT,

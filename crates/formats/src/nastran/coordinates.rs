@@ -100,10 +100,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
 
     /// A point of a system in basic coordinates; system 0 is the basic one. `place` asks for it.
     pub fn point(&mut self, system: usize, point: [f64; 3], place: Place) -> Result<[f64; 3]> {
-        match system {
-            0 => Ok(point),
-            _ => Ok(self.system(system, place)?.place(point)),
-        }
+        if system == 0 { Ok(point) } else { Ok(self.system(system, place)?.place(point)) }
     }
 
     /// A system by its number, after those that define it: a chain of them is as long as the file likes.

@@ -74,10 +74,7 @@ impl ElementGeometry {
 
     /// Components of strain that the element has.
     fn components(&self) -> &'static [usize] {
-        match self.dimension() {
-            2 => &[0, 1, 3],
-            _ => &[0, 1, 2, 3, 4, 5],
-        }
+        if self.dimension() == 2 { &[0, 1, 3] } else { &[0, 1, 2, 3, 4, 5] }
     }
 
     /// [`ElementKind::jacobian`] at a point of the parent element.

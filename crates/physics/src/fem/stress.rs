@@ -97,10 +97,7 @@ pub fn revolved_stress(
     let per_sector = sector.node_count();
     let given = displacement.len() / (3 * per_sector);
     // The patch of a node reaches two elements far: of a state that repeats the middle one of five sectors is as any other.
-    let count = match given {
-        1 => sector.sector_count().min(5),
-        _ => given,
-    };
+    let count = if given == 1 { sector.sector_count().min(5) } else { given };
     let mesh = sector.part(count);
     let all: Vec<f64> = displacement.iter().copied().cycle().take(mesh.dof_count()).collect();
     let found = solid_stress(&mesh, material, &all);

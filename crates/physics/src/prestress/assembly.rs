@@ -311,10 +311,7 @@ impl<'a> Assembly<'a> {
             part
         });
         let parts: Vec<ContactPart<'_>> = parts.collect();
-        let dofs = match self.mesh.dimension {
-            2 => self.edge_dofs(),
-            _ => self.surface_dofs(),
-        };
+        let dofs = if self.mesh.dimension == 2 { self.edge_dofs() } else { self.surface_dofs() };
         SlidingTangent::assemble(terms, &parts, joined.basis.clone(), dofs, options)
     }
 

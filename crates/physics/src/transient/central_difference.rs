@@ -138,10 +138,11 @@ impl<'a> CentralDifference<'a> {
         // (7) with beta_2 = 1/2; the power of material damping is (11), with one of its velocities half a step old.
         let damping = self.operator.advance(&mut self.fields, &self.coefficients);
         // (9), (10): powers at the contact.
-        let (powers, counts) = self.contact.settle(&mut self.fields, &step);
-        let relaxed = self.relaxation.settle(&mut self.fields, self.plan.time_step);
-        let [own_damping, pressure] =
-            self.boundary.settle(&mut self.fields, self.plan.time_step, share);
+        let (mut powers, counts) = self.contact.settle(&mut self.fields, &step);
+        let (fields, time_step) = (&mut self.fields, self.plan.time_step);
+        let relaxed = self.relaxation.settle(fields, time_step);
+        let [own_damping, pressure] = self.boundary.settle(fields, time_step, share);
+        powers.pressure = pressure;
         let damping = damping + own_damping + relaxed;
         // (12), with the work of the normal forces and of boundary pressures, which the paper leaves out.
         let net = powers.stick + powers.slide + powers.normal + pressure - damping - powers.damping;

@@ -155,25 +155,7 @@ pub struct Recorder {
     /// Whether it stopped the run because that had settled.
     pub has_stopped: bool,
     /// Steps in which the forces between two bodies had not converged when their sweeps ended.
-    #[serde(with = "absent_if_zero")]
     pub unconverged_steps: u64,
-}
-
-/// A number that ends a record, and takes no byte of it where it is zero.
-mod absent_if_zero {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(number: &u64, serializer: S) -> Result<S::Ok, S::Error> {
-        match number {
-            0 => serializer.serialize_unit(),
-            number => number.serialize(serializer),
-        }
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u64, D::Error> {
-        // The record ends here.
-        Ok(u64::deserialize(deserializer).unwrap_or(0))
-    }
 }
 
 impl Recorder {
@@ -270,6 +252,11 @@ impl Recorder {
     pub fn has_contact_springs(&self) -> bool {
         let mut rows = self.rows.iter();
         rows.any(|row| row.contact_energy != 0.0 || row.powers.damping != 0.0)
+    }
+
+    /// Whether pressures on boundaries do work.
+    pub fn has_pressures(&self) -> bool {
+        self.rows.iter().any(|row| row.powers.pressure != 0.0)
     }
 
     /// Share of the steps of nodes in contact that could have ended in stick and in slip alike, since friction falls

@@ -73,10 +73,7 @@ impl Fields<'_> {
     ) -> Result<Option<PvdEntry>, FolderError> {
         let mut entries = Vec::new();
         for (i, frame) in frames.iter().enumerate() {
-            let name = match i {
-                0 => format!("{stem}.vtu"),
-                _ => format!("{stem}-{i:03}.vtu"),
-            };
+            let name = if i == 0 { format!("{stem}.vtu") } else { format!("{stem}-{i:03}.vtu") };
             self.folder.write(&name, |out| {
                 let mesh = self.mesh.get_or_init(|| self.body.encoded());
                 let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;

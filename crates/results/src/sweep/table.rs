@@ -146,10 +146,7 @@ fn item_name(item: &Value) -> Option<String> {
 
 /// A dotted path.
 pub(crate) fn join(path: &str, key: &str) -> String {
-    match path {
-        "" => key.to_owned(),
-        _ => format!("{path}.{key}"),
-    }
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
 }
 
 /// A value as a table cell: text without quotes, lists as JSON.

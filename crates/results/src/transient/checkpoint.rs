@@ -27,7 +27,7 @@ pub struct Checkpoint {
 impl Record for Checkpoint {
     const FILE: &str = CHECKPOINT;
     const MAGIC: [u8; 8] = *b"FRICSIMC";
-    const VERSION: u32 = 6;
+    const VERSION: u32 = 7;
 
     fn inconsistency(&self) -> Option<&'static str> {
         self.record.as_ref().and_then(Record::inconsistency)
@@ -38,7 +38,7 @@ impl Record for Checkpoint {
 impl Record for Recorder {
     const FILE: &str = "record.bin";
     const MAGIC: [u8; 8] = *b"FRICSIMR";
-    const VERSION: u32 = 7;
+    const VERSION: u32 = 8;
 
     fn inconsistency(&self) -> Option<&'static str> {
         (!self.is_consistent()).then_some("its samples, probes and frames do not fit together")

@@ -65,8 +65,9 @@ pub(super) fn energy(run: &RecordedRun<'_>) -> Figure {
     });
     let material = course("material damping", MATERIAL_DISSIPATION, &|row| row.material_damping);
     let normal = course("normal contact forces", NORMAL_POWER, &|row| row.powers.normal);
-    let received = course("received at the contact", STICK_POWER, &|row| {
-        row.powers.stick + row.powers.slide + row.powers.normal - row.powers.damping
+    let received = course("received", STICK_POWER, &|row| {
+        let own = &row.powers;
+        own.stick + own.slide + own.normal - own.damping + own.pressure
     });
     let total =
         course("total", INK, &|row| row.kinetic_energy + row.strain_energy + row.contact_energy);

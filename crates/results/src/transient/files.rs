@@ -76,7 +76,7 @@ fn write_probe(out: &mut dyn Write, run: &RecordedRun<'_>, probe: usize) -> io::
 }
 
 columns! {
-    /// Energies (J) and powers (W) of a sample; the last two of contacts with springs or dashpots.
+    /// Energies (J) and powers (W) of a sample; the last three where contacts have springs or dashpots, or pressures act.
     pub(crate) ENERGY: row as SampleRow;
     time_s: "time" = row.time;
     kinetic_j: "kinetic energy" = row.kinetic_energy;
@@ -92,6 +92,7 @@ columns! {
         = row.balance_residual;
     contact_j: "energy in the springs of the contact" = row.contact_energy;
     contact_damping_w: "power lost in the dashpots of the contact" = row.powers.damping;
+    pressure_w: "power of the pressures on boundaries" = row.powers.pressure;
 }
 
 fn write_energy(out: &mut dyn Write, run: &RecordedRun<'_>) -> io::Result<()> {
@@ -104,8 +105,11 @@ fn write_energy(out: &mut dyn Write, run: &RecordedRun<'_>) -> io::Result<()> {
         material_damping: thickness * row.material_damping,
         ..*row
     };
-    let all = record.has_contact_springs();
-    let columns = if all { ENERGY } else { const { parted(ENERGY, "contact_j").0 } };
+    let columns = match (record.has_pressures(), record.has_contact_springs()) {
+        (true, _) => ENERGY,
+        (false, true) => const { parted(ENERGY, "pressure_w").0 },
+        (false, false) => const { parted(ENERGY, "contact_j").0 },
+    };
     write_rows(out, columns, record.rows.iter().map(of_whole_thickness))
 }
 

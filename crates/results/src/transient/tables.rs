@@ -171,6 +171,7 @@ fn facts(summary: &TransientSummary) -> Vec<(String, String)> {
         watts("dissipated in the body", power.material_damping),
         watts("normal contact power", power.normal_contact),
         watts("dissipated in dashpots of the contact", power.contact_damping),
+        watts("power of boundary pressures", power.pressure),
     ];
     rows.into_iter().flatten().collect()
 }

@@ -24,29 +24,32 @@ pub struct ContactPowers {
     pub normal: f64,
     /// What the dashpots of the contact dissipate.
     pub damping: f64,
+    /// Of the pressures on boundaries, `sum f v`: it crosses these instead.
+    pub pressure: f64,
 }
 
 impl AddAssign for ContactPowers {
     fn add_assign(&mut self, other: Self) {
-        self.external += other.external;
-        self.stick += other.stick;
-        self.slide += other.slide;
-        self.contact_dissipated += other.contact_dissipated;
-        self.normal += other.normal;
-        self.damping += other.damping;
+        *self = self.with(&other, |own, other| own + other);
     }
 }
 
 impl ContactPowers {
     /// Every power times `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
+        self.with(self, |own, _| factor * own)
+    }
+
+    /// Each power with the same one of others.
+    fn with(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self {
-            external: factor * self.external,
-            stick: factor * self.stick,
-            slide: factor * self.slide,
-            contact_dissipated: factor * self.contact_dissipated,
-            normal: factor * self.normal,
-            damping: factor * self.damping,
+            external: of(self.external, other.external),
+            stick: of(self.stick, other.stick),
+            slide: of(self.slide, other.slide),
+            contact_dissipated: of(self.contact_dissipated, other.contact_dissipated),
+            normal: of(self.normal, other.normal),
+            damping: of(self.damping, other.damping),
+            pressure: of(self.pressure, other.pressure),
         }
     }
 }
