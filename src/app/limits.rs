@@ -67,7 +67,7 @@ fn near_file(path: &Path) -> Option<String> {
     let files = std::fs::read_dir(std::path::absolute(path).ok()?.parent()?).ok()?;
     let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
     // The same one of two that are as near, whatever their order in the folder.
-    let names: BTreeSet<String> = names.collect();
+    let names: BTreeSet<String> = names.filter(|name| !path.ends_with(name)).collect();
     let near = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
     Some(path.with_file_name(near).display().to_string())
 }

@@ -58,6 +58,12 @@ fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
     }
     assert!((found.fit.noise[0].relative / 0.01 - 1.0).abs() < 0.05);
     assert!(found.fit.modes.len() >= 6);
+    // Noise that does not depend on the response makes no modes where the response falls below it.
+    let mean = h.iter().map(|h| h.norm()).sum::<f64>() / h.len() as f64;
+    let mut noise = GaussianNoise::new(2);
+    let flooded = h.iter().map(|h| h + noise.draw() * (3e-3 * mean)).collect();
+    let [clean, flooded] = [h.clone(), flooded].map(|h| identified(&f, h).fit.modes.len());
+    assert!((6..=clean).contains(&flooded), "{flooded} modes, {clean} without noise");
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::{Bound, CaseKey, Default, KEYS, Kind};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// Sections that every case has.
-const REQUIRED_SECTIONS: &[&str] = &["geometry", "mesh", "material", "contact"];
+/// Sections that the built-in disc needs; of another body its mesh file may give what stands there.
+const OF_DISC: [&str; 4] = ["geometry", "mesh", "material", "contact"];
 
 /// The sections, in the order of the documentation; the case itself is the empty one.
 pub fn sections() -> Vec<&'static str> {
@@ -58,9 +58,10 @@ pub fn markdown() -> String {
 /// their default, or an example where they have none.
 pub fn template() -> String {
     let mut out =
-        "# Every key of a case. Lines that are not commented out are required.\n".to_owned();
+        "# Every key of a case. The built-in disc needs those that are not commented out.\n"
+            .to_owned();
     for section in sections() {
-        let needed = section.is_empty() || REQUIRED_SECTIONS.contains(&section);
+        let needed = section.is_empty() || OF_DISC.contains(&section);
         if !section.is_empty() {
             let comment = if needed { "" } else { "# " };
             let name = section.replace('*', "NAME");
@@ -108,14 +109,13 @@ pub fn schema() -> Value {
         for part in key.section().split('.').filter(|part| !part.is_empty()) {
             place = child(place, part, object_schema);
         }
-        if key.default_text() == "required"
-            && let Some(required) = place["required"].as_array_mut()
-        {
+        let is_of_body = OF_DISC.iter().any(|own| key.section().starts_with(own));
+        let is_required = key.default_text() == "required" && !is_of_body;
+        if let Some(required) = place["required"].as_array_mut().filter(|_| is_required) {
             required.push(json!(key.short()));
         }
         *child(place, key.short(), || Value::Null) = key_schema(key);
     }
-    root["required"] = json!(REQUIRED_SECTIONS);
     // A swept key is any key of the case, quoted or as tables.
     root["properties"]["sweep"]["additionalProperties"] = json!(true);
     root["$schema"] = json!("http://json-schema.org/draft-07/schema#");

@@ -65,6 +65,7 @@ impl FreeSystem {
         let read = names.first().and_then(|name| {
             all.section(name, true).closed(|own| superelement(own, name, folder, &mut digest))
         });
+        names.iter().skip(1).for_each(|name| _ = all.section(name, false));
         all.close();
         let unknowns = read.as_ref().map_or(0, |own| own.mass.rows as u128);
         let modes = root.section("cea", true).closed(|own| mode_selection(own, unknowns));
@@ -72,8 +73,7 @@ impl FreeSystem {
         let (errors, _) = findings.into_parts();
         match read {
             Some(superelement) if errors.is_empty() => {
-                let hash = hex(digest);
-                Ok(Self { title, superelement, modes, hash, raw })
+                Ok(Self { title, superelement, modes, hash: hex(digest), raw })
             }
             _ => Err(raw.errors(errors)),
         }

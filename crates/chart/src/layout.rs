@@ -99,19 +99,19 @@ impl<'a> Layout<'a> {
         let width = width_mm * POINTS_PER_MM;
         // On a page much narrower than meant, fewer panels stand side by side.
         let is_narrow = width_mm < 0.75 * grid.width_mm;
-        let columns = match is_narrow {
-            true => ((grid.columns as f64 * width_mm / grid.width_mm) as usize).max(1),
-            false => grid.columns,
-        };
+        let fewer = ((grid.columns as f64 * width_mm / grid.width_mm) as usize).max(1);
+        let columns = if is_narrow { fewer } else { grid.columns };
         // Pictures without axes stay readable in pairs.
         let are_pictures = grid.columns > 2 && grid.panels().all(|panel| panel.is_bare);
         let columns = columns.max(if are_pictures { 2 } else { 1 });
+        // Panels that were not meant to stand below each other have axes of their own.
+        let shares = [grid.shares[0] && columns == grid.columns, grid.shares[1]];
         let mut placed = place_cells(grid, columns, is_narrow);
-        resolve_axes(grid, &mut placed);
+        resolve_axes(shares, &mut placed);
         let mut layout = Self {
             grid,
             placed,
-            is_stacked: is_narrow && columns == 1 && !grid.shares[0],
+            is_stacked: is_narrow && columns == 1 && !shares[0],
             legend: Legend::default(),
             legend_place: (RIM, RIM),
             bottom: 0.0,
@@ -300,7 +300,7 @@ fn place_cells(grid: &Grid, columns: usize, is_narrow: bool) -> Vec<Placed<'_>> 
 }
 
 /// Ends of all axes, and which of them are labelled: of shared ones the lowest and the leftmost.
-fn resolve_axes(grid: &Grid, placed: &mut [Placed<'_>]) {
+fn resolve_axes(shares: [bool; 2], placed: &mut [Placed<'_>]) {
     let ranges: Vec<_> = placed.iter().map(|cell| cell.panel.ranges()).collect();
     let cells: Vec<(usize, usize)> = placed.iter().map(|cell| (cell.row, cell.column)).collect();
     let union = |all: &mut dyn Iterator<Item = Option<(f64, f64)>>| {
@@ -308,8 +308,8 @@ fn resolve_axes(grid: &Grid, placed: &mut [Placed<'_>]) {
     };
     for (index, cell) in placed.iter_mut().enumerate() {
         let together = |other: usize, axis: usize| match axis {
-            0 => grid.shares[0] && cells[other].1 == cell.column,
-            _ => grid.shares[1] && cells[other].0 == cell.row,
+            0 => shares[0] && cells[other].1 == cell.column,
+            _ => shares[1] && cells[other].0 == cell.row,
         };
         let range = |axis: usize| {
             let own = (0..ranges.len()).filter(|&other| other == index || together(other, axis));
@@ -318,7 +318,7 @@ fn resolve_axes(grid: &Grid, placed: &mut [Placed<'_>]) {
         let rulers: [Ruler; 2] = [cell.panel.x.resolve(range(0)), cell.panel.y.resolve(range(1))];
         let below = cells.iter().any(|other| *other == (cell.row + cell.span, cell.column));
         let before = cells.iter().any(|other| other.0 == cell.row && other.1 < cell.column);
-        cell.labels = [!(grid.shares[0] && below), !(grid.shares[1] && before)];
+        cell.labels = [!(shares[0] && below), !(shares[1] && before)];
         [cell.frame.x, cell.frame.y] = rulers;
     }
 }

@@ -76,7 +76,7 @@ pub enum NoGrowth {
     },
     /// An amplitude that is made of round-off.
     #[error(
-        "below round-off: its amplitude of {amplitude:.1e} is not above {floor:.1e}, which is 1024 eps of \
+        "no vibration above round-off: its amplitude of {amplitude:.1e} is within {floor:.1e}, 1024 eps of \
          the largest motion"
     )]
     BelowRoundOff {
@@ -147,9 +147,8 @@ fn search(
     let signal = demodulated(samples, sampling_rate, frequency_hz)?;
     let largest = samples.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let floor = round_off_floor(largest);
-    let strongest = signal.log_amplitude.iter().copied().fold(f64::MIN, f64::max);
-    if strongest.exp() <= floor {
-        let amplitude = strongest.exp();
+    let amplitude = signal.log_amplitude.iter().copied().fold(f64::MIN, f64::max).exp();
+    if amplitude <= floor {
         return Err(NoGrowth::BelowRoundOff { amplitude, floor });
     }
     for tolerance in TOLERANCES {
@@ -199,8 +198,7 @@ fn longest_line(
     let sums = prefix_sums(&signal.times, &signal.log_amplitude);
     let stride = n.div_ceil(GRID);
     let shortest = (2.0 * signal.correlated).ceil() as usize;
-    let mut best = None;
-    let mut best_gain = 1.0;
+    let (mut best, mut best_gain) = (None, 1.0);
     for first in (0..n).step_by(stride) {
         let above = signal.log_amplitude[first..].iter().take_while(|a| **a > floor);
         let end = first + above.count();
@@ -209,8 +207,7 @@ fn longest_line(
             let gain = slope * (signal.times[last - 1] - signal.times[first]);
             let gain = if growing { gain } else { -gain };
             if gain > best_gain && deviation <= tolerance {
-                best_gain = gain;
-                best = Some((first, last));
+                (best, best_gain) = (Some((first, last)), gain);
             }
         }
     }

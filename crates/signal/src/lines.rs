@@ -70,8 +70,8 @@ impl SpectralResolution {
                 super::error::check_positive("resolution", asked, " (Hz): change --resolution")?;
                 let block = (lobe * sampling_rate / asked).round();
                 if !(block <= count as f64 && block >= 16.0) {
-                    let [finest, coarsest] =
-                        [count as f64, 16.0].map(|block| lobe * sampling_rate / block);
+                    let [finest, coarsest] = [count as f64, 16.0]
+                        .map(|block| (1e6 * lobe * sampling_rate / block).round() / 1e6);
                     return Err(SignalError::Asked(format!(
                         "a resolution of {asked} Hz is out of reach: this record gives {finest} \
                          to {coarsest} Hz; change --resolution, or the interval"

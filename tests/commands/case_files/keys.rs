@@ -37,6 +37,27 @@ fn a_default_written_out_changes_nothing() {
     }
 }
 
+/// Keys that the schema requires of a table and that are missing there.
+fn missing(schema: &Value, table: &toml::Table) -> Vec<String> {
+    let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let mut all: Vec<String> =
+        required.filter(|key| !table.contains_key(*key)).map(str::to_owned).collect();
+    for (key, value) in table {
+        let own = schema["properties"].get(key).unwrap_or(&schema["additionalProperties"]);
+        all.extend(value.as_table().into_iter().flat_map(|inner| missing(own, inner)));
+    }
+    all
+}
+
+#[test]
+fn every_shipped_case_has_what_the_schema_requires() {
+    let schema = reference::schema();
+    for name in names_in(Path::new(&shipped(""))).iter().filter(|name| name.ends_with(".toml")) {
+        let case = fs::read_to_string(shipped(name)).unwrap().parse().unwrap();
+        assert_eq!(missing(&schema, &case), Vec::<String>::new(), "{name}");
+    }
+}
+
 #[test]
 fn every_key_stands_in_the_schema_once_with_its_meaning() {
     let schema = reference::schema();

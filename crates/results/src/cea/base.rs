@@ -118,8 +118,8 @@ columns! {
     /// Pressure and traction.
     pub(crate) TRACTIONS: own as ContactState;
     pressure_pa: "contact pressure" = own.pressure;
-    shear_pa: "friction traction on the body: in the plane along `u_theta`, or the normal towards the body turned by \
-        +90 degrees; in three dimensions along the sliding" = own.shear;
+    shear_pa: "friction traction on the body: in the plane along `u_theta` or the normal towards the body turned \
+        by +90 degrees, else along the sliding" = own.shear;
 }
 
 columns! {

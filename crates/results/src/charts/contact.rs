@@ -107,10 +107,8 @@ pub fn contact_figure(body: &ShownBody<'_>, own: &ContactInstant<'_>) -> Figure 
 /// and of an absolute velocity.
 fn contact_panels(own: &ContactInstant<'_>, is_round: bool, names: (&str, &str)) -> [Panel; 2] {
     // Around a hole the first node comes again at the end.
-    let (first, steps) = match is_round {
-        true => (own.first_angle, own.status.len()),
-        false => (0.0, own.status.len().saturating_sub(1)),
-    };
+    let first = if is_round { own.first_angle } else { 0.0 };
+    let steps = own.status.len().saturating_sub(usize::from(!is_round));
     let step = TAU / steps.max(1) as f64;
     let line = |values: &[f64]| {
         let again = values.first().filter(|_| is_round);
@@ -119,8 +117,10 @@ fn contact_panels(own: &ContactInstant<'_>, is_round: bool, names: (&str, &str))
     };
     let again = own.status.first().filter(|_| is_round);
     let status: Vec<ContactStatus> = own.status.iter().chain(again).copied().collect();
-    let panel = |y: Axis| {
-        let ground = status_ground(&status, |i| first + (i as f64 - 0.5) * step).unnamed();
+    let panel = |y: Axis, is_first: bool| {
+        let ground = status_ground(&status, |i| first + (i as f64 - 0.5) * step);
+        // Around a hole the ring beside the panels has the names.
+        let ground = if is_first && !is_round { ground } else { ground.unnamed() };
         Panel::new(place_axis(is_round), y).plain().height(78.0).legend().layer(ground)
     };
     let [pressure, shear] = own.tractions;
@@ -130,15 +130,15 @@ fn contact_panels(own: &ContactInstant<'_>, is_round: bool, names: (&str, &str))
             (values, names.1, Rule::horizontal(speed).stretching().name(names.0))
         }
         ContactVelocity::Slip(values) => {
-            (values, "slip velocity", Rule::horizontal(0.0).name("stick"))
+            (values, "slip velocity", Rule::horizontal(0.0).name("no slip"))
         }
     };
     let traction = Axis::new("traction", "Pa").prefixed().including(0.0).room(0.08);
     [
-        panel(traction)
+        panel(traction, true)
             .layer(line(pressure).solid(INK, 1.1).name("pressure *p*"))
             .layer(line(shear).solid(SERIES[1], 1.1).name("friction traction *τ*")),
-        panel(Axis::new("velocity", "m/s").including(0.0))
+        panel(Axis::new("velocity", "m/s").including(0.0), false)
             .layer(rule)
             .layer(line(velocity).solid(SERIES[0], 1.1).name(name)),
     ]

@@ -110,9 +110,10 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveSummary]) -> Figure {
             let at_own = |value: f64, marker: Marker, name: String| {
                 Points::new([(branch.own_value, value)]).marker(marker, 2.2, colour).name(name)
             };
+            let of = if curves.len() > 1 { format!(", {}", curve.name()) } else { String::new() };
             let cycle = curve.family.cycle.zip(own);
             let cycle = cycle.map(|(cycle, own)| {
-                at_own(cycle[own], Marker::Circle, "the case's own cycle".to_owned())
+                at_own(cycle[own], Marker::Circle, format!("the case's own cycle{of}"))
             });
             let threshold = branch.threshold.filter(|_| own == Some(1));
             let threshold = threshold.map(|[amplitude, velocity]| {

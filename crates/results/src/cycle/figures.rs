@@ -76,12 +76,9 @@ impl CycleFigures<'_> {
 
     /// Where the shown contact nodes are.
     fn places(&self) -> Axis {
-        match self.body.is_assembly() {
-            true => {
-                Axis::new("contact nodes in their order", "%").times(100.0 / TAU).between(0.0, TAU)
-            }
-            false => place_axis(self.body.mesh.has_round_contact()),
-        }
+        let in_order = Axis::new("contact nodes in their order", "%").times(100.0 / TAU);
+        let round = || place_axis(self.body.mesh.has_round_contact());
+        if self.body.is_assembly() { in_order.between(0.0, TAU) } else { round() }
     }
 
     /// The status of all contact nodes over one period; that of a wave is its history.
@@ -160,12 +157,9 @@ impl CycleFigures<'_> {
 
     /// The contact node of the history in words.
     fn node(&self, own: ShownCycle<'_>) -> String {
-        match self.nodes().get(own.motion.node) {
-            None => "a contact node".to_owned(),
-            Some(&node) => {
-                format!("contact node {}", self.body.mesh.node_label(node as usize))
-            }
-        }
+        let node = self.nodes().get(own.motion.node);
+        let label = node.map(|&node| self.body.mesh.node_label(node as usize));
+        label.map_or_else(|| "a contact node".to_owned(), |label| format!("contact node {label}"))
     }
 
     /// What the node goes through in two periods, on a ground coloured by its status.
@@ -220,7 +214,7 @@ impl CycleFigures<'_> {
             .panel(tractions)
     }
 
-    /// The closed curves of the node: velocity over displacement, along the contact and normal, and its path.
+    /// The closed curves of the node: velocity over displacement along the contact, normal to it and its path too.
     fn orbit(&self, own: ShownCycle<'_>) -> Figure {
         let period = own.history();
         let closed = || period.iter().chain(period.first());
@@ -233,21 +227,28 @@ impl CycleFigures<'_> {
                 .layers(status_curves(&points, &status))
                 .layer(Line::through(points).solid(INK, 0.0).arrows(3))
         };
-        let caption = format!(
-            "Phase plots, along the contact (a) and normal to it (b), and path (c) of {} in the limit cycle of {}.",
-            self.node(own),
-            own.whose()
-        );
         let [normal, along] = directions(own);
         let moved = |way: &str| format!("displacement *u*_{{{way}}}");
         let speed = |way: &str| format!("velocity *v*_{{{way}}}");
         let (u_n, u_t): (Of, Of) = (|row| row.displacement[0], |row| row.displacement[1]);
         let (v_n, v_t): (Of, Of) = (|row| row.velocity[0], |row| row.velocity[1]);
-        Figure::new(format!("orbit-{}", own.name.tag()), caption)
-            .columns(3)
-            .panel(loop_of("along the contact", (moved(along), u_t), (speed(along), "m/s", v_t)))
-            .panel(loop_of("normal", (moved(normal), u_n), (speed(normal), "m/s", v_n)))
-            .panel(loop_of("path", (moved(along), u_t), (moved(normal), "m", u_n)))
+        let range = |of: Of| extremes(period.iter().map(of));
+        let [reach_n, reach_t] = [range(u_n), range(u_t)].map(|(low, high)| high - low);
+        let moves_normal = reach_n > ROUND_OFF * reach_t;
+        let (count, what) = match moves_normal {
+            true => (3, "Phase plots, along the contact (a) and normal to it (b), and path (c)"),
+            false => (1, "Phase plot along the contact"),
+        };
+        let caption =
+            format!("{what} of {} in the limit cycle of {}.", self.node(own), own.whose());
+        let panels = [
+            loop_of("along the contact", (moved(along), u_t), (speed(along), "m/s", v_t)),
+            loop_of("normal", (moved(normal), u_n), (speed(normal), "m/s", v_n)),
+            loop_of("path", (moved(along), u_t), (moved(normal), "m", u_n)),
+        ];
+        let figure = Figure::new(format!("orbit-{}", own.name.tag()), caption).columns(count);
+        let figure = if moves_normal { figure } else { figure.narrow() };
+        figure.panels(panels.into_iter().take(count))
     }
 
     /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.

@@ -76,7 +76,7 @@ fn write_probe(out: &mut dyn Write, run: &RecordedRun<'_>, probe: usize) -> io::
 }
 
 columns! {
-    /// Energies (J) and powers (W) of a sample; the last three where contacts have springs or dashpots, or pressures act.
+    /// Energies (J) and powers (W) of a sample; the last three of contacts with springs or dashpots, or under pressure.
     pub(crate) ENERGY: row as SampleRow;
     time_s: "time" = row.time;
     kinetic_j: "kinetic energy" = row.kinetic_energy;

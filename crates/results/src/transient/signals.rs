@@ -208,10 +208,8 @@ impl RecordedRun<'_> {
             .layers(lines)
             .layers(linear_end.map(nonlinear));
         let figure = Figure::new("growth", caption).panel(panel);
-        match has_harmonics && end < last {
-            true => figure.note(format!("the run goes on to {} ms", significant(last * 1e3, 3))),
-            false => figure,
-        }
+        let note = format!("the run goes on to {} ms", significant(last * 1e3, 3));
+        if end < last { figure.note(note) } else { figure }
     }
 }
 

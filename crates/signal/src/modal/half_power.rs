@@ -13,6 +13,8 @@ const PROMINENCE: f64 = 0.1;
 const NOISE_PROMINENCE: f64 = 8.0;
 /// ... but no more than this, neper (6 dB): coarse lines look like noise.
 const ENOUGH_PROMINENCE: f64 = 0.7;
+/// Least height of a resonance over the noise that does not depend on the response; chance reaches it once in e^18 lines.
+const NOISE_FLOOR: f64 = 6.0;
 
 /// Why a half-power damping factor is missing or doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +90,8 @@ fn resonances(mobility: &FrequencyResponse, measured: &[f64], noise: &NoiseModel
     let stands_out = |&i: &usize| {
         let relative = noise.variance(measured[i]).sqrt() / measured[i];
         let threshold = (NOISE_PROMINENCE * relative).clamp(PROMINENCE, ENOUGH_PROMINENCE);
-        y[i] > y[i - 1] && y[i] >= y[i + 1] && prominence(&y, i) >= threshold
+        let is_top = y[i] > y[i - 1] && y[i] >= y[i + 1];
+        is_top && measured[i] > NOISE_FLOOR * noise.additive && prominence(&y, i) >= threshold
     };
     (1..y.len() - 1).filter(stands_out).collect()
 }

@@ -16,7 +16,7 @@ const PEAK: f64 = 0.89;
 pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadError> {
     let damaged = |reason: String| ReadError::damaged(source, "WAV", reason);
     let mut reader = WavReader::new(Cursor::new(bytes))
-        .map_err(|error| damaged(format!("{error}; PCM and floating-point files are supported")))?;
+        .map_err(|error| damaged(format!("{error}; write PCM or 32-bit floating-point samples")))?;
     let spec = reader.spec();
     if spec.channels == 0 || spec.sample_rate == 0 || spec.bits_per_sample == 0 {
         return Err(damaged("no channels, or a sampling rate of 0".into()));

@@ -204,7 +204,7 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
         )
     });
     let gaps = undecided(parts).map(|own| own.gap);
-    let gaps = gaps.map(|gap| format!("{:.6} and {:.6}", gap.start, gap.end));
+    let gaps = gaps.map(|gap| format!("{} and {}", gap.start, gap.end));
     let unknown = listed(gaps.collect(), ", between ").map(|gaps| {
         format!(
             "a mode changes its stability between friction {gaps}, where contact points open or close and the states \
