@@ -74,7 +74,7 @@ pub struct OutputOptions {
     /// Output folder; the command line says each command's default.
     #[arg(long, short, help = "Output folder", value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
-    /// Replace results of another case or table in the output folder, and existing files of other options
+    /// Replace results of another case or table in the output folder, and files that --wav and --uff name
     #[arg(long)]
     pub force: bool,
     /// Check everything and print where results would go, without computing or writing anything

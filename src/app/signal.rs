@@ -225,7 +225,7 @@ fn analyse(
     let to = arguments.to.unwrap_or(end).min(end);
     if !(from >= 0.0 && from < to) {
         return Err(Failure::usage(format!(
-            "--from {from} --to {to}: the interval must lie within the record, 0 to {end} s"
+            "--from {from} --to {to}: the interval must lie within the record, 0 to {end:.6} s"
         )));
     }
     let index = |t: f64| ((t * rate).round() as usize).min(channel.samples.len());

@@ -18,7 +18,7 @@ const SAMPLES: &str = "samples";
 ///
 /// Draws samples of the keys of uncertainty.distributions and finds the critical frictions of each. Gives the
 /// probability of an unstable mode at the case's friction coefficient and the distribution of the lowest critical
-/// friction. Gives the share of each parameter in its variance, too. Finished blocks of samples are kept: a killed run
+/// friction. Also gives each parameter's share of its variance. Finished blocks of samples are kept: a killed run
 /// continues with --resume, and several processes may work on one folder.
 #[derive(Args)]
 pub struct Arguments {

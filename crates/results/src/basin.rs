@@ -245,7 +245,7 @@ fn search(summary: &BasinSummary) -> Figure {
         Points::new(own.filter_map(place)).marker(marker, 2.6, colour).name(name)
     });
     let bounds = [summary.boundary.low, summary.boundary.high].into_iter().flatten().map(|ratio| {
-        Rule::vertical(ratio).stroke(Stroke::dashed(INK, 0.8)).name("bounds of the boundary")
+        Rule::vertical(ratio).stroke(Stroke::dashed(INK, 0.8)).name("winner changes between")
     });
     let names = [(0.0, shown(first)), (1.0, shown(second))];
     let ratio = summary.ratio().replace("n = ", "*n* = ");

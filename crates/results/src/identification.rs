@@ -74,8 +74,8 @@ pub fn document(summary: &IdentificationSummary) -> Document {
         )
     };
     let scatter = format!(
-        "The response is fitted from {low:.1} to {high:.1} Hz. The damping factors scatter {:.2} times as much about \
-         (alpha_R / omega + beta_R omega) / 2 as their errors say.",
+        "The response is fitted from {low:.1} to {high:.1} Hz. The damping factors scatter {:.2} times as widely about \
+         (alpha_R / omega + beta_R omega) / 2 as their standard errors predict.",
         summary.reduced_chi_square.sqrt(),
     );
     let peaks = summary.unmatched_peaks_hz.iter();
@@ -89,16 +89,14 @@ pub fn document(summary: &IdentificationSummary) -> Document {
     let half = summary.half_power;
     let estimators = std::iter::once(("fit of the response", summary.rayleigh))
         .chain(half.map(|own| ("half-power alone", own)));
-    let few = half
-        .is_none()
-        .then(|| "Half-power alone: fewer than three modes without doubt.".to_owned());
+    let few = "Half-power alone: fewer than three modes without doubt.";
     let modes = summary.modes.iter().enumerate().map(|(k, mode)| (k + 1, mode.clone()));
     Document::new("Identified damping")
         .section(
             Section::new("Rayleigh coefficients")
                 .tables([Table::new("", "Rayleigh coefficients with their 95 % intervals")
                     .columns(COEFFICIENTS, estimators)])
-                .text(few)
+                .text(half.is_none().then(|| few.to_owned()))
                 .text(summary.responses.iter().map(of_response))
                 .text(std::iter::once(scatter).chain(is_other.then_some(other)).chain(peaks))
                 .text([summary.damping_block()])

@@ -85,7 +85,7 @@ keys! {
         damping_n_s_per_m: f64 = "damping of a dashpot, N s/m";
         patch_radius_m: f64 = "radius of a patch, m";
         patch_damping_s: f64 = "stiffness coefficient of its damping, s";
-        offset_m: f64 = "farthest way of the contact curve, m";
+        offset_m: f64 = "largest shift of the contact curve, m";
     }
 
     /// One modification.
@@ -195,7 +195,7 @@ fn candidates(summary: &ImproveSummary) -> Table {
     let all = || &summary.candidates;
     Table::new(
         "candidates.csv",
-        "Modifications, the best first; no critical friction: not run again, or none up to the case's",
+        "Modifications, best first. Without critical friction: not run again, or stable up to the case's",
     )
     .columns(CANDIDATES, all())
     .column("", Some(("where", Format::Plain)), all().iter().map(Candidate::place))
@@ -229,7 +229,7 @@ fn facts(summary: &ImproveSummary) -> Vec<(String, String)> {
         text("dashpot", sizes.damping_n_s_per_m, &unit("N s/m")),
         text("patch radius", sizes.patch_radius_m, "m"),
         text("patch damping", sizes.patch_damping_s, "s"),
-        text("farthest way of the hole", sizes.offset_m, "m"),
+        text("largest shift of the hole", sizes.offset_m, "m"),
     ]);
     rows
 }

@@ -66,6 +66,16 @@ fn a_growing_vibration_is_no_limit_cycle_and_a_saturated_one_is() {
     // The stretch that it has settled for begins after the linear stage and before the last fifth.
     let from = settled.from.unwrap();
     assert!(from > analysis.first_nonlinearity.unwrap() && from < 0.04);
+    // What vibrates beside it, a fiftieth as large: nothing where it stays, no cycle where it grows by a third in the last fifth.
+    let main = analysis.last_fifth.main_amplitude.unwrap();
+    for (rate, state) in [(0.0, EndState::LimitCycle), (30.0, EndState::Unsettled)] {
+        let mut record = record.clone();
+        for row in &mut record.rows {
+            let size = 0.02 * main * (rate * (row.time - 0.05)).exp();
+            row.harmonics[2][0] += size * (TAU * 13e3 * row.time).cos();
+        }
+        assert_eq!(TransientAnalysis::of(&record, &[2]).settling.state, state);
+    }
 }
 
 #[test]

@@ -46,8 +46,8 @@ pub enum PrestressError {
     },
     /// The complementarity problem has no solution that could be found.
     #[error(
-        "there is no state of steady sliding at friction {friction_coefficient}: every choice of pressed and open nodes \
-         tried pulls one or lets one penetrate. Lower contact.friction_coefficient, or the largest of \
+        "there is no state of steady sliding at friction {friction_coefficient}. Whatever nodes were taken as closed, \
+         one of them is pulled or an open one penetrates. Lower contact.friction_coefficient, or the largest of \
          cea.friction_coefficients. A contact stiffness far above that of the bodies may hide a state: lower it, too"
     )]
     NoState {

@@ -197,15 +197,13 @@ impl LastFifth {
     fn of(record: &Recorder) -> Self {
         let range = last_fifth(record);
         let rows = &record.rows[range.clone()];
-        let mut counts = StatusCounts::default();
-        let mut powers = ContactPowers::default();
-        let mut material_damping = 0.0;
+        let (mut counts, mut powers) = (StatusCounts::default(), ContactPowers::default());
         let share = 1.0 / rows.len() as f64;
         for row in rows {
             counts += row.counts;
             powers += row.powers.scaled(share);
-            material_damping += share * row.material_damping;
         }
+        let material_damping = rows.iter().map(|row| share * row.material_damping).sum();
         let mean = |n: usize| -> f64 {
             let amplitudes = range.clone().filter_map(|k| record.amplitude(k, n));
             amplitudes.map(|[re, im]| share * re.hypot(im)).sum()

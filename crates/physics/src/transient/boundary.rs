@@ -3,9 +3,6 @@
 use crate::fem::Triplets;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
 
-/// Rows that are summed side by side.
-const SIDE_BY_SIDE: usize = 4;
-
 /// What acts on a few nodes beside `K u` and `alpha_R M v + beta_R K v`, which the operator knows.
 ///
 /// ```text
@@ -62,20 +59,12 @@ impl BoundaryForces {
     /// Adds the forces of the coming step to the elastic accelerations; `share` of the pressure acts.
     pub fn apply(&mut self, fields: &mut MotionFields, share: f64) {
         let mut start = 0;
-        for group in self.rows.chunks_mut(SIDE_BY_SIDE) {
-            let mut own: [&[(usize, f64)]; SIDE_BY_SIDE] = [&[]; SIDE_BY_SIDE];
-            for (entries, row) in own.iter_mut().zip(&*group) {
-                *entries = &self.entries[start..row.end];
-                start = row.end;
-            }
-            let sums = sums_side_by_side(own, &fields.velocity);
-            for (row, sum) in group.iter_mut().zip(sums) {
-                row.damping = sum;
-                row.before = [fields.elastic[row.place], fields.velocity[row.place]];
-            }
-        }
-        for row in &self.rows {
+        for row in &mut self.rows {
+            let own = &self.entries[start..row.end];
+            row.damping = own.iter().map(|&(place, value)| value * fields.velocity[place]).sum();
+            row.before = [fields.elastic[row.place], fields.velocity[row.place]];
             fields.elastic[row.place] += (row.damping - share * row.force) / row.mass;
+            start = row.end;
         }
     }
 
@@ -90,48 +79,5 @@ impl BoundaryForces {
             pressure += share * row.force * mean;
         }
         [damping, pressure]
-    }
-}
-
-/// `sum_j a_ij x_j` of several rows `i` of entries `(j, a_ij)`, each summed in its own order: sums by themselves would wait for each of
-/// their additions.
-fn sums_side_by_side(rows: [&[(usize, f64)]; SIDE_BY_SIDE], x: &[f64]) -> [f64; SIDE_BY_SIDE] {
-    let common = rows.iter().map(|row| row.len()).min().unwrap_or(0);
-    let heads = rows.map(|row| &row[..common]);
-    let mut sums = [-0.0; SIDE_BY_SIDE];
-    for i in 0..common {
-        for (sum, head) in sums.iter_mut().zip(&heads) {
-            let (j, a) = head[i];
-            *sum += a * x[j];
-        }
-    }
-    for (sum, row) in sums.iter_mut().zip(rows) {
-        for &(j, a) in &row[common..] {
-            *sum += a * x[j];
-        }
-    }
-    sums
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Exact: rows side by side, of any lengths, have the sums that each has by itself, bit for bit.
-    #[test]
-    fn rows_side_by_side_have_their_own_sums() {
-        let x: Vec<f64> = (0..40).map(|i| f64::from(i).sin()).collect();
-        let row = |length: usize, step: usize| -> Vec<(usize, f64)> {
-            let entries = (0..length).map(|i| (i * step % 40, 0.1 + (i as f64).cos()));
-            entries.collect()
-        };
-        for lengths in [[0, 1, 2, 3], [17, 33, 21, 39], [5, 5, 5, 5]] {
-            let rows = lengths.map(|length| row(length, length + 1));
-            let sums = sums_side_by_side(rows.each_ref().map(Vec::as_slice), &x);
-            for (sum, row) in sums.iter().zip(&rows) {
-                let own: f64 = row.iter().map(|&(j, a)| a * x[j]).sum();
-                assert_eq!(sum.to_bits(), own.to_bits());
-            }
-        }
     }
 }

@@ -43,14 +43,12 @@ impl Sample<'_> {
 
     /// `u_n` over all dofs, m.
     pub fn displacement(&self) -> Vec<f64> {
-        let dofs = 0..self.run.operator().dof_count();
-        dofs.map(|dof| self.displacement_at(dof)).collect()
+        (0..self.run.operator().dof_count()).map(|dof| self.displacement_at(dof)).collect()
     }
 
     /// `v_n` over all dofs, m/s.
     pub fn velocity(&self) -> Vec<f64> {
-        let dofs = 0..self.run.operator().dof_count();
-        dofs.map(|dof| self.velocity_at(dof)).collect()
+        (0..self.run.operator().dof_count()).map(|dof| self.velocity_at(dof)).collect()
     }
 
     /// Tangential displacement of contact node `i`, m.

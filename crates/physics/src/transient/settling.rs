@@ -4,9 +4,10 @@ use super::StatusCounts;
 use super::recorder::{Recorder, SampleRow};
 use super::vibration::{
     TwoFrequencies, creeps, dies_out, last_fifth, main_vibration, quarters, rms, series,
+    without_multiples,
 };
 use crate::linalg::c64;
-use crate::signal::{round_off_floor, strongest_vibration};
+use crate::signal::{harmonic_growth, round_off_floor, strongest_vibration};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -30,6 +31,9 @@ const QUIET_BLOCKS: usize = 8;
 
 /// Growth of a harmonic from the first to the last quarter of the last fifth that is no accident.
 const GROWTH: f64 = 1.2;
+
+/// Deviation of the logarithm of an amplitude from a line, root mean square, over its change, up to which it grows at one rate.
+const STRAIGHT: f64 = 0.1;
 
 /// What a run ends in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,7 +134,7 @@ pub enum Unsettled {
     },
 }
 
-/// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no small vibration grows.
+/// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and nothing grows beside them.
 ///
 /// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies; of what dies out eight periods
 /// are looked at, or 32 before a run stops. A modulation that is longer than a fifth of the run is not seen, and neither is growth from
@@ -218,7 +222,7 @@ impl Settling {
             }
             (found, _) => found?,
         };
-        growing(record, fifth).map_or(Ok(()), Err)?;
+        growing(record, fifth, main).map_or(Ok(()), Err)?;
         let rows = &record.rows[fifth.clone()];
         let state = two.map_or_else(|| state(record, rows, main), EndState::TwoFrequency);
         let (from, drift) = (Some(record.rows[from].time), Some(drift));
@@ -299,15 +303,33 @@ fn too_short(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
     is_short.then(|| Unsettled::TooShort { duration: rounded_up(SPARE * needed / END) })
 }
 
-/// A harmonic above round-off that grows from quarter to quarter.
-fn growing(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
-    let floor = round_off_floor(record.largest_motion(fifth.clone()));
-    record.followed_harmonics().find_map(|harmonic| {
+/// A harmonic above round-off that grows from quarter to quarter, or in which something grows at one rate beside the main vibration, which
+/// repeats itself.
+fn growing(
+    record: &Recorder,
+    fifth: &Range<usize>,
+    main: Option<(usize, f64)>,
+) -> Option<Unsettled> {
+    let motion = record.largest_motion(fifth.clone());
+    let alone = record.followed_harmonics().find_map(|harmonic| {
         let sizes = quarters(record, fifth, harmonic);
         let is_rising = sizes.windows(2).all(|pair| pair[1] > pair[0]);
-        (is_rising && sizes[3] > GROWTH * sizes[0] && sizes[3] > floor).then_some(
-            Unsettled::Growing { harmonic: Some(harmonic), from: sizes[0], to: sizes[3] },
-        )
+        let [from, .., to] = sizes;
+        let grows = is_rising && to > GROWTH * from && to > round_off_floor(motion);
+        grows.then_some(Unsettled::Growing { harmonic: Some(harmonic), from, to })
+    });
+    alone.or_else(|| {
+        let (wave, frequency) = main?;
+        // A wave of several periods around the edge is the same after as many of its own.
+        let turns = frequency * record.sample_interval / wave.max(1) as f64;
+        record.followed_harmonics().find_map(|harmonic| {
+            let rest = without_multiples(series(record, fifth.clone(), harmonic)?, turns);
+            let stage = harmonic_growth(&rest, 1.0 / record.sample_interval, motion).ok()?;
+            let growth = stage.rate_per_s.value * fifth.len() as f64 * record.sample_interval;
+            let [from, to] = [-0.5, 0.5].map(|half| rms(&rest) * (half * growth).exp());
+            let grows = growth > GROWTH.ln() && stage.deviation < STRAIGHT * growth;
+            grows.then_some(Unsettled::Growing { harmonic: Some(harmonic), from, to })
+        })
     })
 }
 

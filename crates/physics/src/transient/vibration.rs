@@ -4,6 +4,7 @@ use super::Recorder;
 use crate::linalg::c64;
 use crate::order::range as range_of;
 use crate::signal::{RotatingLine, centred, rotating_lines, strongest_vibration};
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// Fewest samples that a vibration is read from.
@@ -25,6 +26,10 @@ pub const WEAKEST_LINE: f64 = 0.02;
 
 /// Periods after which a periodic motion repeats itself at the latest: subharmonics of that order are of one frequency.
 const LONGEST_REPETITION: usize = 3;
+
+/// Multiples of a frequency that a periodic motion is taken to have, and sweeps over them.
+const MULTIPLES: f64 = 12.0;
+const SWEEPS: usize = 3;
 
 /// Distance of two frequencies that are one and the same, in lines of the spectrum and relative.
 const LINES_APART: f64 = 0.3;
@@ -86,6 +91,20 @@ pub(super) fn quarters(record: &Recorder, stretch: &Range<usize>, harmonic: usiz
         let start = stretch.start + k * quarter;
         rms(&series(record, start..start + quarter, harmonic).unwrap_or_default())
     })
+}
+
+/// A series without what repeats itself with a frequency (periods a sample). Waves of its multiples, which are nearly orthogonal over many
+/// periods, are taken out one by one.
+pub(super) fn without_multiples(mut series: Vec<c64>, frequency: f64) -> Vec<c64> {
+    let count = (0.5 / frequency.abs()).min(MULTIPLES) as i32;
+    let share = 1.0 / series.len() as f64;
+    for multiple in (0..SWEEPS).flat_map(|_| -count..=count) {
+        let turn = c64::from_polar(1.0, TAU * f64::from(multiple) * frequency);
+        let wave = || std::iter::successors(Some(c64::new(1.0, 0.0)), |last| Some(last * turn));
+        let sum: c64 = series.iter().zip(wave()).map(|(value, own)| value * own.conj()).sum();
+        series.iter_mut().zip(wave()).for_each(|(value, own)| *value -= own * sum * share);
+    }
+    series
 }
 
 /// Whether the strongest vibration is below a `share` of the deformation and falls off as a mode does that decays.

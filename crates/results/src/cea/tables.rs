@@ -269,7 +269,7 @@ fn mesh_errors(report: &CeaReport<'_>) -> Option<String> {
         100.0 * share,
     );
     if share > COARSE {
-        return Some(text + ": too coarse for more than an order of magnitude of it.");
+        return Some(text + ": the mesh is so coarse that this is an order of magnitude.");
     }
     let mut intervals = report.solution.sweep.intervals.iter();
     let first = intervals.find_map(|own| Some((own.critical_friction, own.mesh_error?)));

@@ -27,8 +27,8 @@ const LOSSLESS: &str = "(lambda^2 M + lambda C + K) x = 0,";
 /// The same with structural damping.
 const LOSSY: &str = "(lambda^2 M + lambda C + K + i H) x = 0 where Im lambda > 0,";
 /// What each matrix is.
-const SUMS: &str = "each the sum over its entries in matrices of (mu - \
-friction_coefficient)^friction_power times the file";
+const SUMS: &str = "each a sum over its entries in `matrices`: the file times (mu - \
+friction_coefficient)^friction_power";
 
 /// One exported matrix.
 #[derive(Clone, Debug, PartialEq)]

@@ -193,6 +193,7 @@ impl ChannelSummary {
         if let Some(mode) = &self.mode {
             let rate = mode.growth_rate_per_s;
             let verb = if rate > 0.0 { "grows" } else { "decays" };
+            let rate = rate.abs();
             return Some(format!(
                 "vibrates in {}, which {verb} at {rate:.2} 1/s in the eigenvalue analysis",
                 mode.described()
@@ -205,10 +206,10 @@ impl ChannelSummary {
                 near.mode.described(),
                 100.0 * near.distance
             ),
-            None => "the case has none in this range".to_owned(),
+            None => "none in this range is".to_owned(),
         };
         Some(format!(
-            "no mode that is unstable at a friction coefficient of {friction} within {percent} %: {nearest}"
+            "no mode within {percent} % is unstable at a friction coefficient of {friction}: {nearest}"
         ))
     }
 

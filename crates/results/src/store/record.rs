@@ -72,7 +72,8 @@ fn inflated<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
 /// [`FolderError::Unusable`] if it is missing, damaged or of another version; those of the file system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
     let bytes = read_existing(&folder.join(T::FILE))?;
-    let missing = || FolderError::unusable(folder, format!("has no {}: run it again", T::FILE));
+    let why = || format!("has no {}: run it again without --no-figures", T::FILE);
+    let missing = || FolderError::unusable(folder, why());
     let bytes = bytes.ok_or_else(missing)?;
     inflated(&bytes).map_err(|defect| {
         let (file, wanted) = (T::FILE, T::VERSION);

@@ -13,7 +13,7 @@ const PROMINENCE: f64 = 0.1;
 const NOISE_PROMINENCE: f64 = 8.0;
 /// ... but no more than this, neper (6 dB): coarse lines look like noise.
 const ENOUGH_PROMINENCE: f64 = 0.7;
-/// Least height of a resonance over the noise that does not depend on the response; chance reaches it once in e^18 lines.
+/// Least height of a resonance over noise that does not depend on the response; chance reaches it once in e^18 lines.
 const NOISE_FLOOR: f64 = 6.0;
 
 /// Why a half-power damping factor is missing or doubtful.

@@ -107,7 +107,7 @@ fn selected<T: Clone>(
         let named = all.iter().find(|one| name(one) == wanted);
         named.or_else(|| all.get(number?)).cloned().ok_or_else(|| {
             let found = text::first_of(all.iter().map(name));
-            ReadError::whole(source, format!("--channel {wanted}: the file has {found}"))
+            ReadError::whole(source, format!("there is no channel {wanted}: the file has {found}"))
         })
     };
     wanted.iter().map(one).collect()

@@ -131,8 +131,8 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
         _ => "damping.mass_coefficient and damping.stiffness_coefficient set it",
     };
     Some(format!(
-        "a mode is damped by a factor of {factor:.2}: motions beyond critical damping (1) do not oscillate and are \
-         not listed; {cause}"
+        "one mode has a damping factor of {factor:.2}. Motions beyond critical damping (1) do not oscillate and are \
+         not listed: {cause}"
     ))
 }
 
@@ -158,8 +158,8 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let which = ["mode near critical damping is", "modes near critical damping are"];
     let damped = listed(damped, which).map(|(which, places)| {
         format!(
-            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot of mu p / V there. It \
-             grows as the sliding slows down, and holds that motion in the limit"
+            "{which} not followed beyond it ({places}). Friction across the sliding acts there as a dashpot mu p / V, \
+             which grows without bound as the sliding slows down"
         )
     });
     let lost = listed(lost, ["branch changes", "branches change"]).map(|(which, places)| {
@@ -180,7 +180,7 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let beyond = sweep.beyond().map(|(friction, mode)| {
         format!(
             "an unstable mode lies above those listed: {:.0} Hz at friction {friction}, growing at \
-             {:.2} 1/s; more cea.modes, or a higher cea.max_frequency_hz, list it",
+             {:.2} 1/s. Raise cea.modes or cea.max_frequency_hz to list it",
             mode.frequency_hz(),
             mode.growth_rate(),
         )
@@ -308,14 +308,14 @@ pub(super) fn coverage_note(coverage: &Coverage) -> String {
 
 fn proof_note(coverage: &Coverage) -> String {
     let mut note = format!(
-        "harmonics 0 to {}: {} hold modes and were followed from {:.0} Hz downwards",
+        "harmonics 0 to {}: {} have modes and were followed from {:.0} Hz down",
         coverage.largest_harmonic,
         number_ranges(&coverage.followed),
         coverage.margin_hz,
     );
     for (harmonics, why) in [
-        (&coverage.proven_empty, "are proven to hold none"),
-        (&coverage.counted_empty, "hold none by count at quarters of the friction range"),
+        (&coverage.proven_empty, "are proven to have none"),
+        (&coverage.counted_empty, "have none by count at quarters of the friction range"),
     ] {
         if !harmonics.is_empty() {
             note += &format!("; {} {why}", number_ranges(harmonics));

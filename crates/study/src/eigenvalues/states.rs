@@ -193,8 +193,8 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
     let listed = |all: Vec<String>, by: &str| (!all.is_empty()).then(|| all.join(by));
     let opening = listed(places.collect(), ", ").map(|places| {
         format!(
-            "contact points open or close at friction coefficients {places}: the tangent changes \
-             there, and branches are matched across by their eigenvalues"
+            "contact points open or close at friction coefficients {places}: the stiffness jumps \
+             there, and branches are continued by the nearest eigenvalue"
         )
     });
     let jumps = jumps(parts).map(|mu| format!("{mu:.6}"));
@@ -207,8 +207,8 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
     let gaps = gaps.map(|gap| format!("{} and {}", gap.start, gap.end));
     let unknown = listed(gaps.collect(), ", between ").map(|gaps| {
         format!(
-            "a mode changes its stability between friction {gaps}, where contact points open or close and the states \
-             between could not be solved. Its critical friction is only known to lie there"
+            "between friction {gaps} contact points open or close, and no state could be solved. A mode changes its \
+             stability there; its critical friction is known no more closely"
         )
     });
     let coarse = (range.left_out > COARSE).then(|| {

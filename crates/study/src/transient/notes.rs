@@ -134,7 +134,7 @@ fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) 
     let error = (high - low) * frequency * time_step;
     (error > STEP_ERROR).then(|| {
         format!(
-            "the contact nodes stick and slip together, and the time step makes the period shorter \
+            "the contact nodes stick and slip all at once, so the time step shortens the period \
              by up to {:.2} %. A smaller transient.time_step is more accurate",
             100.0 * error
         )

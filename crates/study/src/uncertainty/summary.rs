@@ -206,7 +206,7 @@ fn beyond_note(families: &[FamilySummary]) -> Option<String> {
     let beyond = families.iter().filter(|family| family.beyond_limit > 0.0);
     let worst = beyond.max_by(|a, b| a.beyond_limit.total_cmp(&b.beyond_limit))?;
     Some(format!(
-        "{} lies beyond the modes that [cea] asks for in {:.4} of the samples and counts as stable \
+        "{} lies above the modes that [cea] lists in {:.4} of the samples and counts as stable \
          there. Raise cea.max_frequency_hz (or cea.modes) to follow it in all of them",
         worst.name(),
         worst.beyond_limit

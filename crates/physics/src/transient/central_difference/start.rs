@@ -23,7 +23,7 @@ impl<'a> CentralDifference<'a> {
             InitialState::Rest => still.clone(),
             InitialState::SteadySliding => model.sliding_displacement()?,
             InitialState::LimitCycle { harmonic, .. } => {
-                return Err(TransientError::FieldsMissing(harmonic));
+                Err(TransientError::FieldsMissing(harmonic))?
             }
         };
         Self::start_from(model, operator, settings, &displacement, still)
@@ -83,10 +83,8 @@ impl<'a> CentralDifference<'a> {
     /// who step many short runs of one body.
     pub fn restart(&mut self, time_step: f64, place: impl FnOnce(&mut MotionFields)) {
         debug_assert!(time_step > 0.0 && time_step <= self.plan.limit);
-        self.plan.time_step = time_step;
-        self.coefficients.time_step = time_step;
-        self.kick = None;
-        self.next_step = 0;
+        (self.plan.time_step, self.coefficients.time_step) = (time_step, time_step);
+        (self.kick, self.next_step) = (None, 0);
         place(&mut self.fields);
         self.take_sums();
         self.open_account();

@@ -120,9 +120,6 @@ impl Recorder {
 
 /// Whether a run is asked at a sample whether it has settled: a sequence that depends on nothing but the index.
 fn is_question(index: u64) -> bool {
-    let mut next = FIRST_QUESTION;
-    while next < index {
-        next = (next as f64 * NEXT_QUESTION).ceil() as u64;
-    }
-    next == index
+    let next = |last: &u64| Some((*last as f64 * NEXT_QUESTION).ceil() as u64);
+    std::iter::successors(Some(FIRST_QUESTION), next).find(|own| *own >= index) == Some(index)
 }
