@@ -47,17 +47,14 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
             }
         }
     }
-    if asked.json {
-        terminal::print_json(&json!({ "command": "check", "cases": reports }))?;
-    } else {
-        terminal::print(&text)?;
+    match asked.json {
+        true => terminal::print_json(&json!({ "command": "check", "cases": reports }))?,
+        false => terminal::print(&text)?,
     }
+    let all = plural(asked.cases.len(), ["case", "cases"]);
     match bad {
         0 => Ok(()),
-        _ => Err(Failure::usage(format!(
-            "{bad} of {} cannot run",
-            plural(asked.cases.len(), ["case", "cases"])
-        ))),
+        _ => Err(Failure::usage(format!("{bad} of {all} cannot run"))),
     }
 }
 

@@ -71,12 +71,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let found = identify(&responses, Some(range))
         .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
     let folder = measurement.open_folder()?;
-    let summary = IdentificationSummary::new(
-        &measurement.source,
-        &file.responses,
-        &found,
-        file.notes.clone(),
-    );
+    let (source, notes) = (&measurement.source, file.notes.clone());
+    let summary = IdentificationSummary::new(source, &file.responses, &found, notes);
     write_fits(&folder, &file.responses, &found.fit)?;
     let block = summary.damping_block();
     folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
@@ -85,12 +81,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         copy.write(text.as_bytes())?;
     }
     let figures = || vec![identification(&responses[0], &found)];
-    asked.output.finish_result(
-        folder,
-        Told::of(measurement.head(), document(&summary)),
-        &summary,
-        figures,
-    )
+    let told = Told::of(measurement.head(), document(&summary));
+    asked.output.finish_result(folder, told, &summary, figures)
 }
 
 /// The frequency range, checked.

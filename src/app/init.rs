@@ -70,10 +70,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
         _ => format!("{name}.toml"),
     };
-    let text = match &case {
-        Some(case) => case.named(&shown),
-        None => reference::template(),
-    };
+    let text = case.as_ref().map_or_else(reference::template, |case| case.named(&shown));
     if is_stdout {
         return terminal::print(&text);
     }
@@ -171,12 +168,7 @@ fn write(path: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
     let mut options = std::fs::OpenOptions::new();
-    options.write(true);
-    if force {
-        options.create(true).truncate(true);
-    } else {
-        options.create_new(true);
-    }
+    options.write(true).create(force).truncate(force).create_new(!force);
     let result = options.open(path).and_then(|mut file| file.write_all(bytes));
     result.map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => exists(path),

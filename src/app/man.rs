@@ -102,8 +102,7 @@ fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
     section(&mut text, "EXIT STATUS", &EXIT_STATUS);
     let runs_a_case = command.get_arguments().any(|arg| arg.get_id() == "set");
     if command.get_subcommands().next().is_some() || runs_a_case {
-        text.push_str(".SH \"SEE ALSO\"\n");
-        text.push_str("frictionsim\\-case(5): the keys of a case file\n");
+        text.push_str(".SH \"SEE ALSO\"\nfrictionsim\\-case(5): the keys of a case file\n");
     }
     out.extend_from_slice(text.as_bytes());
     if command.get_version().is_some() {

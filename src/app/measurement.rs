@@ -85,16 +85,13 @@ impl<'a> SideFile<'a> {
     ) -> Result<Option<Self>, Failure> {
         let Some(path) = path else { return Ok(None) };
         let shown = path.display();
+        let refused = |why| Err(Failure::usage(format!("{option} {shown}: {why}")));
         let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
         if same(path, measurement) == Some(true) {
-            return Err(Failure::usage(format!(
-                "{option} {shown}: this is the measurement itself; name another file"
-            )));
+            return refused("this is the measurement itself; name another file");
         }
         if path.symlink_metadata().is_ok() && !force {
-            return Err(Failure::usage(format!(
-                "{option} {shown}: the file exists; name another one, or replace it with --force"
-            )));
+            return refused("the file exists; name another one, or replace it with --force");
         }
         Ok(Some(Self { path, force }))
     }

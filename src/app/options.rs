@@ -189,12 +189,10 @@ impl OutputOptions {
 
     /// Prints the summary as JSON, or the table for people and where the files are.
     pub fn print(&self, table: &str, summary: &Value, folder: &Path) -> Result<(), Failure> {
-        if self.json {
-            terminal::print_json(summary)
-        } else if self.quiet < 2 {
-            terminal::print(&format!("{table}results in {}\n", folder.display()))
-        } else {
-            Ok(())
+        match self.quiet {
+            _ if self.json => terminal::print_json(summary),
+            0 | 1 => terminal::print(&format!("{table}results in {}\n", folder.display())),
+            _ => Ok(()),
         }
     }
 

@@ -148,10 +148,8 @@ pub fn start_threads(asked: Option<u16>) -> usize {
         // The threads of an embedded run are its own.
         return rayon::current_num_threads();
     }
-    let mut builder = rayon::ThreadPoolBuilder::new();
-    if let Some(count) = asked {
-        builder = builder.num_threads(usize::from(count));
-    }
+    // None are as many as there are cores.
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(asked.map_or(0, usize::from));
     // The pool can be built once; a second session of the same process keeps the first one's.
     let _ = builder.build_global();
     rayon::current_num_threads()

@@ -190,17 +190,14 @@ pub fn progress_in(quiet: bool, length: u64, template: &str) -> ProgressBar {
             let _ = out.write_str(&track(state.pos(), state.len()));
         };
         let count = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-            let _ = match state.len() {
-                Some(length) if length > 1 => write!(out, "{}/{length}", state.pos()),
-                _ => Ok(()),
-            };
+            if let Some(length) = state.len().filter(|length| *length > 1) {
+                let _ = write!(out, "{}/{length}", state.pos());
+            }
         };
         let left = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-            let is_known = state.pos() > 0 && state.len().is_some_and(|length| length > 0);
-            let _ = match is_known {
-                true => write!(out, ", {} left", HumanDuration(state.eta())),
-                false => Ok(()),
-            };
+            if state.pos() > 0 && state.len().is_some_and(|length| length > 0) {
+                let _ = write!(out, ", {} left", HumanDuration(state.eta()));
+            }
         };
         bar.set_style(
             style.with_key("track", shown).with_key("count", count).with_key("left", left),

@@ -51,10 +51,7 @@ fn resume<'b>(
             settings.duration,
         )));
     }
-    let record = match saved.record {
-        Some(record) => record,
-        None => read_record(folder)?,
-    };
+    let record = saved.record.map_or_else(|| read_record(folder), Ok)?;
     let record = study.told(record.resume(&run, &study.case.output.recorder))?;
     Ok((run, record))
 }

@@ -49,10 +49,8 @@ pub(super) fn not_finite(what: &str, place: usize, value: f64) -> SignalError {
 
 /// Checks that every sample is finite.
 pub(super) fn check_finite(what: &'static str, samples: &[f64]) -> Result<(), SignalError> {
-    match samples.iter().position(|v| !v.is_finite()) {
-        Some(i) => Err(not_finite(what, i, samples[i])),
-        None => Ok(()),
-    }
+    let place = samples.iter().position(|v| !v.is_finite());
+    place.map_or(Ok(()), |i| Err(not_finite(what, i, samples[i])))
 }
 
 /// A number that must be positive and finite and is not; the remedy begins with punctuation, or is nothing.

@@ -1,7 +1,7 @@
 //! Measured and computed signals: spectra, spectrograms, growth rates, modal damping.
 //!
-//! Two roads lead through this module. A *time signal* becomes a spectrum ([`amplitude_spectrum`],
-//! [`averaged_spectrum`]), a [`spectrogram`], spectral lines with their superharmonics ([`spectral_lines`]) and the
+//! Two roads lead through this module. A *time signal* becomes a spectrum
+//! ([`averaged_spectrum`]), a [`spectrogram`], spectral lines with their superharmonics ([`spectral_lines`]) and the
 //! rate of its exponential stage ([`exponential_stage`], [`harmonic_growth`]). A *frequency response* becomes modal
 //! frequencies and damping factors ([`half_power`], [`fit_modes`]). They give the two Rayleigh coefficients of `zeta =
 //! (alpha_R / omega + beta_R omega) / 2` ([`fit_rayleigh`]). [`identify`] does all of it.
@@ -37,7 +37,7 @@ pub use modal::{
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use rotating::{RotatingLine, rotating_lines};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
-pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum, centred, top_of};
+pub use spectrum::{AmplitudeSpectrum, averaged_spectrum, centred, top_of};
 pub use statistics::student_95;
 pub use transform::{Fft, forward_transform, inverse_transform};
 pub use window::Window;

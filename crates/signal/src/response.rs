@@ -132,11 +132,6 @@ impl FrequencyResponse {
         &self.variance_factors
     }
 
-    fn with_variance_factors(mut self, factors: &[f64]) -> Self {
-        self.variance_factors.copy_from_slice(factors);
-        self
-    }
-
     /// Frequencies, Hz, rising.
     pub fn frequencies_hz(&self) -> &[f64] {
         &self.frequencies_hz
@@ -183,7 +178,7 @@ impl FrequencyResponse {
         let pairs = frequencies_hz.iter().zip(&self.values[skip..]);
         let values = pairs.map(|(f, z)| z * factor(f)).collect();
         let converted = Self::measured(frequencies_hz, values, quantity, self.has_phase)?;
-        Ok(converted.with_variance_factors(&self.variance_factors[skip..]))
+        Ok(Self { variance_factors: self.variance_factors[skip..].to_vec(), ..converted })
     }
 
     /// The lines between two frequencies, both included, Hz.
@@ -196,6 +191,6 @@ impl FrequencyResponse {
         let frequencies_hz = self.frequencies_hz[first..last].to_vec();
         let values = self.values[first..last].to_vec();
         let part = Self::measured(frequencies_hz, values, self.quantity, self.has_phase)?;
-        Ok(part.with_variance_factors(&self.variance_factors[first..last]))
+        Ok(Self { variance_factors: self.variance_factors[first..last].to_vec(), ..part })
     }
 }

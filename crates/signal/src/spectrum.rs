@@ -18,27 +18,12 @@ pub struct AmplitudeSpectrum {
     pub averages: usize,
 }
 
-/// Amplitude spectrum of the whole signal, mean removed.
+/// Amplitude spectrum by Welch's method: root mean square over blocks of `block` samples, half overlapping.
 ///
-/// `A_k = 2 |sum_j w_j (x_j - mean) e^{-2 pi i j k / N}| / sum_j w_j`; the block is zero-padded to
-/// `padding >= 1` times its length. Does not detrend: a drift leaks into the lowest lines.
-///
-/// # Errors
-/// [`SignalError`] for fewer than 4 samples, a sample that is not finite, or a rate not positive.
-pub fn amplitude_spectrum(
-    samples: &[f64],
-    sampling_rate: f64,
-    window: Window,
-    padding: usize,
-) -> Result<AmplitudeSpectrum, SignalError> {
-    averaged_spectrum(samples, sampling_rate, window, samples.len(), padding)
-}
-
-/// Amplitude spectrum by Welch's method: root mean square over blocks of `block` samples, half
-/// overlapping, each as in [`amplitude_spectrum`].
-///
-/// The mean of the whole signal is removed first; a tail shorter than half a block is not used. Noise reads `sqrt(4 S /
-/// (T s))` for a density `S`, with `T` the length of a block and `s` about 1: longer blocks lower it beside a line.
+/// `A_k = 2 |sum_j w_j (x_j - mean) e^{-2 pi i j k / N}| / sum_j w_j` of a block padded with zeros to `padding >= 1`
+/// times its length. The mean is that of the whole signal: a drift leaks into the lowest lines. A tail shorter than
+/// half a block is not used. Noise reads `sqrt(4 S / (T s))` for a density `S`, with `T` the length of a block and `s`
+/// about 1: longer blocks lower it beside a line.
 ///
 /// # Errors
 /// [`SignalError`] for a signal shorter than one block, a block under 4 samples, a sample that is not
@@ -188,9 +173,9 @@ mod tests {
 
     #[test]
     fn signals_that_are_short_or_not_finite_are_refused() {
-        assert!(amplitude_spectrum(&[1.0; 3], 1.0, Window::Hann, 1).is_err());
-        assert!(amplitude_spectrum(&[1.0, f64::NAN, 1.0, 1.0], 1.0, Window::Hann, 1).is_err());
-        assert!(amplitude_spectrum(&[1.0; 8], 0.0, Window::Hann, 1).is_err());
+        assert!(averaged_spectrum(&[1.0; 3], 1.0, Window::Hann, 3, 1).is_err());
+        assert!(averaged_spectrum(&[1.0, f64::NAN, 1.0, 1.0], 1.0, Window::Hann, 4, 1).is_err());
+        assert!(averaged_spectrum(&[1.0; 8], 0.0, Window::Hann, 8, 1).is_err());
         assert!(averaged_spectrum(&[1.0; 8], 1.0, Window::Hann, 9, 1).is_err());
     }
 }

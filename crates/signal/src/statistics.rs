@@ -41,10 +41,11 @@ pub(super) fn median(values: &[f64]) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let half = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[half] } else { 0.5 * (sorted[half - 1] + sorted[half]) }
+    let mut parted = values.to_vec();
+    let half = parted.len() / 2;
+    let (below, upper, _) = parted.select_nth_unstable_by(half, f64::total_cmp);
+    let lower = below.iter().copied().max_by(f64::total_cmp);
+    if values.len() % 2 == 1 { *upper } else { 0.5 * (lower.unwrap_or(*upper) + *upper) }
 }
 
 #[cfg(test)]

@@ -199,11 +199,12 @@ fn multiples(spectrum: &AmplitudeSpectrum, highest_hz: f64, main_hz: Option<f64>
 mod tests {
     use super::*;
     use frictionsim_chart::Figure;
-    use frictionsim_signal::{Window, amplitude_spectrum};
+    use frictionsim_signal::{Window, averaged_spectrum};
 
     /// Main frequency that a drawn spectrum names, kHz.
     fn named(samples: &[f64], rate: f64, main_hz: Option<f64>) -> f64 {
-        let spectrum = amplitude_spectrum(samples, rate, Window::Hann, 2).unwrap();
+        let count = samples.len();
+        let spectrum = averaged_spectrum(samples, rate, Window::Hann, count, 2).unwrap();
         let panel = spectrum_panel(&[("signal", &spectrum)], "", (3e4, main_hz), &[]);
         let svg = Figure::new("spectrum", "Spectrum.").panel(panel).to_svg(None).unwrap();
         svg.split(" = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap()

@@ -7,7 +7,7 @@ use crate::charts::{
 };
 use crate::prelude::*;
 use frictionsim_chart::{prefixed, significant};
-use frictionsim_signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
+use frictionsim_signal::{SpectrogramOptions, Window, averaged_spectrum, spectrogram};
 
 /// Decades of amplitudes below the largest that show growth.
 const GROWTH_DECADES: f64 = 7.0;
@@ -107,8 +107,8 @@ impl RecordedRun<'_> {
             let signal = self.component(probe, component);
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
             let rate = 1.0 / self.interval().max(1e-12);
-            let spectrum = amplitude_spectrum(end, rate, Window::Hann, 2).unwrap_or_default();
-            (format!("{} acceleration", self.directions()[component][0]), spectrum)
+            let own = averaged_spectrum(end, rate, Window::Hann, end.len(), 2).unwrap_or_default();
+            (format!("{} acceleration", self.directions()[component][0]), own)
         };
         let axial = self.solved.record.axial_rows.get(probe).map(|_| 2);
         let spectra: Vec<_> = [1, 0].into_iter().chain(axial).map(spectrum_of).collect();

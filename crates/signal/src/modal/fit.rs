@@ -153,8 +153,7 @@ fn extended(
         let terms = best.model.shares[0].remainder.len();
         let unknowns = (2 + 2 * responses) * poles.len() + responses * terms;
         let room = |more: usize| unknowns + more < count / 2;
-        let mut gain = 0.0;
-        let mut next = None;
+        let (mut gain, mut next) = (0.0, None);
         if terms + 2 <= MOST_REMAINDER
             && room(2 * responses)
             && let Ok(trial) = problem.fit(&poles, terms + 2)
@@ -162,8 +161,7 @@ fn extended(
             let gained = best.chi_square - trial.chi_square - 4.0 * responses as f64;
             // The variance unit is only an estimate, hence the share of the misfit.
             if gained > 1e-6 * best.chi_square {
-                gain = gained;
-                next = Some(trial);
+                (gain, next) = (gained, Some(trial));
             }
         }
         let more_unknowns = 2 + 2 * responses;
@@ -181,10 +179,8 @@ fn extended(
                 }
             }
         }
-        match next {
-            Some(trial) => best = trial,
-            None => break,
-        }
+        let Some(trial) = next else { break };
+        best = trial;
     }
     Ok(best)
 }
@@ -208,8 +204,7 @@ fn candidate(problem: &Problem, fitted: &Fitted, (begin, end): (f64, f64)) -> Op
     let residuals = problem.weighted_residuals(model);
     let dampings: Vec<f64> = model.poles.iter().map(|p| p.damping_factor).collect();
     let typical = median(&dampings).clamp(1e-4, 0.1);
-    let mut best = None;
-    let mut best_gain = 0.0;
+    let (mut best, mut best_gain) = (None, 0.0);
     for share in [0.5, 1.0, 2.0] {
         let damping_factor = share * typical;
         let step = 1.0 + (2.0 * damping_factor).max(0.002);
@@ -218,8 +213,7 @@ fn candidate(problem: &Problem, fitted: &Fitted, (begin, end): (f64, f64)) -> Op
             let pole = Pole { frequency_hz, damping_factor };
             let gain = problem.projection(&residuals, pole, REACH);
             if gain > best_gain {
-                best_gain = gain;
-                best = Some(pole);
+                (best, best_gain) = (Some(pole), gain);
             }
             frequency_hz *= step;
         }

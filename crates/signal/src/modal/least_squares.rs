@@ -120,9 +120,8 @@ impl<'a> Problem<'a> {
             }
             // A hundredth of chi-square is a tenth of a standard deviation, and the next step of a
             // method that converges this fast would gain far less.
-            match gained {
-                Some(gain) if gain > 1e-2 + 1e-12 * chi_square => {}
-                _ => break,
+            if !gained.is_some_and(|gain| gain > 1e-2 + 1e-12 * chi_square) {
+                break;
             }
         }
         Ok(Fitted { model, chi_square, inverse_normal: inverse(&equations.0)? })
@@ -209,12 +208,10 @@ impl Weighted<'_> {
 
     /// Residual of each line, data less model, not weighted; real where the phase is unknown.
     fn residuals(&self, values: &[c64]) -> Vec<c64> {
-        let data = self.response.values();
-        let pairs = data.iter().zip(values);
-        if self.response.has_phase() {
-            pairs.map(|(d, m)| d - m).collect()
-        } else {
-            pairs.map(|(d, m)| c64::new(d.re - m.norm(), 0.0)).collect()
+        let pairs = self.response.values().iter().zip(values);
+        match self.response.has_phase() {
+            true => pairs.map(|(d, m)| d - m).collect(),
+            false => pairs.map(|(d, m)| c64::new(d.re - m.norm(), 0.0)).collect(),
         }
     }
 

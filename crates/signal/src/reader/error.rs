@@ -19,14 +19,9 @@ pub struct ReadError {
 
 impl Display for ReadError {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "{}", self.source_name)?;
-        if let Some(line) = self.line {
-            write!(out, ":{line}")?;
-            if let Some(column) = self.column {
-                write!(out, ":{column}")?;
-            }
-        }
-        write!(out, ": {}", self.problem)
+        let place = |own: Option<usize>| own.map_or(String::new(), |own| format!(":{own}"));
+        let [line, column] = [self.line, self.column].map(place);
+        write!(out, "{}{line}{column}: {}", self.source_name, self.problem)
     }
 }
 

@@ -48,8 +48,7 @@ fn complex(field: &str) -> Option<(f64, f64)> {
     let plain: String = field
         .chars()
         .filter(|c| !c.is_whitespace() && !matches!(c, '(' | ')' | '*'))
-        .map(|c| if c == 'J' || c == 'I' { 'j' } else { c })
-        .map(|c| if c == 'i' { 'j' } else { c })
+        .map(|c| if matches!(c, 'J' | 'I' | 'i') { 'j' } else { c })
         .collect();
     if plain.matches('j').count() != 1 {
         return None;

@@ -99,10 +99,9 @@ impl<'a> Elements<'a> {
         let word = |at: usize| Some(whole(self.rest.get(at..at + 4)?, self.is_big) as u32);
         let first = word(0)?;
         // Up to four bytes stand within the tag.
-        let (kind, from, length): (u32, usize, usize) = if first >> 16 != 0 {
-            (first & 0xffff, 4, (first >> 16) as usize)
-        } else {
-            (first, 8, word(4)? as usize)
+        let (kind, from, length): (u32, usize, usize) = match first >> 16 {
+            0 => (first, 8, word(4)? as usize),
+            length => (first & 0xffff, 4, length as usize),
         };
         let end = from.checked_add(length)?;
         let data = self.rest.get(from..end)?;

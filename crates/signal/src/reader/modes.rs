@@ -103,9 +103,8 @@ fn mode(row: &Row<'_>, places: &[Option<usize>; 8]) -> Result<MeasuredMode, Read
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let plausible = |value: f64| (LOWEST_HZ..=HIGHEST_HZ).contains(&value);
     let hertz = cell(0, plausible)?;
-    let kilohertz = cell(1, plausible)?;
-    let frequency_hz = hertz.or(kilohertz.map(|value| 1e3 * value));
-    let frequency_hz = frequency_hz.ok_or_else(|| row.missing("frequency_hz"))?;
+    let kilohertz = cell(1, plausible)?.map(|value| 1e3 * value);
+    let frequency_hz = hertz.or(kilohertz).ok_or_else(|| row.missing("frequency_hz"))?;
     let percent = cell(7, |zeta| zeta.abs() < 100.0)?;
     let damping = cell(3, |zeta| zeta.abs() < 1.0)?.or(percent.map(|value| value / 100.0));
     let damped = damping.map(|zeta| -zeta * frequency_hz / (1.0 - zeta * zeta).sqrt());

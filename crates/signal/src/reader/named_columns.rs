@@ -40,13 +40,10 @@ impl<const N: usize> Kind<N> {
             };
         }
         for (place, (wanted, begins)) in places.iter_mut().zip(&self.columns) {
-            let is_it = |name: &String| {
-                let short = |begin: &&str| match begin.len() {
-                    1 => name == *begin,
-                    _ => name.starts_with(*begin),
-                };
-                begins.iter().any(short)
+            let fits = |name: &str, begin: &str| {
+                name == begin || (begin.len() > 1 && name.starts_with(begin))
             };
+            let is_it = |name: &String| begins.iter().any(|begin| fits(name, begin));
             let found = table.names.iter().position(is_it);
             *place = found.ok_or_else(|| table.missing(wanted, self.header))?;
         }

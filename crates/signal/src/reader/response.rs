@@ -47,27 +47,18 @@ pub fn read_response(
         other => from_table(&other.table(bytes, source, &options.columns)?, options)?,
     };
     file.responses = selected(file.responses, |one| &one.name, &options.channels, source)?;
-    file.conjugate_where_needed();
-    Ok(file)
-}
-
-impl ResponseFile {
-    /// Turns responses of the convention `exp(-i omega t)` into the other.
-    fn conjugate_where_needed(&mut self) {
-        let mut turned = Vec::new();
-        for named in &mut self.responses {
-            if named.response.turns_backwards() {
-                named.response.conjugate();
-                turned.push(named.name.clone());
-            }
-        }
-        if !turned.is_empty() {
-            self.notes.push(format!(
-                "the phase rises through the resonances, as under exp(-i omega t): conjugated ({})",
-                first_of(&turned)
-            ));
-        }
+    let mut turned = Vec::new();
+    for named in file.responses.iter_mut().filter(|named| named.response.turns_backwards()) {
+        named.response.conjugate();
+        turned.push(named.name.clone());
     }
+    if !turned.is_empty() {
+        file.notes.push(format!(
+            "the phase rises through the resonances, as under exp(-i omega t): conjugated ({})",
+            first_of(&turned)
+        ));
+    }
+    Ok(file)
 }
 
 fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, ReadError> {
@@ -80,7 +71,13 @@ fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, 
     let values: Vec<Vec<c64>> = values.collect::<Result<_, _>>()?;
     let rows = ordered(table, frequency, factor, &values, &mut notes)?;
     let frequencies: Vec<f64> = rows.iter().map(|row| row.0).collect();
-    doubt_unit(&frequencies, states_unit, &mut notes);
+    let highest = frequencies.last().copied().unwrap_or(0.0);
+    if !states_unit && highest < 50.0 {
+        notes.push(format!(
+            "frequencies up to {highest} without a unit are taken as Hz; if they are kHz, name the column \
+             `frequency_khz` (or --columns f_khz,...)"
+        ));
+    }
     let coherences: Vec<usize> =
         (0..table.names.len()).filter(|k| part(&table.names[*k]) == Part::Coherence).collect();
     let said = "lines whose coherence is below the median count less in the fit, by (1 - c) / c";
@@ -115,17 +112,6 @@ fn frequency_column(table: &Table) -> Result<(usize, f64, bool), ReadError> {
         .ok_or_else(|| table.missing("frequency", remedy))
 }
 
-/// Frequencies that look like kHz, or like rad/s, under a name without a unit.
-fn doubt_unit(frequencies: &[f64], states_unit: bool, notes: &mut Vec<String>) {
-    let highest = frequencies.last().copied().unwrap_or(0.0);
-    if !states_unit && highest < 50.0 {
-        notes.push(format!(
-            "frequencies up to {highest} without a unit are taken as Hz; if they are kHz, name the column \
-             `frequency_khz` (or --columns f_khz,...)"
-        ));
-    }
-}
-
 /// Complex values of each row; real magnitudes where there is no phase.
 fn values(table: &Table, layout: Layout) -> Result<Vec<c64>, ReadError> {
     let real = |k: usize| &table.columns[k].real;
@@ -141,10 +127,8 @@ fn values(table: &Table, layout: Layout) -> Result<Vec<c64>, ReadError> {
         Layout::Polar { magnitude, level_reference, phase } => (0..table.rows())
             .map(|i| {
                 let value = real(magnitude)[i];
-                let modulus = match level_reference {
-                    Some(reference) => reference * 10f64.powf(value / 20.0),
-                    None => value,
-                };
+                let of_level = |reference| reference * 10f64.powf(value / 20.0);
+                let modulus = level_reference.map_or(value, of_level);
                 if modulus < 0.0 {
                     let problem = format!(
                         "magnitude {value} is negative; if it is in decibels, say so in the header (magnitude_db)"

@@ -39,11 +39,8 @@ pub fn read_shapes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, Rea
         true => universal(bytes, source)?,
         false => table(bytes, source)?,
     };
-    let has_motion = |shape: &MeasuredShape| {
-        let all = shape.motion.iter().flatten().flatten();
-        all.fold(0.0, |sum, u| sum + u.norm_sqr()) > 0.0
-    };
-    match shapes.iter().find(|shape| !has_motion(shape)) {
+    let moves = |u: &c64| u.norm_sqr() > 0.0;
+    match shapes.iter().find(|shape| !shape.motion.iter().flatten().flatten().any(moves)) {
         Some(_) => Err(ReadError::no_numbers(source)),
         None if shapes.is_empty() => Err(ReadError::whole(source, EMPTY)),
         None => Ok(shapes),

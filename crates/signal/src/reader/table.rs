@@ -183,19 +183,13 @@ fn post26_listing(
     let words: Vec<String> =
         head.flat_map(|(_, line)| line.split_whitespace()).map(str::to_lowercase).collect();
     let is_time = words.iter().any(|w| w == "time");
-    let named =
-        words.iter().filter(|w| matches!(w.as_str(), "real" | "imaginary" | "amplitude" | "phase"));
+    let is_part = |w: &str| matches!(w, "real" | "imaginary" | "amplitude" | "phase");
+    let kinds: [&dyn Fn(&str) -> bool; 2] = [&is_part, &|w| w.contains('_')];
+    let all = kinds.map(|is| words.iter().filter(|w| is(w)).cloned().collect::<Vec<_>>());
+    let numbered = || (1..count).map(|k| format!("variable {}", k + 1)).collect();
     let mut titles = vec![if is_time { "time" } else { "freq" }.to_string()];
-    titles.extend(named.cloned());
-    let variables = words.iter().filter(|w| w.contains('_'));
-    if titles.len() != count {
-        titles.truncate(1);
-        titles.extend(variables.cloned());
-    }
-    if titles.len() != count {
-        titles.truncate(1);
-        titles.extend((1..count).map(|k| format!("variable {}", k + 1)));
-    }
+    let named = all.into_iter().find(|names| names.len() + 1 == count);
+    titles.extend(named.unwrap_or_else(numbered));
     if !columns.is_empty() {
         titles = self::titles(columns, &[], Separator::Blanks, count, source)?;
     }

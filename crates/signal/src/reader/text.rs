@@ -15,10 +15,8 @@ pub(super) fn decode(bytes: &[u8]) -> String {
 }
 
 fn utf8_or_latin1(bytes: &[u8]) -> String {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_string(),
-        Err(_) => bytes.iter().map(|b| char::from(*b)).collect(),
-    }
+    let latin1 = |_| bytes.iter().map(|b| char::from(*b)).collect();
+    std::str::from_utf8(bytes).map_or_else(latin1, str::to_string)
 }
 
 /// Lines with their 1-based numbers; ends are `\n`, `\r\n` or `\r`.

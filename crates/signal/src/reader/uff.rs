@@ -46,20 +46,12 @@ struct Function {
 /// Whether bytes that begin with `-1` are a universal file: the second line is the number of a dataset.
 pub(super) fn is_universal(bytes: &[u8]) -> bool {
     let mut lines = Lines::of(bytes);
-    let first = lines.next();
-    let second = lines.next().unwrap_or_default();
+    let lines: Vec<String> = std::iter::from_fn(|| lines.next()).collect();
+    let [first, second, ..] = &lines[..] else { return false };
     let number = second.split_whitespace().next().unwrap_or_default();
-    let number = number.trim_end_matches(['b', 'B']);
-    let has_58 = || {
-        let mut before = String::new();
-        let mut lines = Lines::of(bytes);
-        std::iter::from_fn(|| lines.next()).any(|line| {
-            let begins = before.trim() == "-1" && line.trim_start().starts_with("58");
-            before = line;
-            begins
-        })
-    };
-    first.is_some_and(|line| line.trim() == "-1") && number.parse::<u32>().is_ok() && has_58()
+    let is_number = number.trim_end_matches(['b', 'B']).parse::<u32>().is_ok();
+    let opens = |pair: &[String]| pair[0].trim() == "-1" && pair[1].trim_start().starts_with("58");
+    first.trim() == "-1" && is_number && lines.windows(2).any(opens)
 }
 
 /// Lines of bytes that may turn binary.

@@ -48,18 +48,10 @@ pub(super) fn hertz(name: &str) -> Option<(f64, bool)> {
     let words = words(name);
     let has = |list: &[&str]| words.iter().any(|w| list.contains(w));
     let angular = has(&["omega", "rad/s", "ω"]) || name.contains("rad_per_s");
-    let is_frequency = angular
-        || has(&["f", "hz", "khz"])
-        || words
-            .iter()
-            .any(|w| ["freq", "fréq", "fräq", "frec"].iter().any(|begin| w.starts_with(begin)));
-    let factor = if angular {
-        1.0 / std::f64::consts::TAU
-    } else if has(&["khz"]) {
-        1e3
-    } else {
-        1.0
-    };
+    let begins = |w: &&str| ["freq", "fréq", "fräq", "frec"].iter().any(|own| w.starts_with(own));
+    let is_frequency = angular || has(&["f", "hz", "khz"]) || words.iter().any(begins);
+    let plain = if has(&["khz"]) { 1e3 } else { 1.0 };
+    let factor = if angular { 1.0 / std::f64::consts::TAU } else { plain };
     is_frequency.then_some((factor, angular || has(&["hz", "khz"])))
 }
 
@@ -127,18 +119,10 @@ pub(super) fn level_reference(name: &str) -> f64 {
 
 /// A sampling rate stated in remarks, as `sampling rate: 51200 Hz` or `fs = 1e5`, Hz.
 pub(super) fn sampling_rate(remarks: &str) -> Option<f64> {
-    const KEYS: [&str; 8] = [
-        "sampling rate",
-        "sample rate",
-        "sampling_rate",
-        "sample_rate",
-        "samplerate",
-        "sampling frequency",
-        "sampling_frequency",
-        "fs",
-    ];
+    const KEYS: [&str; 5] =
+        ["sampling rate", "sample rate", "samplerate", "sampling frequency", "fs"];
     remarks.lines().find_map(|line| {
-        let line = line.trim();
+        let line = line.trim().replace('_', " ");
         let rest = KEYS.iter().find_map(|key| line.strip_prefix(key))?;
         // `fs` must not be the beginning of another word.
         if rest.starts_with(|c: char| c.is_alphanumeric()) {
