@@ -25,7 +25,7 @@ pub fn write_response(named: &NamedResponse) -> String {
         }
     } else {
         for (f, z) in f.iter().zip(values) {
-            out += &(fortran(*f, 13, 5) + &complex_row(&[*z], 20, 12) + "\n");
+            out += &(axis_value(*f) + &complex_row(&[*z], 20, 12) + "\n");
         }
     }
     out + "    -1\n"
@@ -114,7 +114,7 @@ fn header(
     let mut out = format!("    -1\n    58\n{name}\nNONE\nNONE\nNONE\nNONE\n");
     let place = format!(" {:<10}{:>10}{:>4}", "NONE", 0, 0);
     let _ = writeln!(out, "{kind:>5}{:>10}{:>5}{:>10}{place}{place}", 0, 0, 0);
-    let numbers = [first, step, 0.0].map(|v| fortran(v, 13, 5)).concat();
+    let numbers = [first, step, 0.0].map(axis_value).concat();
     let _ = writeln!(out, "{form:>10}{count:>10}{even:>10}{numbers}");
     for kind in [axis, ordinate, divided_by, 0] {
         let _ = writeln!(out, "{kind:>10}{:>5}{:>5}{:>5} {:<20} {:<20}", 0, 0, 0, "NONE", "NONE");
@@ -131,6 +131,16 @@ fn whole_row(numbers: &[usize]) -> String {
 fn complex_row(values: &[c64], width: usize, decimals: usize) -> String {
     let parts = values.iter().flat_map(|z| [z.re, z.im]);
     parts.map(|part| fortran(part, width, decimals)).collect()
+}
+
+/// A number of an axis in 13 columns: with 5 decimals where these are all, else with what has room behind a blank.
+fn axis_value(value: f64) -> String {
+    let short = fortran(value, 13, 5);
+    let mut longer = (5..11).rev().map(|decimals| format!("{value:.decimals$E}"));
+    match short.trim().parse() == Ok(value) {
+        true => short,
+        false => longer.find(|text| text.len() < 13).map_or(short, |text| format!("{text:>13}")),
+    }
 }
 
 /// A number as Fortran writes it with `Ew.d`.
