@@ -15,8 +15,8 @@ use crate::signal::reader::{
     Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
 };
 use crate::signal::{
-    AmplitudeSpectrum, SignalError, SpectralResolution, Window, averaged_spectrum,
-    exponential_stage, spectral_lines,
+    AmplitudeSpectrum, ExponentialStage, SignalError, SpectralResolution, Window,
+    averaged_spectrum, exponential_stage, spectral_lines,
 };
 use crate::study::{modes_at_own_friction, tangent_options};
 use clap::{Args, ValueHint};
@@ -51,10 +51,11 @@ pub struct Arguments {
     /// Column names, if the header is missing or misread: t, t_ms, t_us, a channel's name, - to skip
     #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
     columns: Vec<String>,
-    /// Start of the interval for the peaks, s after the first sample
+    /// Start of the interval for the peaks, s after the first sample; the growth rate is sought there first
+    /// [default: 0; without --to, of a record that grows, its last fifth, or the squeal where it is over by then]
     #[arg(long, value_name = "S")]
     from: Option<f64>,
-    /// End of the interval for the peaks, s after the first sample
+    /// End of that interval [default: that of the record, or of a squeal that is over]
     #[arg(long, value_name = "S")]
     to: Option<f64>,
     /// Smallest spacing between two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz, or more
@@ -157,10 +158,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
 /// Length of the spectrogram's window, s.
 fn window_length(arguments: &Arguments, file: &SignalFile) -> f64 {
     let duration = file.channels[0].samples.len() as f64 / file.sampling_rate;
-    arguments.window.unwrap_or_else(|| {
-        let samples = 16.0 / file.sampling_rate;
-        5e-4f64.max(duration / 400.0).max(samples).min(duration)
-    })
+    let samples = 16.0 / file.sampling_rate;
+    arguments.window.unwrap_or(5e-4f64.max(duration / 400.0).max(samples).min(duration))
 }
 
 /// Refuses a window or a frequency with which nothing can be drawn.
@@ -194,12 +193,12 @@ fn write_copies(
         let slower = arguments.slower.unwrap_or(slowdown(file.sampling_rate));
         copy.write(&write_wav(file, slower).map_err(Failure::usage)?)?;
         let factor = f64::from(slower);
-        text = format!(
-            "sound in {}: played {slower} times slower, 10 kHz is heard as {} kHz; {:.2} s\n",
-            path.display(),
-            10.0 / factor,
-            file.channels[0].samples.len() as f64 / file.sampling_rate * factor,
-        );
+        let seconds = file.channels[0].samples.len() as f64 / file.sampling_rate * factor;
+        let speed = match slower {
+            1 => "at its own speed".to_owned(),
+            _ => format!("{slower} times slower, 10 kHz is heard as {} kHz", 10.0 / factor),
+        };
+        text = format!("sound in {}: played {speed}; {seconds:.2} s\n", path.display());
     }
     if let (Some(path), Some(copy)) = (&arguments.uff, uff) {
         copy.write(write_signal(file).as_bytes())?;
@@ -214,22 +213,30 @@ fn analyse(
     file: &SignalFile,
     channel: &Channel,
 ) -> Result<(ChannelSummary, AmplitudeSpectrum), Failure> {
-    let rate = file.sampling_rate;
-    let stage = exponential_stage(&channel.samples, rate);
-    // Of a record that grows and then settles the lines are those of its end.
-    let end = channel.samples.len() as f64 / rate;
-    let settles = |end_of_stage: f64| end_of_stage < (1.0 - LAST_SHARE) * end;
-    let grows = stage.as_ref().is_ok_and(|stage| stage.is_growing() && settles(stage.end_s));
-    let begin = if grows { (1.0 - LAST_SHARE) * end } else { 0.0 };
-    let from = arguments.from.unwrap_or(begin);
+    let (rate, samples) = (file.sampling_rate, &channel.samples);
+    let end = samples.len() as f64 / rate;
+    let from = arguments.from.unwrap_or(0.0);
     let to = arguments.to.unwrap_or(end).min(end);
     if !(from >= 0.0 && from < to) {
         return Err(Failure::usage(format!(
             "--from {from} --to {to}: the interval must lie within the record, 0 to {end:.6} s"
         )));
     }
-    let index = |t: f64| ((t * rate).round() as usize).min(channel.samples.len());
-    let part = &channel.samples[index(from)..index(to)];
+    let index = |t: f64| ((t * rate).round() as usize).min(samples.len());
+    let part = |[from, to]: [f64; 2]| &samples[index(from)..index(to)];
+    // An interval that is asked for may have a stage of its own beside that of the record.
+    let is_asked = arguments.from.or(arguments.to).is_some();
+    let own = exponential_stage(part([from, to]), rate);
+    let stage = match own {
+        Ok(stage) => Ok(stage.later(index(from) as f64 / rate)),
+        Err(_) if is_asked => exponential_stage(samples, rate),
+        none => none,
+    };
+    let found_in = |interval| -> Result<_, SignalError> {
+        let part = part(interval);
+        let resolution = SpectralResolution::of(part.len(), rate, arguments.resolution)?;
+        Ok((resolution, spectral_lines(part, rate, resolution, MOST_LINES)?))
+    };
     let fail = |error: SignalError| {
         let message = format!("channel {}: {error}", channel.name);
         match error {
@@ -237,19 +244,42 @@ fn analyse(
             _ => Failure::run(message),
         }
     };
-    let resolution =
-        SpectralResolution::of(part.len(), rate, arguments.resolution).map_err(fail)?;
-    let lines = spectral_lines(part, rate, resolution, MOST_LINES).map_err(fail)?;
-    let spectrum =
-        averaged_spectrum(part, rate, Window::Hann, resolution.block, 1).map_err(fail)?;
+    let vibrates = stage.as_ref().ok().filter(|_| !is_asked);
+    let mut interval = vibrates.map_or([from, to], |stage| grown(stage, samples, rate));
+    let mut found = found_in(interval).map_err(fail)?;
+    // A burst may have no line in the mean over the whole record.
+    if let Some(stage) = vibrates.filter(|_| found.1.is_empty()) {
+        let burst = [stage.start_s, stage.end_s];
+        if let Some(own) = found_in(burst).ok().filter(|own| !own.1.is_empty()) {
+            (interval, found) = (burst, own);
+        }
+    }
+    let (resolution, lines) = found;
+    let spectrum = averaged_spectrum(part(interval), rate, Window::Hann, resolution.block, 1);
+    let spectrum = spectrum.map_err(fail)?;
     let summary = ChannelSummary::new(
         &channel.name,
-        [file.start + from, file.start + to],
+        interval.map(|t| file.start + t),
         (resolution, spectrum.averages),
         &lines,
         stage,
     );
     Ok((summary, spectrum))
+}
+
+/// Where a record that has such a stage vibrates as it has grown, s: over its last fifth where it lasts until then,
+/// else from the end of the stage, or over its later half, until it is over. The whole of one that does not settle.
+fn grown(stage: &ExponentialStage, samples: &[f64], rate: f64) -> [f64; 2] {
+    let end = samples.len() as f64 / rate;
+    let late = (1.0 - LAST_SHARE) * end;
+    if !stage.is_growing() || stage.end_s >= late {
+        return [0.0, end];
+    }
+    let until = stage.lasts_until(samples, rate);
+    if until >= 0.5 * (late + end) {
+        return [late, end];
+    }
+    [stage.end_s.min(0.5 * (stage.start_s + until)), until]
 }
 
 /// Modes of the case at its friction coefficient.

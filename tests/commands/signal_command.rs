@@ -1,5 +1,6 @@
 //! `frictionsim signal` on a synthetic squeal, beside the modes of a case.
 
+use crate::draws::draws;
 use crate::prelude::*;
 
 /// What is measured, beside the disc.
@@ -82,4 +83,60 @@ fn a_signal_without_time_needs_a_rate_and_says_so() {
     for once in ["samples at", "peaks between", "peak  frequency"] {
         assert_eq!(said.matches(once).count(), 1, "{once}: {said}");
     }
+}
+
+/// A vibration at 2345.6 Hz of an amplitude over time, in noise of 2e-3: so many seconds at 20 kHz, without times.
+fn heard(seconds: f64, amplitude: impl Fn(f64) -> f64) -> String {
+    let mut draw = draws(7);
+    let sample = |k: u32| {
+        let time = f64::from(k) / 2e4;
+        let noise = 2e-3 * ((0..12).map(|_| draw()).sum::<f64>() - 6.0);
+        format!("{:.6e}\n", amplitude(time) * (TAU * 2345.6 * time).sin() + noise)
+    };
+    (0..(seconds * 2e4) as u32).map(sample).collect()
+}
+
+/// What is found in the channel of such a record, and the folder in which it lies as `heard.txt`.
+fn found(record: &str) -> (serde_json::Value, TempDir) {
+    let folder = folder_with(&[("heard.txt", record.as_bytes())]);
+    let run = Run::of("signal", "heard.txt").args(&["--rate", "20000", "--json", "--quiet"]);
+    (run.within(&folder).done().value()["channels"][0].take(), folder)
+}
+
+#[test]
+fn the_peaks_of_a_squeal_that_is_over_are_those_of_the_squeal() {
+    let grown = |t: f64| 1e-4 * (147.0 * (t - 1.0)).exp().min(1000.0);
+    let (channel, folder) =
+        found(&heard(4.0, |t| if (1.0..1.6).contains(&t) { grown(t) } else { 0.0 }));
+    let main = channel["main_frequency_hz"].as_f64().unwrap();
+    assert!((main - 2345.6).abs() < 0.5, "{channel}");
+    let amplitude = channel["peaks"][0]["amplitude"].as_f64().unwrap();
+    assert!((amplitude / 0.1 - 1.0).abs() < 0.05, "{channel}");
+    let [from, to] = [0, 1].map(|k| channel["interval_s"][k].as_f64().unwrap());
+    // It has grown a thousandfold after 47 ms.
+    assert!((1.03..1.05).contains(&from) && (1.59..1.61).contains(&to), "{channel}");
+    // An interval that is asked for is taken, and named where nothing stands out in it.
+    let run = Run::of("signal", "heard.txt").within(&folder).out("late");
+    let silent = run.args(&["--rate", "20000", "--from", "3", "--to", "3.5"]).done();
+    silent.says(&["no peak stands out from the noise between 3.0000 and 3.5000 s", "rate 147"]);
+    let noise = Run::of("signal", "noise.txt").beside(&[("noise.txt", heard(1.0, |_| 0.0))]);
+    let noise = noise.args(&["--rate", "20000", "--wav", "noise.wav"]).done();
+    noise.says(&[
+        "no growth rate: no line stands out from the noise between 0 and 1.0000 s",
+        "noise.wav: played at its own speed; 1.00 s",
+    ]);
+}
+
+#[test]
+fn a_burst_without_a_line_in_the_mean_spectrum_has_peak_and_rate_and_so_has_its_interval() {
+    let (channel, folder) = found(&heard(2.0, |t| 0.5 * (-120.0 * t).exp()));
+    let rate = |channel: &serde_json::Value| channel["growth"]["rate_per_s"]["value"].as_f64();
+    assert!((rate(&channel).unwrap() / -120.0 - 1.0).abs() < 0.02, "{channel}");
+    let main = channel["main_frequency_hz"].as_f64().unwrap();
+    assert!((main - 2345.6).abs() < 2.0 && channel["interval_s"][1].as_f64() < Some(0.1));
+    let run = Run::of("signal", "heard.txt").within(&folder).out("part");
+    let run = run.args(&["--rate", "20000", "--to", "0.1", "--json", "--quiet"]);
+    let part = run.done().value()["channels"][0].take();
+    assert!((rate(&part).unwrap() / -120.0 - 1.0).abs() < 0.02, "{part}");
+    assert_eq!(part["interval_s"], serde_json::json!([0.0, 0.1]));
 }

@@ -70,10 +70,11 @@ pub fn document(summary: &SignalSummary) -> Document {
         Table::new("", caption).columns(PEAKS, rows(channel)).columns(WORDS, rows(channel))
     };
     let said = |channel: &ChannelSummary| {
-        let none = channel.peaks.is_empty().then(|| "no peak stands out from the noise".to_owned());
+        let ([from, to], name) = (channel.interval_s, channel.name.clone());
+        let none = format!("no peak stands out from the noise between {from:.4} and {to:.4} s");
+        let none = channel.peaks.is_empty().then_some(none);
         let texts =
             [none, Some(channel.growth_text()), channel.mode_text(summary.friction_coefficient)];
-        let name = channel.name.clone();
         texts.into_iter().flatten().map(move |text| format!("{name}: {text}."))
     };
     let sampled = format!(

@@ -6,6 +6,7 @@ mod harmonic;
 pub use harmonic::{harmonic_growth, strongest_vibration};
 
 use super::error::SignalError;
+use super::lines::{largest, loudest_part};
 use super::modal::Estimate;
 use super::spectrum::{centred, check_signal};
 use super::{Window, main_frequency};
@@ -61,6 +62,29 @@ impl ExponentialStage {
     pub fn is_decaying(&self) -> bool {
         self.rate_per_s.high < 0.0
     }
+
+    /// The stage of a part of a signal that begins so many seconds after the first sample.
+    pub fn later(self, by_s: f64) -> Self {
+        Self { start_s: self.start_s + by_s, end_s: self.end_s + by_s, ..self }
+    }
+
+    /// Until when a signal vibrates that has grown in this stage, s after the first sample.
+    ///
+    /// That is its end where a line of its last fifth, or else the last instant at which the envelope about the
+    /// frequency of the stage, has half the amplitude at the end of the stage.
+    pub fn lasts_until(&self, samples: &[f64], sampling_rate: f64) -> f64 {
+        let (rate, frequency_hz) = (self.rate_per_s.value, self.frequency_hz.value);
+        let half = 0.5 * self.initial_amplitude * (rate * (self.end_s - self.start_s)).exp();
+        let line = main_frequency(&samples[samples.len() / 5 * 4..], sampling_rate);
+        if line.is_ok_and(|line| line.amplitude >= half) {
+            return samples.len() as f64 / sampling_rate;
+        }
+        let last = demodulated(samples, sampling_rate, frequency_hz).ok().and_then(|signal| {
+            let last = signal.log_amplitude.iter().rposition(|level| level.exp() >= half)?;
+            Some(signal.times[last] + 0.5 * PERIODS / frequency_hz)
+        });
+        last.unwrap_or(self.end_s)
+    }
 }
 
 /// Why a signal has no growth rate.
@@ -93,9 +117,9 @@ pub enum NoGrowth {
     /// A power of another wave, which grows so many times as fast at so many times its frequency.
     #[error("it holds a power of the growing wave of harmonic {0}, and no mode of its own")]
     Power(usize),
-    /// No vibration stands out of the noise.
-    #[error("no line stands out from the noise")]
-    NoLine,
+    /// No vibration stands out of the noise of so many seconds.
+    #[error("no line stands out from the noise between 0 and {0:.4} s")]
+    NoLine(f64),
     /// A signal that cannot be analysed.
     #[error(transparent)]
     Signal(#[from] SignalError),
@@ -103,7 +127,8 @@ pub enum NoGrowth {
 
 /// Finds the exponential stage of a signal and fits its rate and frequency.
 ///
-/// The signal is demodulated at its strongest line, then at the strongest within the stage found,
+/// The signal is demodulated at its strongest line, or the part about its loudest block at the line of that where the
+/// whole has none (a burst), then at the strongest within the stage found,
 /// `z(t) = sum_j w_j x_j e^{-2 pi i f t_j}` over 12 periods; for a pure exponential the filter is exact. The stage is
 /// the interval over which `ln |z|` changes most while it deviates from a line by no more than 1 % rms (then 3, 10,
 /// 20 %) and stays above 1024 eps of the largest sample; a growing stage is preferred to a decaying one. A tenth at
@@ -119,10 +144,23 @@ pub fn exponential_stage(
     sampling_rate: f64,
 ) -> Result<ExponentialStage, NoGrowth> {
     check_signal(samples, sampling_rate, 16)?;
-    let mut frequency = match main_frequency(samples, sampling_rate) {
-        Err(SignalError::NoResonance { .. }) => return Err(NoGrowth::NoLine),
-        line => line?.frequency_hz,
+    let (frequency, part) = match main_frequency(samples, sampling_rate) {
+        Err(SignalError::NoResonance { .. }) => {
+            let none = NoGrowth::NoLine(samples.len() as f64 / sampling_rate);
+            loudest_part(samples, sampling_rate).ok_or(none)?
+        }
+        line => (line?.frequency_hz, 0..samples.len()),
     };
+    let begin = part.start as f64 / sampling_rate;
+    Ok(stage_at(&samples[part], sampling_rate, frequency)?.later(begin))
+}
+
+/// The exponential stage about a frequency, Hz, or about that of the stage found.
+fn stage_at(
+    samples: &[f64],
+    sampling_rate: f64,
+    mut frequency: f64,
+) -> Result<ExponentialStage, NoGrowth> {
     let mut stage = search(samples, sampling_rate, frequency)?;
     // The stage may vibrate elsewhere than the limit cycle that dominates the record.
     for _ in 0..2 {
@@ -145,8 +183,7 @@ fn search(
     frequency_hz: f64,
 ) -> Result<ExponentialStage, NoGrowth> {
     let signal = demodulated(samples, sampling_rate, frequency_hz)?;
-    let largest = samples.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    let floor = round_off_floor(largest);
+    let floor = round_off_floor(largest(samples));
     let amplitude = signal.log_amplitude.iter().copied().fold(f64::MIN, f64::max).exp();
     if amplitude <= floor {
         return Err(NoGrowth::BelowRoundOff { amplitude, floor });
@@ -155,9 +192,9 @@ fn search(
         for growing in [true, false] {
             if let Some((first, last)) = longest_line(&signal, floor.ln(), tolerance, growing) {
                 let cut = (last - first) / 10;
-                match signal.fit(first + cut, last - cut) {
-                    Ok(stage) if stage.is_growing() || stage.is_decaying() => return Ok(stage),
-                    _ => {}
+                let stage = signal.fit(first + cut, last - cut).ok();
+                if let Some(stage) = stage.filter(|own| own.is_growing() || own.is_decaying()) {
+                    return Ok(stage);
                 }
             }
         }
@@ -285,6 +322,50 @@ mod tests {
         let stage = exponential_stage(&tone(-80.0), rate).unwrap();
         assert!((stage.rate_per_s.value + 80.0).abs() < 0.5, "{stage:?}");
         assert!(matches!(exponential_stage(&tone(0.0), rate), Err(NoGrowth::NotExponential(_))));
+    }
+
+    /// A vibration at 3456.7 Hz with an envelope over so many seconds, in noise, sampled at 51.2 kHz.
+    fn heard(duration: f64, noise: f64, envelope: impl Fn(f64) -> f64) -> Vec<f64> {
+        let rate = 51_200.0;
+        let mut gaussian = gaussian_sequence(11);
+        (0..(duration * rate) as usize)
+            .map(|j| {
+                let t = j as f64 / rate;
+                envelope(t) * (TAU * 3456.7 * t).cos() + noise * gaussian()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_burst_far_above_the_noise_has_its_rate_wherever_it_stands_in_a_long_record() {
+        for (duration, begin) in [(1.0, 0.0), (1.0, 0.02), (3.0, 1.7), (3.0, 2.9)] {
+            let ring = |t: f64| if t < begin { 0.0 } else { 0.5 * (-120.0 * (t - begin)).exp() };
+            let stage = exponential_stage(&heard(duration, 1e-3, ring), 51_200.0).unwrap();
+            assert!((stage.rate_per_s.value / -120.0 - 1.0).abs() < 0.01, "{begin}: {stage:?}");
+            assert!((stage.frequency_hz.value / 3456.7 - 1.0).abs() < 1e-4, "{stage:?}");
+            assert!(begin <= stage.start_s && stage.end_s < begin + 0.06, "{begin}: {stage:?}");
+        }
+        // Weaker ones, by what the noise leaves of their rate; one that grows to the end.
+        for (rate, noise, room) in [(-60.0, 1e-2, 0.03), (-20.0, 0.02, 0.03), (120.0, 1e-3, 0.01)] {
+            let envelope = |t: f64| 0.5 * (rate * if rate > 0.0 { t - 1.0 } else { t }).exp();
+            let stage = exponential_stage(&heard(1.0, noise, envelope), 51_200.0).unwrap();
+            assert!((stage.rate_per_s.value / rate - 1.0).abs() < room, "{rate}: {stage:?}");
+        }
+        let none = exponential_stage(&heard(3.0, 1e-3, |_| 0.0), 51_200.0).unwrap_err();
+        assert_eq!(none, NoGrowth::NoLine(3.0));
+    }
+
+    #[test]
+    fn a_squeal_lasts_until_it_is_over_or_to_the_end_of_the_record() {
+        let grown = |t: f64| 1e-3 * (147.0 * (t - 0.5)).exp().min(100.0);
+        for (over, expected) in [(0.9, 0.9), (9.0, 2.0)] {
+            let envelope = |t: f64| if (0.5..over).contains(&t) { grown(t) } else { 0.0 };
+            let samples = heard(2.0, 2e-3, envelope);
+            let stage = exponential_stage(&samples, 51_200.0).unwrap();
+            let until = stage.lasts_until(&samples, 51_200.0);
+            // The window of 12 periods blurs the end.
+            assert!(stage.is_growing() && (until - expected).abs() < 4e-3, "{until} {stage:?}");
+        }
     }
 
     #[test]

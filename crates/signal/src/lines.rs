@@ -6,6 +6,8 @@ use super::spectrum::{AmplitudeSpectrum, averaged_spectrum, check_signal, top_of
 use super::statistics::{mean_power_exceeded, median, normal_exceeded};
 use frictionsim_output::Described;
 use serde::Serialize;
+use std::iter::successors;
+use std::ops::Range;
 
 /// Weakest line reported, relative to the strongest (-46 dB).
 const WEAKEST: f64 = 5e-3;
@@ -23,7 +25,11 @@ const FUNDAMENTAL_SHARE: f64 = 0.05;
 const LONGEST_BLOCK: f64 = 2.0;
 /// Zero-padding, in block lengths: lines are located between its bins by a parabola.
 const PADDING: usize = 4;
+/// Fewest periods of a line in the block of the loudest part: those that a growth rate needs.
+const FEWEST_PERIODS: f64 = 36.0;
 const WINDOW: Window = Window::BlackmanHarris;
+/// Half the width of a line in such a spectrum, padded bins.
+const REACH: usize = 4 * PADDING;
 
 /// One line of a spectrum: a sinusoid, located between the bins.
 #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
@@ -73,8 +79,9 @@ impl SpectralResolution {
                     let [finest, coarsest] = [count as f64, 16.0]
                         .map(|block| (1e6 * lobe * sampling_rate / block).round() / 1e6);
                     return Err(SignalError::Asked(format!(
-                        "a resolution of {asked} Hz is out of reach: this record gives {finest} \
-                         to {coarsest} Hz; change --resolution, or the interval"
+                        "a resolution of {asked} Hz is out of reach: an interval of {:.4} s gives \
+                         {finest} to {coarsest} Hz; change --resolution, or the interval",
+                        count as f64 / sampling_rate
                     )));
                 }
                 block as usize
@@ -104,11 +111,9 @@ pub fn spectral_lines(
 ) -> Result<Vec<SpectralLine>, SignalError> {
     check_signal(samples, sampling_rate, 16)?;
     let spectrum = averaged_spectrum(samples, sampling_rate, WINDOW, resolution.block, PADDING)?;
-    let scale = samples.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let mut lines = peaks(&spectrum, scale);
+    let mut lines = peaks(&spectrum, largest(samples), 1, &[]);
     lines.truncate(most);
-    let bin = sampling_rate / resolution.block as f64;
-    name_superharmonics(&mut lines, bin);
+    name_superharmonics(&mut lines, sampling_rate / resolution.block as f64);
     Ok(lines)
 }
 
@@ -123,42 +128,82 @@ pub fn main_frequency(samples: &[f64], sampling_rate: f64) -> Result<SpectralLin
     lines.first().copied().ok_or(none)
 }
 
-/// Maxima of the spectrum that stand out, strongest first.
-fn peaks(spectrum: &AmplitudeSpectrum, scale: f64) -> Vec<SpectralLine> {
-    let a = &spectrum.amplitudes;
-    let reach = WINDOW.half_lobe_bins() as usize * PADDING;
+/// Frequency, Hz, of the line of the loudest part of a signal whose mean spectrum has none, and that part.
+///
+/// Blocks are quartered until a line stands out in one of them, of which the loudest counts: 36 periods of it in the
+/// block, and so strong that noise alone shows one in a record out of 1000. The part reaches a block to either side.
+pub(super) fn loudest_part(samples: &[f64], sampling_rate: f64) -> Option<(f64, Range<usize>)> {
+    let longest = SpectralResolution::of(samples.len(), sampling_rate, None).ok()?.block;
+    let blocks = successors(Some(longest), |block| Some(block / 4));
+    let mut blocks = blocks.take_while(|block| *block as f64 > 2.0 * FEWEST_PERIODS);
+    blocks.find_map(|block| {
+        let (frequency_hz, start) = loudest_block(samples, sampling_rate, block)?;
+        let end = (start + 2 * block).min(samples.len());
+        Some((frequency_hz, start.saturating_sub(block)..end))
+    })
+}
+
+/// Frequency, Hz, of the loudest line of any block of a length, and the first sample of that block.
+fn loudest_block(samples: &[f64], sampling_rate: f64, block: usize) -> Option<(f64, usize)> {
+    let (scale, last) = (largest(samples), samples.len() - block);
+    let lowest_hz = FEWEST_PERIODS * sampling_rate / block as f64;
+    // The noise of one block is known from few values, that of their mean from many.
+    let mean = averaged_spectrum(samples, sampling_rate, WINDOW, block, PADDING).ok()?;
+    let noise = local_noise(&mean.amplitudes);
+    let mut loudest = (0.0, None);
+    for start in (0..last).step_by(block / 2).chain([last]) {
+        let part = &samples[start..start + block];
+        let spectrum = averaged_spectrum(part, sampling_rate, WINDOW, block, PADDING).ok()?;
+        let lines = peaks(&spectrum, scale, samples.len(), &noise);
+        let line = lines.iter().find(|line| line.frequency_hz >= lowest_hz);
+        if let Some(line) = line.filter(|line| line.amplitude > loudest.0) {
+            loudest = (line.amplitude, Some((line.frequency_hz, start)));
+        }
+    }
+    loudest.1
+}
+
+/// Largest magnitude of a sample.
+pub(super) fn largest(samples: &[f64]) -> f64 {
+    samples.iter().fold(0.0, |most, x| x.abs().max(most))
+}
+
+/// Maxima of one of so many spectra that stand out, of the noise that they share too if it is known, strongest first.
+fn peaks(own: &AmplitudeSpectrum, scale: f64, spectra: usize, shared: &[f64]) -> Vec<SpectralLine> {
+    let a = &own.amplitudes;
     let top = a.iter().copied().fold(0.0, f64::max);
     // A constant leaves nothing but the round-off of its mean.
     if top <= 1e-14 * scale || top == 0.0 {
         return Vec::new();
     }
     // Noise powers are exponential; a padded bin in four is independent of its neighbours.
-    let count = spectrum.averages as f64;
-    let exceeded = normal_exceeded(FALSE_ALARM / a.len() as f64);
+    let count = own.averages as f64;
+    let exceeded = normal_exceeded(FALSE_ALARM / (a.len() * spectra) as f64);
     let ratio = mean_power_exceeded(count, exceeded) / mean_power_exceeded(count, 0.0);
-    let noise = local_noise(a, reach);
+    let mut noise = local_noise(a);
+    noise.iter_mut().zip(shared).for_each(|(one, shared)| *one = one.max(*shared));
     let stands_out = |&k: &usize| {
-        let neighbours = &a[k.saturating_sub(reach)..(k + reach + 1).min(a.len())];
+        let neighbours = &a[k.saturating_sub(REACH)..(k + REACH + 1).min(a.len())];
         let is_peak = a[k] > a[k - 1] && a[k] >= a[k + 1] && a[k] >= WEAKEST * top;
         let is_largest = || neighbours.iter().all(|other| *other <= a[k]);
         is_peak && a[k] > noise[k] * ratio.sqrt() && is_largest()
     };
     let tops = (PADDING..a.len() - 1).filter(stands_out);
-    let mut lines: Vec<SpectralLine> = tops.map(|k| located(spectrum, k)).collect();
+    let mut lines: Vec<SpectralLine> = tops.map(|k| located(own, k)).collect();
     lines.sort_by(|p, q| q.amplitude.total_cmp(&p.amplitude));
     lines
 }
 
 /// Median amplitude beside each bin of a spectrum, over bands that are narrow at low frequencies.
-fn local_noise(amplitudes: &[f64], reach: usize) -> Vec<f64> {
+fn local_noise(amplitudes: &[f64]) -> Vec<f64> {
     let count = amplitudes.len();
     let mut noise = Vec::with_capacity(count);
     while noise.len() < count {
         let first = noise.len();
         let width = ((NOISE_BAND - 1.0) * first as f64) as usize;
-        let mut end = first + width.max(NOISE_LOBES * reach);
+        let mut end = first + width.max(NOISE_LOBES * REACH);
         // A remnant at the end belongs to the band before it.
-        if end + NOISE_LOBES * reach > count {
+        if end + NOISE_LOBES * REACH > count {
             end = count;
         }
         noise.resize(end, median(&amplitudes[first..end]));
@@ -260,8 +305,9 @@ mod tests {
                 }
             }
             false_alarms += lines(&x, rate, None).len() + lines(&x, rate, Some(40.0)).len();
+            false_alarms += usize::from(loudest_part(&x, rate).is_some());
         }
-        // 80 spectra at one in a thousand each: two would happen once in 300 times.
+        // 120 spectra and records at one in a thousand each: two would happen once in 150 times.
         assert!(false_alarms <= 1, "{false_alarms}");
         let mut noise = gaussian_sequence(7);
         // The tone sounds a third of the time.

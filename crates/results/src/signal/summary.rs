@@ -191,9 +191,8 @@ impl ChannelSummary {
         let friction = friction_coefficient?;
         let percent = 100.0 * MODE_TOLERANCE;
         if let Some(mode) = &self.mode {
-            let rate = mode.growth_rate_per_s;
-            let verb = if rate > 0.0 { "grows" } else { "decays" };
-            let rate = rate.abs();
+            let verb = if mode.growth_rate_per_s > 0.0 { "grows" } else { "decays" };
+            let rate = mode.growth_rate_per_s.abs();
             return Some(format!(
                 "vibrates in {}, which {verb} at {rate:.2} 1/s in the eigenvalue analysis",
                 mode.described()

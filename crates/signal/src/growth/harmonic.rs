@@ -60,7 +60,7 @@ pub fn harmonic_growth(
         let deviates = NoGrowth::NotExponential(stage.frequency_hz.value.abs());
         (stage.deviation <= LARGEST_DEVIATION).then_some(stage).ok_or(deviates)
     };
-    let mut stage = match read(&centred(part)) {
+    let stage = match read(&centred(part)) {
         // The mean of a strong end may outweigh a weak beginning; differences have none.
         Err(NoGrowth::NotExponential(_)) => {
             let differences = part.windows(2).map(|pair| pair[1] - pair[0]);
@@ -69,8 +69,7 @@ pub fn harmonic_growth(
         found => found,
     }?;
     let begin = (series.len() / 3 + first) as f64 / sampling_rate;
-    (stage.start_s, stage.end_s) = (stage.start_s + begin, stage.end_s + begin);
-    Ok(stage)
+    Ok(stage.later(begin))
 }
 
 /// Signed frequency, Hz, and amplitude of the strongest vibration of a complex series about its mean;
