@@ -51,8 +51,8 @@ pub struct Arguments {
     /// Column names, if the header is missing or misread: t, t_ms, t_us, a channel's name, - to skip
     #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
     columns: Vec<String>,
-    /// Start of the interval for the peaks, s after the first sample; the growth rate is sought there first
-    /// [default: 0; without --to, of a record that grows, its last fifth, or the squeal where it is over by then]
+    /// Start of the interval for the peaks, s after the first sample [default: 0]. The growth rate is sought there
+    /// first. Without --from and --to, a record that grows has its last fifth, or a squeal that is over by then
     #[arg(long, value_name = "S")]
     from: Option<f64>,
     /// End of that interval [default: that of the record, or of a squeal that is over]

@@ -114,7 +114,7 @@ fn responses_of_one_table_are_all_read_and_one_is_picked_by_name_or_number() {
     }
     let options = ResponseOptions { channels: vec!["H31".into()], ..Default::default() };
     let error = reader::read_response(text.as_bytes(), "x", &options);
-    has(&error.unwrap_err().to_string(), &["--channel H31: the file has H11, H21"]);
+    has(&error.unwrap_err().to_string(), &["there is no channel H31: the file has H11, H21"]);
 }
 
 #[test]
