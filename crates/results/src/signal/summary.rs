@@ -192,8 +192,7 @@ impl ChannelSummary {
         let percent = 100.0 * MODE_TOLERANCE;
         if let Some(mode) = &self.mode {
             let rate = mode.growth_rate_per_s;
-            let verb = if rate > 0.0 { "grows" } else { "decays" };
-            let rate = rate.abs();
+            let (verb, rate) = if rate > 0.0 { ("grows", rate) } else { ("decays", -rate) };
             return Some(format!(
                 "vibrates in {}, which {verb} at {rate:.2} 1/s in the eigenvalue analysis",
                 mode.described()
