@@ -130,7 +130,8 @@ class Case(MutableMapping[str, Any]):
         moved = {}
         if path.resolve().parent != self.path.resolve().parent:
             for key, name in self.items():
-                beside = self.path.parent / name if key.endswith((".file", ".table")) else None
+                names_file = key.endswith((".file", ".table", ".gap")) or key.startswith("superelements.")
+                beside = self.path.parent / str(name) if names_file else None
                 if beside is not None and not Path(name).is_absolute() and beside.is_file():
                     moved[key] = Path(os.path.relpath(beside, path.parent)).as_posix()
         text = self.changed(moved).text

@@ -46,6 +46,15 @@ def test_a_written_case_finds_its_mesh_from_its_new_place(tmp_path: Path) -> Non
     assert written["mesh.file"] != case["mesh.file"]
 
 
+def test_a_written_case_finds_its_matrices_from_its_new_place(tmp_path: Path) -> None:
+    (tmp_path / "part").mkdir()
+    (tmp_path / "part" / "k.mtx").write_text("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1.0\n")
+    text = '[superelements.a]\nmass = "k.mtx"\nstiffness = "k.mtx"\n[cea]\nmodes = 1\n'
+    (tmp_path / "part" / "own.toml").write_text(text)
+    written = Case(Case(tmp_path / "part" / "own.toml").write(tmp_path / "own.toml"))
+    assert written["superelements.a.mass"] == written["superelements.a.stiffness"] == "part/k.mtx"
+
+
 def test_every_shipped_case_is_there_with_its_files(tmp_path: Path) -> None:
     names = frictionsim.shipped_cases()
     assert len(names) > 20

@@ -156,7 +156,8 @@ fn lines(case: &Case, found: &Preflight) -> Vec<(&'static str, String, RunCost)>
         }),
         cycle.map(|own| {
             let families = plural(own.families, ["family", "families"]);
-            ("cycle", format!("{families} of {}", plural(own.cycles, ["cycle", "cycles"])), own.run)
+            let cycles = plural(own.cycles, ["cycle", "cycles"]);
+            ("cycle", format!("about {families} of {cycles}"), own.run)
         }),
         basin.map(|own| {
             let run = RunCost { memory_bytes: found.cost.mesh_memory_bytes, ..own };

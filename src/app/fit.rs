@@ -39,8 +39,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     depend_on(&mut session.manifest, asked.modes.display().to_string(), Some(&bytes));
     let of_shapes =
         |path: &PathBuf| measured_shapes(path, ("--shapes ", asked.scale), &mut session);
-    let shapes = asked.shapes.as_ref().map(of_shapes);
-    let shapes = shapes.transpose()?;
+    let shapes = asked.shapes.as_ref().map(of_shapes).transpose()?;
     refuse_too_few(&session.case, &lines)?;
     let folder = session.begin()?;
 

@@ -35,8 +35,8 @@ pub struct Arguments {
     /// file holds
     #[arg(long, value_name = "MESH", value_hint = ValueHint::FilePath, conflicts_with = "template")]
     from: Option<PathBuf>,
-    /// File to write, `-` for stdout [default: <TEMPLATE>.toml, with --from beside the mesh]; its meshes and tables
-    /// go beside it. With --all the folder to write to [default: cases]
+    /// File to write, `-` for stdout; its meshes and tables go beside it [default: <TEMPLATE>.toml, with --from beside
+    /// the mesh]. With --all the folder to write to [default: cases]
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
     /// List the shipped cases and their short names

@@ -165,9 +165,9 @@ fn help_template(command: &clap::Command) -> String {
 
 /// The command line with what its declarations cannot say: its help in groups, each command's own default folder.
 pub fn command_line() -> clap::Command {
-    let mut command = CommandLine::command();
+    let command = CommandLine::command();
     let template = help_template(&command);
-    command = command.help_template(template);
+    let mut command = command.help_template(template);
     let names = command.get_subcommands().map(|sub| sub.get_name().to_owned());
     for name in names.collect::<Vec<String>>() {
         command = command.mut_subcommand(&name, |sub| {
@@ -177,8 +177,10 @@ pub fn command_line() -> clap::Command {
             let has_folder = sub.get_arguments().any(|arg| arg.get_id() == "dry_run");
             match input {
                 Some(input) if has_folder => sub.mut_arg("out", |arg| {
-                    let stem = input.split('.').next().unwrap_or_default().to_owned();
-                    arg.help(format!("Output folder [default: results/{stem}/{name}]"))
+                    let stem = input.split('.').next().unwrap_or_default();
+                    let own =
+                        if name == "compare" { [&name, "DIR-and-DIR"] } else { [stem, &name] };
+                    arg.help(format!("Output folder [default: results/{}]", own.join("/")))
                 }),
                 _ => sub,
             }

@@ -4,8 +4,7 @@ use super::options::FigureOptions;
 use super::{Failure, start_threads, terminal};
 use crate::results::sweep::SweepFolder;
 use crate::results::{
-    DrawingOptions, FolderError, Manifest, OutputFolder, Page, Record, read_manifest, read_record,
-    read_summary,
+    DrawingOptions, Manifest, OutputFolder, Page, read_manifest, read_record, read_summary,
 };
 use clap::{ArgAction, Args, ValueHint};
 use serde_json::{Value, json};
@@ -25,7 +24,7 @@ pub struct Arguments {
     /// Print the folder as one object on stdout
     #[arg(long)]
     json: bool,
-    /// No information; twice: errors only
+    /// No information messages; twice: errors only
     #[arg(long, short, action = ArgAction::Count)]
     quiet: u8,
 }
@@ -56,10 +55,6 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
 /// # Errors
 /// A folder without figures; those of the drawing and of the folder.
 pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
-    if !path.join(Page::FILE).exists() {
-        let reason = format!("has no {}: run it again, with figures", Page::FILE);
-        return Err(FolderError::unusable(path, reason).into());
-    }
     let page: Page = read_record(path)?;
     if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {
         return Ok(page.draw(SweepFolder::find(path, command)?.output(), options)?);

@@ -162,7 +162,7 @@ fn a_run_without_figures_keeps_none_to_draw() {
     // Figures belong to the run: without them it starts from a clean folder.
     let gone = "!figures/overview-200.png !report.html !figures.bin";
     run().args(&["--no-figures"]).done().wrote(gone);
-    plot(&folder, &[]).refused(&["out has no figures.bin: run it again, with figures"]);
+    plot(&folder, &[]).refused(&["out has no figures.bin: run it again without --no-figures"]);
 }
 
 #[test]

@@ -139,7 +139,8 @@ pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
     refuse_if!(two_frequencies && stability == StabilityChoice::None; section, "two_frequencies",
         "cycle.two_frequencies needs to know which cycles lose their stability";
         "needs cycle.stability"; "cycle.stability = \"point\" or \"branch\"");
-    let continuation = section.read_section("continuation", continuation);
+    let is_assembly = body.is_some_and(|own| own.assembly().is_some());
+    let continuation = section.read_section("continuation", |own| continuation(own, is_assembly));
     refuse_if!(stability == StabilityChoice::Branch && continuation.is_none(); section, "stability",
         "cycle.stability = \"branch\" needs [cycle.continuation]"; "needs [cycle.continuation]";
         "add that table, or use \"point\"");
@@ -156,7 +157,7 @@ pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
     }
 }
 
-fn continuation(section: &Section<'_>) -> Continuation {
+fn continuation(section: &Section<'_>, is_assembly: bool) -> Continuation {
     let continuation = Continuation {
         key: section.parameter("key"),
         from: section.number("from"),
@@ -166,8 +167,9 @@ fn continuation(section: &Section<'_>) -> Continuation {
     };
     let Continuation { key, from, to, spacing, .. } = &continuation;
     let is_numeric = keys::find(key).is_some_and(|known| known.is_numeric());
-    if is_numeric && Parameter::from_key(key).is_none() {
-        let known = Parameter::ALL.map(Parameter::key);
+    let suits = |own: &Parameter| !is_assembly || own.is_of_solid_bodies();
+    let known: Vec<&str> = Parameter::ALL.into_iter().filter(suits).map(Parameter::key).collect();
+    if is_numeric && !known.contains(&&**key) {
         refuse!(section, "key", "limit cycles cannot be followed over {key}";
             "not one of the parameters of a cycle"; "one of {}", known.join(", "));
     }
@@ -189,9 +191,7 @@ pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest 
     let modes = section.counts("modes");
     let modes: Option<Vec<usize>> =
         modes.map(|values| values.into_iter().map(|(mode, _)| mode).collect());
-    if let Some(modes) = &modes
-        && !(1..=2).contains(&modes.len())
-    {
+    if modes.as_ref().is_some_and(|own| !(1..=2).contains(&own.len())) {
         refuse!(section, "modes",
             "basin.modes must name two different modes, or one that competes with steady sliding";
             "one or two of them");

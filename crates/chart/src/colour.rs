@@ -10,9 +10,9 @@ pub const GRID: &str = "#dddddd";
 /// Second-rank lines and text.
 pub const MUTED: &str = "#666666";
 
-/// Okabe and Ito's colour-blind-safe set, without its yellow, which is too light for lines.
+/// Okabe and Ito's colour-blind-safe set, with grey for its yellow, too light for lines, and its black, that of sums.
 pub const SERIES: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#808080"];
 
 /// Red, green and blue.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

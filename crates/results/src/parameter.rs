@@ -3,6 +3,9 @@
 use crate::prelude::*;
 use frictionsim_chart::prefixed;
 
+/// Units that take a prefix.
+const PREFIXED: [&str; 6] = ["Pa", "Pa/m", "N/m", "m", "s", "Pa s/m"];
+
 /// The mark-up that names a case key in legends and labels: its quantity with the symbol, or the key itself.
 pub fn parameter_name(key: &str) -> String {
     named(key).map_or_else(|| literal(key), |(quantity, _)| quantity)
@@ -12,6 +15,7 @@ pub fn parameter_name(key: &str) -> String {
 /// studies go over.
 pub fn parameter_axis(key: &str) -> Axis {
     match named(key) {
+        Some((quantity, unit)) if PREFIXED.contains(&unit) => Axis::new(&quantity, unit).prefixed(),
         Some((quantity, unit)) => Axis::new(&quantity, unit),
         None => Axis::new(&literal(key), ""),
     }
@@ -26,10 +30,7 @@ pub fn in_unit(value: f64, factor: f64) -> String {
 /// The factor and the unit, with a prefix where that is usual, in which values of a case key up to `reach` are shown.
 pub fn shared_unit(key: &str, reach: f64) -> (f64, String) {
     let unit = named(key).map_or("", |(_, unit)| unit);
-    match ["Pa", "Pa/m", "N/m", "m", "s", "Pa s/m"].contains(&unit) {
-        true => prefixed(reach * 1.0005, unit),
-        false => (1.0, unit.to_owned()),
-    }
+    if PREFIXED.contains(&unit) { prefixed(reach * 1.0005, unit) } else { (1.0, unit.to_owned()) }
 }
 
 /// Quantity, symbol and unit of the keys that studies go over; those of a named part with its name.

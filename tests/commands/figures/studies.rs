@@ -72,6 +72,6 @@ fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_bra
     });
     let figures = draw_sweep(&records.collect::<Vec<_>>(), (0.3, 1.0), &[]);
     assert_eq!(figures.len(), 1);
-    let words = "stiffness damping βR (s) ; n = 2, branch 0 ; stable ; μ (–)";
+    let words = "stiffness damping βR (µs) ; n = 2, branch 0 ; stable ; μ (–)";
     check("critical-friction", &figures[0].to_svg(None).unwrap(), &[words]);
 }

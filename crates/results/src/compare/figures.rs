@@ -85,7 +85,7 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, PanelData)]) -> Panel {
     });
     let axis = |k: usize| {
         let (ruler, (low, high)) = (&panel.axes[k], ends[k]);
-        let axis = Axis::new(&literal(&plain(&ruler.title)), "");
+        let axis = Axis::new(&ruler.title, "");
         let axis = axis.scaled(ruler.scale).between(low, high);
         match &ruler.fixed_ticks {
             Some(ticks) => axis.ticks(ticks.iter().map(|own| (own.value, own.label.clone()))),

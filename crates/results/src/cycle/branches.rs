@@ -64,10 +64,8 @@ fn axis_of(curves: &[Curve<'_>]) -> (Axis, Scale) {
 /// What the strokes of the curves mean, where any stability is known.
 fn with_strokes(figure: Figure, curves: &[Curve<'_>]) -> Figure {
     let is_known = |curve: &Curve<'_>| curve.branch.stable.iter().any(Option::is_some);
-    match curves.iter().any(is_known) {
-        true => figure.note("strong lines: stable; dashed: unstable; thin: stability unknown"),
-        false => figure,
-    }
+    let note = "strong lines: stable; dashed: unstable; thin: stability unknown";
+    if curves.iter().any(is_known) { figure.note(note) } else { figure }
 }
 
 /// Frequencies and amplitudes of two waves.
@@ -168,7 +166,7 @@ fn shares(curves: &[Curve<'_>]) -> Figure {
             let folds = turns.iter().chain(&narrow).map(|place| {
                 Rule::vertical(place.value).stroke(Stroke::dotted(MUTED, 0.7)).name("fold")
             });
-            let panel = Panel::new(x.clone(), y).height(104.0).layers(folds);
+            let panel = Panel::new(x.clone(), y).height(104.0).heading(curve.name()).layers(folds);
             series.iter().zip(named).fold(panel, |panel, (values, &(name, colour))| {
                 let named = Line::new(&curve.branch.values, values).solid(colour, 0.4).name(name);
                 panel.layer(named).layers(curve.branch.lines(values, colour))
@@ -176,7 +174,7 @@ fn shares(curves: &[Curve<'_>]) -> Figure {
         };
     let status = |curve: &Curve<'_>| {
         let axis = percent("contact nodes").between(0.0, 1.0);
-        panel(curve, axis, &curve.branch.status, &statuses).heading(curve.name())
+        panel(curve, axis, &curve.branch.status, &statuses)
     };
     let power = |curve: &Curve<'_>| {
         let axis = percent("share of external power").including(0.0).including(1.0);

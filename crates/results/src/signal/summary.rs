@@ -87,18 +87,16 @@ fn mode_beside(modes: &[ModeSummary], frequency_hz: f64) -> Option<ModeSummary> 
 impl ModeSummary {
     /// All modes of a case, numbered; those of a body without symmetry have no harmonics.
     pub fn all(modes: &[ComplexMode], has_harmonics: bool) -> Vec<Self> {
-        let numbered = modes.iter().enumerate();
-        numbered
-            .map(|(number, mode)| Self {
-                mode: number + 1,
-                frequency_hz: mode.frequency_hz(),
-                growth_rate_per_s: mode.growth_rate(),
-                harmonic: mode.diameters(has_harmonics),
-                branch: mode.branch,
-                direction: has_harmonics.then_some(mode.direction),
-                unstable: mode.is_unstable(),
-            })
-            .collect()
+        let own = |(number, mode): (usize, &ComplexMode)| Self {
+            mode: number + 1,
+            frequency_hz: mode.frequency_hz(),
+            growth_rate_per_s: mode.growth_rate(),
+            harmonic: mode.diameters(has_harmonics),
+            branch: mode.branch,
+            direction: has_harmonics.then_some(mode.direction),
+            unstable: mode.is_unstable(),
+        };
+        modes.iter().enumerate().map(own).collect()
     }
 
     /// Number and harmonic, as figures name it.
@@ -191,8 +189,8 @@ impl ChannelSummary {
         let friction = friction_coefficient?;
         let percent = 100.0 * MODE_TOLERANCE;
         if let Some(mode) = &self.mode {
-            let verb = if mode.growth_rate_per_s > 0.0 { "grows" } else { "decays" };
-            let rate = mode.growth_rate_per_s.abs();
+            let rate = mode.growth_rate_per_s;
+            let (verb, rate) = if rate > 0.0 { ("grows", rate) } else { ("decays", -rate) };
             return Some(format!(
                 "vibrates in {}, which {verb} at {rate:.2} 1/s in the eigenvalue analysis",
                 mode.described()

@@ -71,10 +71,9 @@ fn inflated<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
 /// # Errors
 /// [`FolderError::Unusable`] if it is missing, damaged or of another version; those of the file system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
+    let missing = || format!("has no {}: run it again without --no-figures", T::FILE);
     let bytes = read_existing(&folder.join(T::FILE))?;
-    let why = || format!("has no {}: run it again without --no-figures", T::FILE);
-    let missing = || FolderError::unusable(folder, why());
-    let bytes = bytes.ok_or_else(missing)?;
+    let bytes = bytes.ok_or_else(|| FolderError::unusable(folder, missing()))?;
     inflated(&bytes).map_err(|defect| {
         let (file, wanted) = (T::FILE, T::VERSION);
         let reason = match defect {

@@ -93,9 +93,12 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
             break;
         }
     }
-    if let Err(CycleError::NotConverged { .. }) = found {
+    if let Err(CycleError::Separated | CycleError::NotConverged { .. }) = found {
         map.step_in(steps);
-        if let Some(end) = transient_from(map, &start)? {
+        // A step of the search, or a large start, may throw off a body that stays on its counterface.
+        let is_off = retries == [SMALLER];
+        let least = if is_off { scaled(map, mode, &start, SMALLER) } else { start.clone() };
+        if let Some(end) = transient_from(map, &least)? {
             found = find(map, end);
         }
     }
@@ -104,14 +107,11 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
         return Ok(found);
     }
 
-    // Far off the mode.
-    let own_steps = map.steps();
+    let own_steps = map.steps(); // Far off the mode.
     map.step_in(steps);
-    if let Ok(other) = find_settled(map, start) {
-        let other = shortest(map, other);
-        if off(mode, &other) < off(mode, &found) {
-            return Ok(other);
-        }
+    let other = find_settled(map, start).map(|other| shortest(map, other));
+    if let Some(other) = other.ok().filter(|other| off(mode, other) < off(mode, &found)) {
+        return Ok(other);
     }
     map.step_in(own_steps);
     Ok(found)

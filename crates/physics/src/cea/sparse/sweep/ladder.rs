@@ -152,6 +152,7 @@ impl SparseSweep<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::{Ladder, Rung};
     use crate::cea::sparse::fixtures::string_on_belt;
     use crate::cea::sparse::sweep;
     use crate::cea::{ModeLimit, SweepRequest};
@@ -160,6 +161,23 @@ mod tests {
     use crate::prestress::SlidingTangent;
     use std::f64::consts::TAU;
     use std::sync::Arc;
+
+    /// An error that falls keeps its remedy; one that stays, or is no number, takes the next one until all are spent.
+    #[test]
+    fn the_ladder_ends_whatever_becomes_of_an_error() {
+        let climbed = |errors: &[f64], is_converged: bool, is_small: bool| {
+            let mut ladder = Ladder { rung: Rung::AtRest, error: f64::INFINITY };
+            let rungs = errors.iter().map(|&error| ladder.climb(error, is_converged, is_small));
+            rungs.collect::<Vec<Rung>>()
+        };
+        let falling = [1.0, 0.2, 0.05, 0.01];
+        assert_eq!(climbed(&falling, false, false), [Rung::AtRest; 4]);
+        assert_eq!(climbed(&[1.0, 0.9], true, false), [Rung::AtRest, Rung::Spent]);
+        let (no_number, small) = ([f64::NAN; 5], [true, false]);
+        let ends = small.map(|is_small| climbed(&no_number, false, is_small));
+        assert_eq!(ends[0][..4], [Rung::Shifted, Rung::Without, Rung::Whole, Rung::Spent]);
+        assert_eq!(ends[1][..3], [Rung::Shifted, Rung::Without, Rung::Spent]);
+    }
 
     /// The string with dashpots `mu dashpot` on every third mass, as friction across slow sliding is.
     fn slowly_sliding(dashpot: f64) -> SlidingTangent {
