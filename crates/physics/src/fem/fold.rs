@@ -149,7 +149,7 @@ impl WaveDofs {
             // Angles modulo a full turn, so that high harmonics lose no digits.
             let halves = (n as isize * ahead).rem_euclid(2 * self.sectors as isize);
             let (sin, cos) = (PI * halves as f64 / self.sectors as f64).sin_cos();
-            let all = if power % 2 == 0 { [cos, -sin, sin, cos] } else { [sin, cos, -cos, sin] };
+            let all = [[cos, -sin, sin, cos], [sin, cos, -cos, sin]][power % 2];
             own.copy_from_slice(&all.map(|turn| sign * turn));
         }
         turns

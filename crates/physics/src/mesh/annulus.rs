@@ -112,7 +112,7 @@ impl AnnulusSheet {
 
 /// Radius at place `i` in halves of an element, between corner nodes at some radii.
 pub(super) fn radius_at(radii: &[f64], i: usize) -> f64 {
-    if i % 2 == 0 { radii[i / 2] } else { 0.5 * (radii[i / 2] + radii[i / 2 + 1]) }
+    if i.is_multiple_of(2) { radii[i / 2] } else { 0.5 * (radii[i / 2] + radii[i / 2 + 1]) }
 }
 
 /// Radii of the corner nodes: element sizes form a geometric sequence of ratio `radial_grading`.
