@@ -96,18 +96,18 @@ fn heard(seconds: f64, amplitude: impl Fn(f64) -> f64) -> String {
     (0..(seconds * 2e4) as u32).map(sample).collect()
 }
 
-/// What is found in the channel of such a record, and the folder in which it lies as `heard.txt`.
-fn found(record: &str) -> (serde_json::Value, TempDir) {
-    let folder = folder_with(&[("heard.txt", record.as_bytes())]);
-    let run = Run::of("signal", "heard.txt").args(&["--rate", "20000", "--json", "--quiet"]);
-    (run.within(&folder).done().value()["channels"][0].take(), folder)
+/// What is found in the channel of such a record, which lies in the folder as `heard.txt`.
+fn found(folder: &TempDir, options: &[&str]) -> serde_json::Value {
+    let run = Run::of("signal", "heard.txt").within(folder).args(options);
+    run.args(&["--rate", "20000", "--json", "--quiet"]).done().value()["channels"][0].take()
 }
 
 #[test]
 fn the_peaks_of_a_squeal_that_is_over_are_those_of_the_squeal() {
     let grown = |t: f64| 1e-4 * (147.0 * (t - 1.0)).exp().min(1000.0);
-    let (channel, folder) =
-        found(&heard(4.0, |t| if (1.0..1.6).contains(&t) { grown(t) } else { 0.0 }));
+    let record = heard(4.0, |t| if (1.0..1.6).contains(&t) { grown(t) } else { 0.0 });
+    let folder = folder_with(&[("heard.txt", record.as_bytes())]);
+    let channel = found(&folder, &[]);
     let main = channel["main_frequency_hz"].as_f64().unwrap();
     assert!((main - 2345.6).abs() < 0.5, "{channel}");
     let amplitude = channel["peaks"][0]["amplitude"].as_f64().unwrap();
@@ -129,14 +129,13 @@ fn the_peaks_of_a_squeal_that_is_over_are_those_of_the_squeal() {
 
 #[test]
 fn a_burst_without_a_line_in_the_mean_spectrum_has_peak_and_rate_and_so_has_its_interval() {
-    let (channel, folder) = found(&heard(2.0, |t| 0.5 * (-120.0 * t).exp()));
+    let record = heard(2.0, |t| 0.5 * (-120.0 * t).exp());
+    let folder = folder_with(&[("heard.txt", record.as_bytes())]);
+    let channel = found(&folder, &[]);
     let rate = |channel: &serde_json::Value| channel["growth"]["rate_per_s"]["value"].as_f64();
     assert!((rate(&channel).unwrap() / -120.0 - 1.0).abs() < 0.02, "{channel}");
-    let main = channel["main_frequency_hz"].as_f64().unwrap();
-    assert!((main - 2345.6).abs() < 2.0 && channel["interval_s"][1].as_f64() < Some(0.1));
-    let run = Run::of("signal", "heard.txt").within(&folder).out("part");
-    let run = run.args(&["--rate", "20000", "--to", "0.1", "--json", "--quiet"]);
-    let part = run.done().value()["channels"][0].take();
+    assert!(channel["interval_s"][1].as_f64() < Some(0.1));
+    let part = found(&folder, &["--to", "0.1", "--out", "part"]);
     assert!((rate(&part).unwrap() / -120.0 - 1.0).abs() < 0.02, "{part}");
     assert_eq!(part["interval_s"], serde_json::json!([0.0, 0.1]));
 }

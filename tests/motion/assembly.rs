@@ -81,8 +81,7 @@ fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64)
     let mut run = started(model(assembly), OperatorChoice::Auto, settings);
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
-    let speeds = run.fields().velocity.iter().map(|v| v.abs());
-    (record, speeds.fold(0.0, f64::max))
+    (record, run.fields().velocity.iter().fold(0.0, |most, v| v.abs().max(most)))
 }
 
 /// The modes of the eigenvalue analysis, with the lumped mass of the transient.

@@ -40,13 +40,12 @@ fn a_default_written_out_changes_nothing() {
 /// Keys that the schema requires of a table and that are missing there.
 fn missing(schema: &Value, table: &toml::Table) -> Vec<String> {
     let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    let mut all: Vec<String> =
-        required.filter(|key| !table.contains_key(*key)).map(str::to_owned).collect();
-    for (key, value) in table {
-        let own = schema["properties"].get(key).unwrap_or(&schema["additionalProperties"]);
-        all.extend(value.as_table().into_iter().flat_map(|inner| missing(own, inner)));
-    }
-    all
+    let own = required.filter(|key| !table.contains_key(*key)).map(str::to_owned);
+    let below = table.iter().flat_map(|(key, value)| {
+        let inner = schema["properties"].get(key).unwrap_or(&schema["additionalProperties"]);
+        value.as_table().map_or_else(Vec::new, |table| missing(inner, table))
+    });
+    own.chain(below).collect()
 }
 
 #[test]

@@ -8,8 +8,7 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
     let annulus = disc(30, 6);
     for rpm in [610.0, -610.0] {
         let model = model(&annulus, rpm);
-        let settings = kicked(3e-3, &[1, 2], 2.0);
-        let mut run = started(model, OperatorChoice::Auto, &settings);
+        let mut run = started(model, OperatorChoice::Auto, &kicked(3e-3, &[1, 2], 2.0));
         let surface_speed = model.contact.rotation_speed * 0.0205;
         let mut seen = [0; 3];
         while run.steps_done() < 10_000 {
@@ -50,8 +49,7 @@ fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body()
     let specification = crate::disc::on_shaft(disc(30, 6).specification, 2);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let model = model(&annulus, 610.0);
-    let settings = kicked(3e-3, &[1, 2], 2.0);
-    let mut run = started(model, OperatorChoice::Auto, &settings);
+    let mut run = started(model, OperatorChoice::Auto, &kicked(3e-3, &[1, 2], 2.0));
     let mut seen = [0; 3];
     while run.steps_done() < 5_000 {
         run.advance();
@@ -87,8 +85,8 @@ fn steady_sliding_start_stays_in_equilibrium() {
         (contact(610.0), stiffening(LAWS[1]), 1e-8),
     ] {
         let model = on_contact(&annulus, contact, stiffness);
-        let mut settings = settings(1e-3, &[]);
-        settings.initial = InitialState::SteadySliding;
+        let initial = InitialState::SteadySliding;
+        let settings = TransientSettings { initial, ..settings(1e-3, &[]) };
         let mut run = started(model, OperatorChoice::Auto, &settings);
         let mesh = &annulus.mesh;
         let body = Assembly::of_edge(mesh, model.material, &contact, stiffness).unwrap();

@@ -4,8 +4,7 @@ use super::*;
 
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
     let annulus = disc(45, 9);
-    let model = model(&annulus, rpm);
-    let mut run = started(model, OperatorChoice::Auto, settings);
+    let mut run = started(model(&annulus, rpm), OperatorChoice::Auto, settings);
     let mut record = Recorder::new(&run, wanted).unwrap();
     let end = run.run(&mut record).unwrap();
     (record, end)
@@ -37,7 +36,7 @@ fn a_vibration_of_two_frequencies_is_no_limit_cycle() {
 #[test]
 fn a_run_that_is_too_short_says_the_duration_that_is_enough() {
     let reason = |duration: f64| {
-        let (record, _) = run(610.0, &seeded(duration, 0.5), &RecorderSettings::default());
+        let (record, _) = run(610.0, &kicked(duration, &[2], 0.5), &RecorderSettings::default());
         TransientAnalysis::of(&record, &[2]).settling.reason
     };
     let Some(Unsettled::TooShort { duration }) = reason(0.004) else { panic!("long enough") };
@@ -47,17 +46,13 @@ fn a_run_that_is_too_short_says_the_duration_that_is_enough() {
     assert!(!matches!(then, Some(Unsettled::TooShort { .. })), "{then:?}");
 }
 
-fn seeded(duration: f64, velocity: f64) -> TransientSettings {
-    kicked(duration, &[2], velocity)
-}
-
 #[test]
 fn a_growing_vibration_is_no_limit_cycle_and_a_saturated_one_is() {
-    let (record, _) = run(610.0, &seeded(0.006, 1e-3), &RecorderSettings::default());
+    let (record, _) = run(610.0, &kicked(0.006, &[2], 1e-3), &RecorderSettings::default());
     let growing = TransientAnalysis::of(&record, &[2]).settling;
     assert_eq!(growing.state, EndState::Unsettled, "{growing:?}");
     assert!(growing.from.is_none() && growing.reason.is_some());
-    let (record, _) = run(610.0, &seeded(0.05, 0.5), &RecorderSettings::default());
+    let (record, _) = run(610.0, &kicked(0.05, &[2], 0.5), &RecorderSettings::default());
     let analysis = TransientAnalysis::of(&record, &[2]);
     let settled = &analysis.settling;
     assert_eq!(settled.state, EndState::LimitCycle, "{settled:?}");
@@ -80,7 +75,7 @@ fn a_growing_vibration_is_no_limit_cycle_and_a_saturated_one_is() {
 
 #[test]
 fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
-    let settings = seeded(0.05, 0.5);
+    let settings = kicked(0.05, &[2], 0.5);
     let (whole, _) = run(610.0, &settings, &RecorderSettings::default());
     let wanted = RecorderSettings { stop_when_settled: true, ..Default::default() };
     let (stopped, end) = run(610.0, &settings, &wanted);
@@ -128,8 +123,7 @@ fn steady_sliding_rest_and_separation_are_ends_of_their_own() {
 fn a_snapshot_has_the_contact_of_its_own_step() {
     let (snapshots, contact_interval) = (vec![0.0101], Some(1e-4));
     let wanted = RecorderSettings { snapshots, contact_interval, ..Default::default() };
-    let (record, _) = run(610.0, &seeded(0.0102, 0.5), &wanted);
-    let surface = record.surface_speed;
+    let (record, _) = run(610.0, &kicked(0.0102, &[2], 0.5), &wanted);
     let snapshot = &record.snapshots[0];
     assert_eq!(record.frames.len(), 103);
     assert!((record.frames[1].time - 1e-4).abs() < 1e-12);
@@ -141,7 +135,9 @@ fn a_snapshot_has_the_contact_of_its_own_step() {
             // A node in contact is where the cylinder holds it, 25 um out, up to the step that brings it there.
             0 => assert!(snapshot.contact.pressure[i] == 0.0 && snapshot.gap[i] > -1e-9),
             // A node that has stuck for a step has the speed of the cylinder before and after.
-            1 if (snapshot.velocity[2 * node + 1] / surface - 1.0).abs() < 1e-9 => stuck += 1,
+            1 if (snapshot.velocity[2 * node + 1] / record.surface_speed - 1.0).abs() < 1e-9 => {
+                stuck += 1
+            }
             _ => assert!(snapshot.contact.pressure[i] > 0.0),
         }
     }
@@ -151,11 +147,9 @@ fn a_snapshot_has_the_contact_of_its_own_step() {
 /// `contact.npz` of a longer run keeps what that of a run of its length would: a run can be extended.
 #[test]
 fn frames_of_a_run_are_those_of_a_longer_one_up_to_its_end() {
-    let mut long = settings(0.05, &[]);
-    long.sample_interval = 2e-6;
+    let long = TransientSettings { sample_interval: 2e-6, ..settings(0.05, &[]) };
     let (record, _) = run(610.0, &long, &RecorderSettings::default());
-    assert_eq!(record.rows.len(), 25_001);
-    assert_eq!(record.frame_stride, 4);
+    assert_eq!((record.rows.len(), record.frame_stride), (25_001, 4));
     let times = record.frames.iter().map(|frame| frame.time);
     assert!(times.eq(record.rows.iter().step_by(4).map(|row| row.time)));
 }
@@ -164,7 +158,7 @@ fn frames_of_a_run_are_those_of_a_longer_one_up_to_its_end() {
 fn the_acceleration_of_a_probe_is_the_change_of_its_velocity_over_the_interval() {
     let wanted =
         RecorderSettings { probes: vec![1, 17], raw_acceleration: true, ..Default::default() };
-    let (record, _) = run(610.0, &seeded(0.01, 0.5), &wanted);
+    let (record, _) = run(610.0, &kicked(0.01, &[2], 0.5), &wanted);
     for pair in record.probe_rows.iter().flat_map(|rows| rows.windows(2)) {
         let change = [2, 3].map(|c| (pair[1][c] - pair[0][c]) / 4e-6);
         assert_eq!(pair[1][4..6], change);

@@ -182,18 +182,13 @@ fn signals_come_back_from_universal_wav_and_matlab_files() {
 fn a_universal_file_keeps_the_step_of_its_axis() {
     for sampling_rate in [44_100.0, 51_200.0, 5e4, 1.0 / 3.0] {
         let file = SignalFile { sampling_rate, start: -1.0 / 3.0, ..signal(&["a"], &[1.0; 20]) };
-        let text = write_signal(&file);
-        let [step, start] = [45, 32].map(|from| &text.lines().nth(8).unwrap()[from..from + 12]);
-        let read = read_signal(text.as_bytes(), "x", None).unwrap();
-        assert!(
-            (read.sampling_rate / sampling_rate - 1.0).abs() < 5e-8,
-            "{step} of 1/{sampling_rate}"
-        );
-        assert!((read.start * 3.0 + 1.0).abs() < 5e-7, "{start}");
+        let read = read_signal(write_signal(&file).as_bytes(), "x", None).unwrap();
+        assert!((read.sampling_rate / sampling_rate - 1.0).abs() < 5e-8, "{sampling_rate}");
+        assert!((read.start * 3.0 + 1.0).abs() < 5e-7, "{}", read.start);
     }
     // What five decimals hold is written as before.
-    let text = write_signal(&signal(&["a"], &[1.0; 20]));
-    assert!(text.contains("  0.00000E+00  2.00000E-05  0.00000E+00\n"), "{text}");
+    let as_before = "  0.00000E+00  2.00000E-05  0.00000E+00\n";
+    assert!(write_signal(&signal(&["a"], &[1.0; 20])).contains(as_before));
 }
 
 #[test]
