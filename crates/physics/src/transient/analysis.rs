@@ -229,11 +229,9 @@ fn probes(record: &Recorder, range: &Range<usize>) -> Vec<Vec<ProbeMotion>> {
     let probes = record.probe_rows.iter().enumerate().map(|(probe, rows)| {
         let rows = &rows[range.clone()];
         let plane = [0, 1].map(|c| ProbeMotion::of(rows.iter().map(|row| [row[c], row[4 + c]])));
-        let axial = record
-            .axial_rows
-            .get(probe)
-            .map(|rows| ProbeMotion::of(rows[range.clone()].iter().map(|row| [row[0], row[2]])));
-        plane.into_iter().chain(axial).collect()
+        let moved = |row: &[f64; 4]| [row[0], row[2]];
+        let axial = record.axial_rows.get(probe).map(|rows| rows[range.clone()].iter().map(moved));
+        plane.into_iter().chain(axial.map(ProbeMotion::of)).collect()
     });
     probes.collect()
 }

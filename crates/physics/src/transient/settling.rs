@@ -321,9 +321,11 @@ fn growing(
     alone.or_else(|| {
         let (wave, frequency) = main?;
         // A wave of several periods around the edge is the same after as many of its own.
-        let turns = frequency * record.sample_interval / wave.max(1) as f64;
+        let own = frequency * record.sample_interval;
+        let turns = [own / wave.max(1) as f64, own];
         record.followed_harmonics().find_map(|harmonic| {
-            let rest = without_multiples(series(record, fifth.clone(), harmonic)?, turns);
+            let rest = series(record, fifth.clone(), harmonic)?;
+            let rest = turns.into_iter().fold(rest, without_multiples);
             let stage = harmonic_growth(&rest, 1.0 / record.sample_interval, motion).ok()?;
             let growth = stage.rate_per_s.value * fifth.len() as f64 * record.sample_interval;
             let [from, to] = [-0.5, 0.5].map(|half| rms(&rest) * (half * growth).exp());
