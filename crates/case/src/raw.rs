@@ -240,11 +240,7 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
         return refuse("the case file is UTF-16 text, not UTF-8", 0..0, String::new());
     }
     if bytes.contains(&0) {
-        return refuse(
-            "the case file is not a text file: it holds zero bytes",
-            0..0,
-            String::new(),
-        );
+        return refuse("the case file is no text: it holds zero bytes", 0..0, String::new());
     }
     std::str::from_utf8(bytes).or_else(|error| {
         let start = error.valid_up_to();
@@ -296,11 +292,15 @@ fn foreign(text: &str) -> Option<&'static str> {
     (is_row(first) && is_row(second)).then_some("a table of values")
 }
 
-/// A hint where the line of a syntax error gives a number with a decimal comma.
+/// A hint where the line of a syntax error gives a number with a decimal comma, or no value.
 fn decimal_comma(text: &str, at: usize) -> Option<String> {
     let begin = text.get(..at)?.rfind('\n').map_or(0, |newline| newline + 1);
     let line = text[begin..].lines().next()?;
-    let number = with_point(line.split_once('=')?.1.trim())?;
+    let value = line.split_once('=')?.1.trim();
+    if value.is_empty() {
+        return Some("write a value behind the `=`".to_owned());
+    }
+    let number = with_point(value)?;
     Some(format!("write the number with a decimal point, not a comma: {number}"))
 }
 

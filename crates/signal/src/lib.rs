@@ -1,10 +1,9 @@
 //! Measured and computed signals: spectra, spectrograms, growth rates, modal damping.
 //!
-//! Two roads lead through this module. A *time signal* becomes a spectrum
-//! ([`averaged_spectrum`]), a [`spectrogram`], spectral lines with their superharmonics ([`spectral_lines`]) and the
-//! rate of its exponential stage ([`exponential_stage`], [`harmonic_growth`]). A *frequency response* becomes modal
-//! frequencies and damping factors ([`half_power`], [`fit_modes`]). They give the two Rayleigh coefficients of `zeta =
-//! (alpha_R / omega + beta_R omega) / 2` ([`fit_rayleigh`]). [`identify`] does all of it.
+//! Two roads lead through this module. A *time signal* becomes a spectrum ([`averaged_spectrum`]), a [`spectrogram`],
+//! spectral lines with their superharmonics ([`spectral_lines`]) and the rate of its exponential stage
+//! ([`exponential_stage`], [`harmonic_growth`]). A *frequency response* becomes modal frequencies and damping factors
+//! ([`half_power`], [`fit_modes`]), and these Rayleigh's coefficients ([`fit_rayleigh`]). [`identify`] does all of it.
 //!
 //! [`reader`] turns files into either kind. Nothing here touches a file.
 

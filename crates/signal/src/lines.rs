@@ -138,8 +138,7 @@ pub(super) fn loudest_part(samples: &[f64], sampling_rate: f64) -> Option<(f64, 
     let mut blocks = blocks.take_while(|block| *block as f64 > 2.0 * FEWEST_PERIODS);
     blocks.find_map(|block| {
         let (frequency_hz, start) = loudest_block(samples, sampling_rate, block)?;
-        let end = (start + 2 * block).min(samples.len());
-        Some((frequency_hz, start.saturating_sub(block)..end))
+        Some((frequency_hz, start.saturating_sub(block)..(start + 2 * block).min(samples.len())))
     })
 }
 

@@ -322,10 +322,10 @@ fn growing(
         let (wave, frequency) = main?;
         // A wave of several periods around the edge is the same after as many of its own.
         let own = frequency * record.sample_interval;
-        let turns = [own / wave.max(1) as f64, own];
+        let turns = (wave > 1).then(|| own / wave as f64).into_iter().chain([own]);
         record.followed_harmonics().find_map(|harmonic| {
             let rest = series(record, fifth.clone(), harmonic)?;
-            let rest = turns.into_iter().fold(rest, without_multiples);
+            let rest = turns.clone().fold(rest, without_multiples);
             let stage = harmonic_growth(&rest, 1.0 / record.sample_interval, motion).ok()?;
             let growth = stage.rate_per_s.value * fifth.len() as f64 * record.sample_interval;
             let [from, to] = [-0.5, 0.5].map(|half| rms(&rest) * (half * growth).exp());

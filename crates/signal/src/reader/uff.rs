@@ -46,12 +46,16 @@ struct Function {
 /// Whether bytes that begin with `-1` are a universal file: the second line is the number of a dataset.
 pub(super) fn is_universal(bytes: &[u8]) -> bool {
     let mut lines = Lines::of(bytes);
-    let lines: Vec<String> = std::iter::from_fn(|| lines.next()).collect();
-    let [first, second, ..] = &lines[..] else { return false };
+    let [mut before, second] = [(); 2].map(|()| lines.next().unwrap_or_default());
     let number = second.split_whitespace().next().unwrap_or_default();
-    let is_number = number.trim_end_matches(['b', 'B']).parse::<u32>().is_ok();
-    let opens = |pair: &[String]| pair[0].trim() == "-1" && pair[1].trim_start().starts_with("58");
-    first.trim() == "-1" && is_number && lines.windows(2).any(opens)
+    let number = number.trim_end_matches(['b', 'B']).parse::<u32>();
+    let begins = before.trim() == "-1" && number.is_ok();
+    let mut all = std::iter::once(second).chain(std::iter::from_fn(|| lines.next()));
+    begins
+        && all.any(|line| {
+            let last = std::mem::replace(&mut before, line);
+            last.trim() == "-1" && before.trim_start().starts_with("58")
+        })
 }
 
 /// Lines of bytes that may turn binary.

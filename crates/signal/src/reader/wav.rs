@@ -15,27 +15,25 @@ const PEAK: f64 = 0.89;
 /// Reads all channels of a WAV file of integers or floating-point numbers; full scale reads 1.
 pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadError> {
     let damaged = |reason: String| ReadError::damaged(source, "WAV", reason);
-    let mut reader = WavReader::new(Cursor::new(bytes))
+    let mut wav = WavReader::new(Cursor::new(bytes))
         .map_err(|error| damaged(format!("{error}; write PCM or 32-bit floating-point samples")))?;
-    let spec = reader.spec();
+    let spec = wav.spec();
     if spec.channels == 0 || spec.sample_rate == 0 || spec.bits_per_sample == 0 {
         return Err(damaged("no channels, or a sampling rate of 0".into()));
     }
     // What comes before a damaged sample is whole.
     let values: Vec<f64> = match spec.sample_format {
-        SampleFormat::Float => {
-            reader.samples::<f32>().map_while(|v| v.ok().map(f64::from)).collect()
-        }
+        SampleFormat::Float => wav.samples::<f32>().map_while(|v| Some(v.ok()?.into())).collect(),
         SampleFormat::Int => {
             let scale = 1.0 / 2f64.powi(i32::from(spec.bits_per_sample) - 1);
-            let samples = reader.samples::<i32>();
+            let samples = wav.samples::<i32>();
             samples.map_while(|v| v.ok().map(|v| scale * f64::from(v))).collect()
         }
     };
     let count = usize::from(spec.channels);
     let rows = values.len() / count;
     let mut notes = Vec::new();
-    if rows * count < reader.len() as usize {
+    if rows * count < wav.len() as usize {
         notes.push(format!("the file ends early: {rows} samples of each channel are read"));
     }
     if let Some(position) = values.iter().position(|v| !v.is_finite()) {

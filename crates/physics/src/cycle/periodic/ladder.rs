@@ -96,8 +96,8 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
     if let Err(CycleError::Separated | CycleError::NotConverged { .. }) = found {
         map.step_in(steps);
         // A step of the search, or a large start, may throw off a body that stays on its counterface.
-        let is_off = retries == [SMALLER];
-        let least = if is_off { scaled(map, mode, &start, SMALLER) } else { start.clone() };
+        let has_left = retries == [SMALLER];
+        let least = if has_left { scaled(map, mode, &start, SMALLER) } else { start.clone() };
         if let Some(end) = transient_from(map, &least)? {
             found = find(map, end);
         }
