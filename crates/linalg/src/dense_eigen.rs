@@ -6,11 +6,11 @@ use super::{ComplexDenseLu, LinalgError, interruption};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{
-    ComputeEigenvectors, EvdParams, SelfAdjointEvdParams, evd_cplx, evd_real, evd_scratch,
-    self_adjoint_evd, self_adjoint_evd_scratch,
+    ComputeEigenvectors, EvdError, EvdParams, SelfAdjointEvdParams, evd_cplx, evd_real,
+    evd_scratch, self_adjoint_evd, self_adjoint_evd_scratch,
 };
 use faer::traits::ComplexField;
-use faer::{Auto, Mat, MatRef, Par, Spec, c64};
+use faer::{Auto, Mat, MatMut, MatRef, Par, Spec, c64};
 
 /// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
 const VECTOR_TOLERANCE: f64 = 1e-9;
@@ -61,7 +61,7 @@ pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
 /// # Errors
 /// If the QR iteration does not converge, or the matrix is not finite.
 pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgError> {
-    complex_decomposed(matrix, None, None)
+    complex_decomposed(matrix, [None, None])
 }
 
 /// Eigenvalues, right vectors and, where they are asked for, left vectors, as columns.
@@ -79,48 +79,40 @@ pub fn complex_eigen(
     let n = matrix.nrows();
     let mut right = Mat::<c64>::zeros(n, n);
     let mut left = with_left.then(|| Mat::<c64>::zeros(n, n));
-    let values = complex_decomposed(matrix, left.as_mut(), Some(&mut right))?;
+    let values = complex_decomposed(matrix, [left.as_mut(), Some(&mut right)])?;
     Ok((values, right, left))
 }
 
-/// Eigenvalues of a complex square matrix, with the vectors that there is room for.
+/// Eigenvalues of a complex square matrix, with the vectors that there is room for, left and right ones.
 fn complex_decomposed(
     matrix: MatRef<'_, c64>,
-    left: Option<&mut Mat<c64>>,
-    right: Option<&mut Mat<c64>>,
+    room: [Option<&mut Mat<c64>>; 2],
 ) -> Result<Vec<c64>, LinalgError> {
-    begin(matrix)?;
-    let n = matrix.nrows();
-    let mut values = Diag::<c64>::zeros(n);
-    let (of_left, of_right) = (wanted(&left), wanted(&right));
-    let scratch = evd_scratch::<c64>(n, of_left, of_right, Par::Seq, Default::default());
-    evd_cplx(
-        matrix,
-        values.as_mut(),
-        left.map(|left| left.as_mut()),
-        right.map(|right| right.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| LinalgError::DenseEigen { dimension: n })?;
+    let (mut values, params) = (Diag::<c64>::zeros(matrix.nrows()), Spec::default());
+    decompose(matrix, room, params, |[left, right], stack| {
+        evd_cplx(matrix, values.as_mut(), left, right, Par::Seq, stack, params)
+    })?;
     Ok(values.column_vector().iter().copied().collect())
 }
 
-/// Begins a decomposition, unless the matrix is not finite.
-fn begin<T: ComplexField>(matrix: MatRef<'_, T>) -> Result<(), LinalgError> {
+/// Decomposes a matrix `by` the library, which is given the room for vectors and its memory, unless the matrix is not finite.
+fn decompose<T: ComplexField>(
+    matrix: MatRef<'_, T>,
+    room: [Option<&mut Mat<T>>; 2],
+    params: Spec<EvdParams, T>,
+    by: impl FnOnce([Option<MatMut<'_, T>>; 2], &mut MemStack) -> Result<(), EvdError>,
+) -> Result<(), LinalgError> {
     interruption::check();
-    match matrix.is_all_finite() {
-        true => Ok(()),
-        false => Err(LinalgError::DenseEigen { dimension: matrix.nrows() }),
-    }
-}
-
-fn wanted<T>(room: &Option<T>) -> ComputeEigenvectors {
-    match room {
+    let dimension = matrix.nrows();
+    let [left, right] = room.each_ref().map(|own| match own {
         Some(_) => ComputeEigenvectors::Yes,
         None => ComputeEigenvectors::No,
-    }
+    });
+    let scratch = evd_scratch::<T>(dimension, left, right, Par::Seq, params);
+    let room = room.map(|own| own.map(|own| own.as_mut()));
+    let found =
+        matrix.is_all_finite().then(|| by(room, MemStack::new(&mut MemBuffer::new(scratch))));
+    found.and_then(Result::ok).ok_or(LinalgError::DenseEigen { dimension })
 }
 
 /// Eigenvalues of a real square matrix, in no particular order, without vectors.
@@ -128,34 +120,22 @@ fn wanted<T>(room: &Option<T>) -> ComputeEigenvectors {
 /// # Errors
 /// As [`complex_eigenvalues`].
 pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError> {
-    decomposed(matrix, None, None)
+    decomposed(matrix, [None, None])
 }
 
-/// Eigenvalues of a real square matrix, with the vectors that there is room for.
+/// [`complex_decomposed`] of a real square matrix.
 fn decomposed(
     matrix: MatRef<'_, f64>,
-    left: Option<&mut Mat<f64>>,
-    right: Option<&mut Mat<f64>>,
+    room: [Option<&mut Mat<f64>>; 2],
 ) -> Result<Vec<c64>, LinalgError> {
-    begin(matrix)?;
-    let n = matrix.nrows();
-    let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
-    let (of_left, of_right) = (wanted(&left), wanted(&right));
+    let [mut real, mut imaginary] = [(); 2].map(|()| Diag::<f64>::zeros(matrix.nrows()));
     // Aggressive early deflation sorts 2 x 2 blocks without end where eigenvalues are equal (faer 0.24): double shifts alone.
     let mut params: EvdParams = Auto::<f64>::auto();
     params.schur.blocking_threshold = usize::MAX;
-    let scratch = evd_scratch::<f64>(n, of_left, of_right, Par::Seq, params.into());
-    evd_real(
-        matrix,
-        real.as_mut(),
-        imaginary.as_mut(),
-        left.map(|left| left.as_mut()),
-        right.map(|right| right.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        params.into(),
-    )
-    .map_err(|_| LinalgError::DenseEigen { dimension: n })?;
+    decompose(matrix, room, params.into(), |[left, right], stack| {
+        let (re, im) = (real.as_mut(), imaginary.as_mut());
+        evd_real(matrix, re, im, left, right, Par::Seq, stack, params.into())
+    })?;
     let parts = real.column_vector().iter().zip(imaginary.column_vector().iter());
     Ok(parts.map(|(re, im)| c64::new(*re, *im)).collect())
 }
@@ -191,7 +171,7 @@ pub fn real_eigen_above(
     let n = matrix.nrows();
     let mut right = Mat::<f64>::zeros(n, n);
     let mut left = with_left.then(|| Mat::<f64>::zeros(n, n));
-    let mut values = decomposed(matrix, left.as_mut(), Some(&mut right))?;
+    let mut values = decomposed(matrix, [left.as_mut(), Some(&mut right)])?;
     order_conjugate_pairs(&mut values, &mut right, left.as_mut());
     let smallest = smallest(&values);
     repair(matrix, &values, smallest, &mut right);
@@ -295,19 +275,16 @@ fn inverse_iteration(
         c64::new(matrix[(i, j)], 0.0) - if i == j { shift } else { c64::ZERO }
     });
     let lu = ComplexDenseLu::factorize(shifted);
-    let start = random_columns(n, 1, seed);
-    let mut x = Mat::from_fn(n, 1, |i, _| c64::new(start[(i, 0)], 0.0));
+    let mut vector: Vec<c64> =
+        column(random_columns(n, 1, seed).as_ref(), 0).iter().map(|&v| v.into()).collect();
     for _ in 0..3 {
         // (A - s)^-1 of what is orthogonal to the known ones.
-        let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
         orthogonalize(&mut vector, known);
         normalize(&mut vector);
-        (0..n).for_each(|i| x[(i, 0)] = vector[i]);
-        lu.solve_in_place(x.as_mut());
+        lu.solve_in_place(MatMut::from_column_major_slice_mut(&mut vector, n, 1));
     }
     // The last step is a solution, not a projection: it leaves nothing of other eigenvectors, and within
     // the eigenspace it only scales, so the vector stays independent of the known ones.
-    let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
     normalize(&mut vector);
     vector
 }

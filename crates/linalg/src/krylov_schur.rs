@@ -1,8 +1,8 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
 use super::dense::{
-    GrowingColumns, Orthonormalized, add_product, join_columns, join_rows, orthonormalize, product,
-    transpose_product,
+    GrowingColumns, Orthonormalized, add_product, join_columns, join_rows, orthonormalize,
+    pick_columns, product, transpose_product,
 };
 use super::dense_eigen::{RealEigen, real_eigen, real_eigen_above};
 use super::gram::orthonormal_columns;
@@ -143,7 +143,7 @@ fn whole(
     };
     let eigen = real_eigen_above(matrix.as_ref(), false, &smallest)?;
     let chosen = chosen(&eigen.values);
-    let ritz = Mat::from_fn(n, chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
+    let ritz = pick_columns(&eigen.right, &chosen);
     let vectors = product(matrix.as_ref(), ritz.as_ref()); // S x, one application further.
     let residuals = vec![0.0; chosen.len()];
     Ok(normalized(&eigen, &chosen, vectors, residuals))
@@ -246,7 +246,7 @@ impl<'a> BlockArnoldi<'a> {
         {
             kept.pop(); // Half of a pair.
         }
-        let ritz = Mat::from_fn(self.dimension(), kept.len(), |i, j| eigen.right[(i, kept[j])]);
+        let ritz = pick_columns(&eigen.right, &kept);
         let empty = Mat::<f64>::zeros(self.dimension(), 0);
         let vectors = orthonormalize(empty.as_ref(), ritz, 1e-12).columns;
         self.basis.combine(vectors.as_ref());
@@ -257,7 +257,7 @@ impl<'a> BlockArnoldi<'a> {
 
     /// The `chosen` Ritz pairs, one application of the operator further.
     fn finish(self, eigen: &RealEigen, chosen: &[usize], residuals: Vec<f64>) -> RealPairs {
-        let ritz = Mat::from_fn(self.dimension(), chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
+        let ritz = pick_columns(&eigen.right, chosen);
         let within = product(self.projection.as_ref(), ritz.as_ref());
         let beyond = product(self.coupling.as_ref(), ritz.as_ref());
         let mut vectors = product(self.basis.columns(), within.as_ref());

@@ -53,15 +53,6 @@ impl SparsityPattern {
             row_indices.extend_from_slice(rows);
             column_pointers.push(row_indices.len());
         }
-        Self::from_columns(dimension, column_pointers, row_indices)
-    }
-
-    /// Pattern of columns that start at `column_pointers` among `row_indices`, rows rising within each.
-    pub(super) fn from_columns(
-        dimension: usize,
-        column_pointers: Vec<usize>,
-        row_indices: Vec<usize>,
-    ) -> Self {
         let symbolic = SymbolicSparseColMat::new_checked(
             dimension,
             dimension,

@@ -206,37 +206,23 @@ impl MatrixPolynomial {
     ///
     /// Friction touches the contact rows only: on the shared pattern most of such a coefficient is structural zeros.
     pub fn compact_coefficient(&self, power: usize) -> (Self, Vec<usize>) {
-        let values = &self.coefficients[power];
-        let nonzeros = |column: usize| {
-            let nonzeros = self.pattern.column(column);
-            nonzeros.filter(|(position, _)| values[*position] != 0.0)
-        };
+        let (values, count) = (&self.coefficients[power], self.dimension());
+        let entries = (0..count).flat_map(|column| {
+            let own = self.pattern.column(column);
+            own.map(move |(position, row)| (row, column, values[position]))
+        });
+        let mut entries: Vec<(usize, usize, f64)> = entries.filter(|own| own.2 != 0.0).collect();
 
         // The unknowns, and their places among themselves.
-        let mut touched = vec![false; self.dimension()];
-        for column in 0..self.dimension() {
-            for (_, row) in nonzeros(column) {
-                (touched[row], touched[column]) = (true, true); // An entry touches its row and its column.
-            }
+        let mut touched = vec![false; count];
+        entries.iter().for_each(|&(row, column, _)| (touched[row], touched[column]) = (true, true));
+        let unknowns: Vec<usize> = (0..count).filter(|&i| touched[i]).collect();
+        let mut place = vec![0; count];
+        unknowns.iter().enumerate().for_each(|(slot, &i)| place[i] = slot);
+        for (row, column, _) in &mut entries {
+            (*row, *column) = (place[*row], place[*column]);
         }
-        let unknowns: Vec<usize> = (0..self.dimension()).filter(|&i| touched[i]).collect();
-        let mut place = vec![0; self.dimension()];
-        let places = unknowns.iter().enumerate();
-        places.for_each(|(slot, &i)| place[i] = slot);
-
-        // Rows keep their order.
-        let count = values.iter().filter(|value| **value != 0.0).count();
-        let (mut rows, mut kept) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        let mut pointers = vec![0];
-        for &column in &unknowns {
-            for (position, row) in nonzeros(column) {
-                rows.push(place[row]);
-                kept.push(values[position]);
-            }
-            pointers.push(rows.len());
-        }
-        let pattern = SparsityPattern::from_columns(unknowns.len(), pointers, rows);
-        (Self::from_coefficients(&Arc::new(pattern), vec![kept]), unknowns)
+        (Self::from_triplets(unknowns.len(), &[entries]), unknowns)
     }
 
     /// Nonzero values of `P(mu)`.

@@ -24,7 +24,7 @@ use faer::linalg::triangular_solve::{
     solve_unit_upper_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::traits::math_utils::abs;
-use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
+use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par, c64};
 use front::{Eliminated, Remainder, Scalar};
 use order::Order;
 use std::sync::Arc;
@@ -238,12 +238,10 @@ macro_rules! sparse_lu {
 
             /// Solves `A x = b` with one step of iterative refinement.
             pub fn solve_refined(&self, right_side: &[$scalar]) -> Vec<$scalar> {
-                let n = right_side.len();
-                let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);
-                self.solve_in_place(x.as_mut());
-                let mut r = self.residual(&x, right_side);
-                self.solve_in_place(r.as_mut());
-                (0..n).map(|i| x[(i, 0)] + r[(i, 0)]).collect() // x + A^-1 (b - A x).
+                let mut x = self.solve(right_side.to_vec());
+                let correction = self.solve(self.residual(&x, right_side)); // A^-1 (b - A x).
+                x.iter_mut().zip(correction).for_each(|(x, r)| *x += r);
+                x
             }
 
             /// `y = L^-1 P b`, then `x = U^-1 (y - right x)`; transposed `y = U^-T b`, then `x = P^T L^-T (y - below^T x)`. Of symmetric
@@ -290,12 +288,11 @@ macro_rules! sparse_lu {
             }
 
             /// `b - A x`.
-            fn residual(&self, x: &Mat<$scalar>, right_side: &[$scalar]) -> Mat<$scalar> {
-                let pattern = &self.analysis.pattern;
-                let mut r = Mat::from_fn(right_side.len(), 1, |i, _| right_side[i]);
-                for column in 0..pattern.dimension() {
+            fn residual(&self, x: &[$scalar], right_side: &[$scalar]) -> Vec<$scalar> {
+                let (pattern, mut r) = (&self.analysis.pattern, right_side.to_vec());
+                for (column, x) in x.iter().enumerate() {
                     for (position, row) in pattern.column(column) {
-                        r[(row, 0)] -= self.values[position] * x[(column, 0)];
+                        r[row] -= self.values[position] * x;
                     }
                 }
                 r
@@ -305,11 +302,10 @@ macro_rules! sparse_lu {
             fn check(&self) -> Result<(), LinalgError> {
                 let n = self.analysis.pattern.dimension();
                 let right_side: Vec<$scalar> = trial_right_side(n).map(<$scalar>::from).collect();
-                let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);
-                self.solve_in_place(x.as_mut());
-                let largest = x.norm_max();
-                let scale = self.norm() * largest; // |A| |x|, with |b| below 2.
-                let backward_error = self.residual(&x, &right_side).norm_max() / scale;
+                let x = self.solve(right_side.clone());
+                let largest = |values: &[$scalar]| ColRef::from_slice(values).norm_max();
+                let scale = self.norm() * largest(&x); // |A| |x|, with |b| below 2.
+                let backward_error = largest(&self.residual(&x, &right_side)) / scale;
                 // A large solution says that the matrix has no inverse in double precision.
                 LinalgError::check(n, backward_error, scale / 2.0)
             }
