@@ -30,7 +30,7 @@ pub fn values<'py>(
 fn dictionary<'py>(py: Python<'py>, table: &RawTable) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
     for (key, entry) in table {
-        found.set_item(key, object(py, &entry.item.value)?)?;
+        found.set_item(key, object(py, &entry.value)?)?;
     }
     Ok(found)
 }

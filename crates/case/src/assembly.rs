@@ -5,7 +5,7 @@ use super::description::Description;
 use super::imported::{FileParts, near_name};
 use super::modifications::Misfit;
 use super::value::quote;
-use super::{Case, Contact, Diagnostic, Section, refuse_if};
+use super::{Case, Contact, Diagnostic, Section};
 use frictionsim_physics::contact::{
     Counterpart, Motion, RigidCounterface, RigidMotion, SlidingContact,
 };

@@ -1,8 +1,8 @@
 //! `[boundaries.*]`: what holds each boundary.
 
+use super::Section;
 use super::elastic::loss_factor;
 use super::words::{ConditionWord, HeldAxis};
-use super::{Section, refuse, refuse_if};
 use frictionsim_physics::mesh::{BoundaryCondition, ElasticSupport};
 
 /// A boundary of the case with its condition.
@@ -37,9 +37,9 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
         (ConditionWord::Fixed, "fixed", "directions"),
         (ConditionWord::Pressure, "pressure", "pressure"),
     ] {
-        let idle = if word == needed { Vec::new() } else { section.refused(keys) };
-        for key in idle {
-            refuse!(section, key => "has no effect here"; "needs condition = \"{needs}\"";
+        if word != needed {
+            refuse_each!(section, keys; key => "has no effect here";
+                "needs condition = \"{needs}\"";
                 "change the condition to \"{needs}\", or leave {key} out");
         }
     }

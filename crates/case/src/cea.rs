@@ -1,6 +1,6 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
-use super::{Body, Case, CeaMethod, Section, refuse, refuse_if};
+use super::{Body, Case, CeaMethod, Section};
 use frictionsim_physics::cea::ModeLimit;
 use frictionsim_physics::fem::MassKind;
 

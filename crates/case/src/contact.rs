@@ -3,7 +3,7 @@
 use super::elastic::loss_factor;
 use super::value::quote;
 use super::words::{BaseContact, NormalLawWord, word_of};
-use super::{Case, Section, imported, refuse, refuse_if, solid};
+use super::{Case, Section, imported, solid};
 use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use frictionsim_physics::mesh::{AnnulusSpecification, BodySpecification, SolidContact};
 use frictionsim_physics::prestress::SlidingSurfaces;
@@ -30,27 +30,14 @@ pub(super) fn section_of(contact: &SlidingSurfaces) -> String {
 pub(super) struct Springs {
     /// The section of the contact.
     pub section: String,
-    /// Their stiffness without pressure, Pa/m.
+    /// The key that their stiffness without pressure belongs to.
+    pub key: String,
+    /// What that stiffness is.
+    pub name: String,
+    /// It, Pa/m.
     pub stiffness: f64,
     /// How they stiffen.
     pub law: Option<NormalLaw>,
-}
-
-impl Springs {
-    /// The key that their stiffness without pressure belongs to.
-    pub fn key(&self) -> String {
-        let key = if self.is_exponential() { "reference_pressure" } else { "normal_stiffness" };
-        format!("{}.{key}", self.section)
-    }
-
-    /// What it is.
-    pub fn name(&self) -> String {
-        self.key() + if self.is_exponential() { " / height" } else { "" }
-    }
-
-    fn is_exponential(&self) -> bool {
-        matches!(self.law, Some(NormalLaw::Exponential { .. }))
-    }
 }
 
 impl Case {
@@ -67,7 +54,12 @@ impl Case {
     /// The springs of each contact that has them.
     pub(super) fn springs(&self) -> Vec<Springs> {
         let springs = self.contact_sections().into_iter().filter_map(|(section, own)| {
-            Some(Springs { section, stiffness: own.normal_stiffness?, law: own.law })
+            let (key, over) = match own.law {
+                Some(NormalLaw::Exponential { .. }) => ("reference_pressure", " / height"),
+                _ => ("normal_stiffness", ""),
+            };
+            let (key, name) = (format!("{section}.{key}"), format!("{section}.{key}{over}"));
+            Some(Springs { section, key, name, stiffness: own.normal_stiffness?, law: own.law })
         });
         springs.collect()
     }
@@ -100,20 +92,17 @@ pub(super) fn contact(
     let face = match annulus {
         Some((annulus, true)) => solid::contact(&section, annulus),
         _ => {
-            for key in section.refused("ring_inner_radius ring_outer_radius") {
-                refuse!(section, key => "is for a ring on the top face of a three-dimensional body";
-                    "of other bodies"; "leave it out");
-            }
+            refuse_each!(section, "ring_inner_radius ring_outer_radius"; key =>
+                "is for a ring on the top face of a three-dimensional body"; "of other bodies";
+                "leave it out");
             SolidContact::Inner
         }
     };
     if is_annulus {
-        let own = if is_solid { "" } else { "boundary" };
-        let others = "counter_boundary counterface center axis radius direction speed";
-        for key in section.refused(own).into_iter().chain(section.refused(others)) {
-            refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
-                "not used by the built-in annulus"; "leave it out");
-        }
+        let keys = "boundary counter_boundary counterface center axis radius direction speed";
+        let keys = if is_solid { keys.trim_start_matches("boundary") } else { keys };
+        refuse_each!(section, keys; key, "contact.{key} is for a body from a mesh file (mesh.file)";
+            "not used by the built-in annulus"; "leave it out");
         plane_speed = None;
     }
     let interference = interference(&section, is_pressed);

@@ -1,9 +1,9 @@
 //! The contacts of solid bodies: `[contacts.NAME]`, and `[contact]` with a rigid counterface.
 
+use super::Section;
 use super::contact::{contact_stiffness, friction_decay, interference};
 use super::tables::{TableFiles, topography};
 use super::words::{BaseContact, CounterfaceWord};
-use super::{Section, caution_if, refuse, refuse_if};
 use frictionsim_physics::contact::{
     Counterpart, PairFriction, RigidCounterface, RigidMotion, RigidShape, Topography,
 };
@@ -25,10 +25,9 @@ pub(super) struct NamedContact {
 
 /// `[contact]` of solid bodies: one contact with a rigid counterface. `is_pressed`: a boundary has a pressure.
 pub(super) fn short_form(section: &Section<'_>, is_pressed: bool) -> NamedContact {
-    for key in section.refused("ring_inner_radius ring_outer_radius counter_boundary") {
-        refuse!(section, key => "has no meaning for a mesh of solid elements"; "of other bodies";
-            "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
-    }
+    refuse_each!(section, "ring_inner_radius ring_outer_radius counter_boundary"; key =>
+        "has no meaning for a mesh of solid elements"; "of other bodies";
+        "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
     let is_rigid_base = section.choice::<BaseContact>("base_state") == BaseContact::Rigid;
     refuse_if!(section.has("base_state") && is_rigid_base; section, "base_state",
         "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their base \
@@ -57,7 +56,11 @@ pub(super) fn contact(section: &Section<'_>, tables: &TableFiles<'_>) -> NamedCo
     let counterpart = match section.has("counterface") {
         true => Counterpart::Rigid(rigid_counterface(section, false)),
         false => {
-            refuse_idle(section);
+            let idle =
+                "axis center direction radius speed rotation_speed_rpm interference normal_force";
+            refuse_each!(section, idle; key => "is for a rigid counterface"; "needs counterface";
+                "leave it out; a rigid counterface has `counterface` in place of `counter`, with \
+                 direction and speed, or with rotation_speed_rpm");
             Counterpart::Surface(0)
         }
     };
@@ -74,16 +77,6 @@ pub(super) fn contact(section: &Section<'_>, tables: &TableFiles<'_>) -> NamedCo
         friction_coefficient: section.number("friction_coefficient"),
         base,
         surfaces: sliding_surfaces(section, counterpart, topography),
-    }
-}
-
-/// Refuses the keys of a rigid counterface where there is none.
-fn refuse_idle(section: &Section<'_>) {
-    let shape = "axis center direction radius speed rotation_speed_rpm interference normal_force";
-    for key in section.refused(shape) {
-        refuse!(section, key => "is for a rigid counterface"; "needs counterface";
-            "leave it out; a rigid counterface has `counterface` in place of `counter`, with \
-             direction and speed, or with rotation_speed_rpm");
     }
 }
 
@@ -136,12 +129,10 @@ fn motion(section: &Section<'_>) -> RigidMotion {
     if speed.is_none() && !section.has("direction") {
         return RigidMotion::Turning(section.number("rotation_speed_rpm") * TAU / 60.0);
     }
-    for key in section.refused("rotation_speed_rpm") {
-        refuse!(section, key,
-            "the counterface turns about its axis or slides along a straight line, not both";
-            "beside `speed` or `direction`";
-            "leave rotation_speed_rpm out, or `speed` and `direction`");
-    }
+    refuse_each!(section, "rotation_speed_rpm"; key,
+        "the counterface turns about its axis or slides along a straight line, not both";
+        "beside `speed` or `direction`";
+        "leave rotation_speed_rpm out, or `speed` and `direction`");
     let speed = speed.unwrap_or_else(|| section.number("speed"));
     if !section.has("direction") {
         section.no_vector::<3>("direction", "is missing beside `speed`");

@@ -1,7 +1,7 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::body::node_count;
-use super::{Analysis, Body, BodyKind, Section, caution_if, refuse, refuse_if};
+use super::{Analysis, Body, BodyKind, Section};
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification,
 };

@@ -4,11 +4,10 @@
 //! count of operations at one rate: its order of magnitude.
 
 mod estimate;
-mod size;
 
-use super::{Analysis, Case, CaseErrors, refusal};
+use super::{Analysis, Case, CaseErrors};
+use estimate::Size;
 use serde::{Serialize, Serializer};
-use size::Size;
 
 /// Points of a study whose cost is looked at.
 const TRIED_POINTS: usize = 24;
@@ -170,7 +169,7 @@ impl Case {
         Cost {
             nodes: size.nodes,
             elements: size.elements,
-            dofs: self.body.dimension() as u128 * size.nodes,
+            dofs: size.unknowns as u128,
             // Coordinates, frame, connectivity and result vectors of a node and its element.
             mesh_memory_bytes: 160.0 * size.nodes as f64,
             cea: self.cea.as_ref().map(|cea| self.cea_cost(cea, size)),

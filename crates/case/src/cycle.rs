@@ -1,8 +1,8 @@
 //! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
 use super::{
-    Body, Case, CaseErrors, OnsetChoice, Section, Spacing, StabilityChoice, keys, range_values,
-    refusal, refuse, refuse_if,
+    Body, Case, CaseErrors, CaseKey, OnsetChoice, Section, Spacing, StabilityChoice, keys,
+    range_values,
 };
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 
@@ -123,56 +123,54 @@ impl Case {
 }
 
 pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
-    let harmonics = section.harmonics(body.and_then(Body::sector_count));
-    let onsets = section.choice("onsets");
-    let phases = section.optional_count("phases");
-    let harmonic_count = section.optional_count("harmonic_count");
-    let frames = section.count("frames");
-    let confirmation_periods = section.count("confirmation_periods");
-    if let periods @ 1..CONFIRMATION_PERIODS = confirmation_periods {
+    let is_assembly = body.is_some_and(|own| own.assembly().is_some());
+    let own = Cycle {
+        harmonics: section.harmonics(body.and_then(Body::sector_count)),
+        onsets: section.choice("onsets"),
+        phases: section.optional_count("phases"),
+        harmonic_count: section.optional_count("harmonic_count"),
+        frames: section.count("frames"),
+        confirmation_periods: section.count("confirmation_periods"),
+        stability: section.choice("stability"),
+        two_frequencies: section.flag("two_frequencies"),
+        continuation: section.read_section("continuation", |own| continuation(own, is_assembly)),
+    };
+    if let periods @ 1..CONFIRMATION_PERIODS = own.confirmation_periods {
         refuse!(section, "confirmation_periods",
             "cycle.confirmation_periods = {periods} is too short to read a frequency from its last \
              fifth"; "0 for none, or {CONFIRMATION_PERIODS} and more");
     }
-    let stability = section.choice("stability");
-    let two_frequencies = section.flag("two_frequencies");
-    refuse_if!(two_frequencies && stability == StabilityChoice::None; section, "two_frequencies",
+    let is_analysed = own.stability != StabilityChoice::None;
+    refuse_if!(own.two_frequencies && !is_analysed; section, "two_frequencies",
         "cycle.two_frequencies needs to know which cycles lose their stability";
         "needs cycle.stability"; "cycle.stability = \"point\" or \"branch\"");
-    let is_assembly = body.is_some_and(|own| own.assembly().is_some());
-    let continuation = section.read_section("continuation", |own| continuation(own, is_assembly));
-    refuse_if!(stability == StabilityChoice::Branch && continuation.is_none(); section, "stability",
+    let is_followed = own.continuation.is_some();
+    refuse_if!(own.stability == StabilityChoice::Branch && !is_followed; section, "stability",
         "cycle.stability = \"branch\" needs [cycle.continuation]"; "needs [cycle.continuation]";
         "add that table, or use \"point\"");
-    Cycle {
-        harmonics,
-        onsets,
-        phases,
-        harmonic_count,
-        frames,
-        confirmation_periods,
-        stability,
-        two_frequencies,
-        continuation,
-    }
+    own
 }
 
 fn continuation(section: &Section<'_>, is_assembly: bool) -> Continuation {
     let continuation = Continuation {
-        key: section.parameter("key"),
+        key: section.text("key"),
         from: section.number("from"),
         to: section.number("to"),
         count: section.count("count"),
         spacing: section.choice("spacing"),
     };
     let Continuation { key, from, to, spacing, .. } = &continuation;
-    let is_numeric = keys::find(key).is_some_and(|known| known.is_numeric());
     let suits = |own: &Parameter| !is_assembly || own.is_of_solid_bodies();
     let known: Vec<&str> = Parameter::ALL.into_iter().filter(suits).map(Parameter::key).collect();
-    if is_numeric && !known.contains(&&**key) {
-        refuse!(section, "key", "limit cycles cannot be followed over {key}";
-            "not one of the parameters of a cycle"; "one of {}", known.join(", "));
+    let is_numeric = keys::find(key).is_some_and(CaseKey::is_numeric);
+    if !is_numeric && section.is_some_text("key") {
+        let message = format!("{} = \"{key}\" is not a numeric case key", section.name("key"));
+        let hint = section.findings.scope.hint(key, CaseKey::is_numeric);
+        section.reject("key", message, "must name a key whose value is a number", hint);
     }
+    refuse_if!(is_numeric && !known.contains(&&**key); section, "key",
+        "limit cycles cannot be followed over {key}"; "not one of the parameters of a cycle";
+        "one of {}", known.join(", "));
     if from.min(*to) < 0.0 {
         refuse!(section, if *from < 0.0 { "from" } else { "to" },
             "{key} cannot be negative along a branch"; "must not be negative");

@@ -5,7 +5,7 @@ use super::elastic::elastic;
 use super::modifications::Modification;
 use super::tables::{TableFiles, modulus_table};
 use super::words::FilePart;
-use super::{RawCase, Section, UnitsWord, boundaries, modifications, refuse, refuse_if};
+use super::{RawCase, Section, UnitsWord, boundaries, modifications};
 use frictionsim_physics::fem::{
     ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial,
 };
@@ -50,9 +50,9 @@ impl<'a> Description<'a> {
         let modifications = modifications::sections(root);
         let conditions = boundaries::all(root);
         let scale = length_factor(&mesh);
-        let of_file = if file.is_none() { mesh.refused("units scale take drop") } else { vec![] };
-        for key in of_file {
-            refuse!(mesh, key => "is for a mesh file (mesh.file)"; "the body is generated";
+        if file.is_none() {
+            refuse_each!(mesh, "units scale take drop"; key => "is for a mesh file (mesh.file)";
+                "the body is generated";
                 "leave it out: the lengths of a generated body are in metres");
         }
         let geometry = root.section("geometry", file.is_none());

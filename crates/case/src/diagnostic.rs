@@ -192,7 +192,7 @@ macro_rules! said {
         $on.$method(
             $key,
             format!($message $(, $part)*),
-            format!($label $(, $of)*),
+            &format!($label $(, $of)*),
             $crate::said!($($help $(, $by)*)?),
         )
     };
@@ -222,7 +222,7 @@ macro_rules! placed {
 /// The same among other errors, or as a warning.
 macro_rules! diagnosis {
     ($case:expr, $key:expr, $($said:tt)*) => {
-        $crate::placed!($case.raw.place($key), $($said)*)
+        placed!($case.raw.place($key), $($said)*)
     };
 }
 
@@ -230,7 +230,7 @@ macro_rules! diagnosis {
 /// key's name.
 macro_rules! refuse {
     ($section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
-        $crate::refuse!($section, $key, "{} {}", $section.name($key),
+        refuse!($section, $key, "{} {}", $section.name($key),
             format_args!($message $(, $part)*); $($rest)*)
     };
     ($section:expr, $($said:tt)*) => { $crate::said!(reject, $section, $($said)*) };
@@ -240,7 +240,16 @@ macro_rules! refuse {
 macro_rules! refuse_if {
     ($condition:expr; $($said:tt)*) => {
         if $condition {
-            $crate::refuse!($($said)*);
+            refuse!($($said)*);
+        }
+    };
+}
+
+/// Refuses those of some keys, apart by blanks, that a section gives: `refuse_each!(section, keys; key, what; ...)`.
+macro_rules! refuse_each {
+    ($section:expr, $keys:expr; $key:ident $($said:tt)*) => {
+        for $key in $section.refused($keys) {
+            refuse!($section, $key $($said)*);
         }
     };
 }
@@ -248,18 +257,18 @@ macro_rules! refuse_if {
 /// Refuses what stands at a place: `refuse_at!(section, place, what; label; remedy)`.
 macro_rules! refuse_at {
     ($section:expr, $at:expr, $($said:tt)*) => {
-        $section.findings.push($crate::placed!($at.clone(), $($said)*))
+        $section.findings.push(placed!($at.clone(), $($said)*))
     };
 }
 
 /// As [`refuse!`] what is no error but what the user should hear of.
 macro_rules! caution {
     ($section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
-        $crate::caution!($section, $key, "{} {}", $section.name($key),
+        caution!($section, $key, "{} {}", $section.name($key),
             format_args!($message $(, $part)*); $($rest)*)
     };
     ($section:expr, $key:expr, $($said:tt)*) => {
-        $section.findings.warn($crate::placed!($section.place($key), $($said)*))
+        $section.findings.warn(placed!($section.place($key), $($said)*))
     };
 }
 
@@ -267,8 +276,7 @@ macro_rules! caution {
 macro_rules! caution_if {
     ($condition:expr; $($said:tt)*) => {
         if $condition {
-            $crate::caution!($($said)*);
+            caution!($($said)*);
         }
     };
 }
-pub(super) use {caution, caution_if, diagnosis, placed, refuse, refuse_at, refuse_if};

@@ -1,7 +1,7 @@
 //! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
 
+use super::Section;
 use super::words::AxesWord;
-use super::{Section, refuse, refuse_if};
 use frictionsim_physics::fem::{
     ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
 };

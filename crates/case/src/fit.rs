@@ -2,7 +2,7 @@
 
 use super::parameters::{number, only, read_all};
 use super::words::choice_of;
-use super::{RawEntry, RawValue, Section, Spacing, VariedKey, refuse_at};
+use super::{RawItem, RawValue, Section, Spacing, VariedKey};
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,26 +65,25 @@ pub(super) fn fit(section: &Section<'_>) -> Fit {
 }
 
 /// `[from, to]` or `{ from, to, scale, also }`.
-fn bounds(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> FitParameter {
+fn bounds(section: &Section<'_>, parameter: VariedKey, entry: &RawItem) -> FitParameter {
     let key = &parameter.key;
-    let at = &entry.item.at;
+    let at = &entry.at;
     let help = "bounds are [0.3, 0.45] or { from = 1e10, to = 1e13, scale = \"log\" }";
     let mut scale = Spacing::Linear;
-    let [from, to] = match &entry.item.value {
+    let [from, to] = match &entry.value {
         RawValue::Array(items) if items.len() == 2 => {
-            [0, 1].map(|end| number(section, entry, items.get(end).map(|item| &item.value)))
+            [0, 1].map(|end| number(section, entry, items.get(end)))
         }
         RawValue::Table(table) => {
             only(section, table, &["from", "to", "scale", "also"]);
-            if let Some(given) = table.get("scale").map(|scale| &scale.item.value) {
+            if let Some(given) = table.get("scale").map(|scale| &scale.value) {
                 match given.text().and_then(choice_of) {
                     Some(word) => scale = word,
                     None => refuse_at!(section, at, "scale = {} of {key}", given.shortened();
                         "must be \"linear\" or \"log\""; "{help}"),
                 }
             }
-            ["from", "to"]
-                .map(|end| number(section, entry, table.get(end).map(|entry| &entry.item.value)))
+            ["from", "to"].map(|end| number(section, entry, table.get(end)))
         }
         other => {
             refuse_at!(section, at, "the bounds of {key} are {}, not two numbers", other.kind();

@@ -1,6 +1,6 @@
 //! `[frf]`: a frequency response of the model.
 
-use super::{Body, FrfMethod, Section, caution_if, refuse, refuse_if};
+use super::{Body, FrfMethod, Section};
 use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::frf::{Direction, FrfBoundary, Terminal};
 use frictionsim_signal::ResponseQuantity;

@@ -8,8 +8,7 @@ use super::elastic::{Surroundings, place_axes};
 use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
 use super::{
-    Body, BodyKind, Contact, Section, assembly, attachments, boundaries, imported, refuse,
-    refuse_if, solid,
+    Body, BodyKind, Contact, Section, assembly, boundaries, imported, modifications, solid,
 };
 use frictionsim_physics::contact::Motion;
 use frictionsim_physics::fem::{RegionMaterial, RotationFrame};
@@ -122,7 +121,7 @@ fn plane_annulus(
     if own.modifications.is_empty() || node_count(&annulus) > 1 << 24 {
         return Some(Body { materials, kind: BodyKind::Annulus(annulus) });
     }
-    let whole = attachments::reshaped_annulus(&annulus, &own.modifications);
+    let whole = modifications::reshaped_annulus(&annulus, &own.modifications);
     let kind = fitting(own.root, whole, "the disc").map(BodyKind::Imported)?;
     Some(Body { materials, kind })
 }

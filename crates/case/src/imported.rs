@@ -6,10 +6,7 @@ use super::modifications::{Misfit, reshaped};
 use super::tables::modulus_table;
 use super::value::quote;
 use super::words::CounterfaceWord;
-use super::{
-    Diagnostic, MeshBytes, RawCase, Section, caution, inclusion, placed, refuse, refuse_if,
-    suggestion,
-};
+use super::{Diagnostic, MeshBytes, RawCase, Section, inclusion, suggestion};
 use frictionsim_bounds::first_of;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::{RayleighDamping, RegionMaterial};
@@ -17,7 +14,6 @@ use frictionsim_physics::mesh::{
     BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
     Mesh, refined_file, repeated_file,
 };
-use std::path::Path;
 use std::sync::Arc;
 
 /// Names that a message lists.
@@ -61,10 +57,8 @@ pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option
             (plane, Some(speed.unwrap_or_else(|| section.number("speed"))))
         }
     };
-    for key in section.refused("axis") {
-        refuse!(section, key, "contact.axis is for a mesh of solid elements";
-            "a plane body turns about z"; "leave it out");
-    }
+    refuse_each!(section, "axis"; key, "contact.axis is for a mesh of solid elements";
+        "a plane body turns about z"; "leave it out");
     let is_plane = plane_speed.is_some();
     let idle = if is_plane { "center radius rotation_speed_rpm" } else { "direction speed" };
     for key in section.refused(idle) {
@@ -78,35 +72,29 @@ pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option
 
 /// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency.
 pub(super) fn materials(own: &Description<'_>) -> Vec<(String, RegionMaterial)> {
-    let all = materials_and(own, |section| {
-        for key in section.refused("radii heights") {
-            refuse!(section, key => "is of a part of a generated three-dimensional body";
-                "of other bodies"; "leave it out");
-        }
-    });
-    all.into_iter().map(|(name, (material, ()))| (name, material)).collect()
+    own.root.each("materials", |section| {
+        let material = material(own, section);
+        refuse_each!(section, "radii heights"; key =>
+            "is of a part of a generated three-dimensional body"; "of other bodies";
+            "leave it out");
+        material
+    })
 }
 
-/// [`materials`] with what else their sections hold.
-pub(super) fn materials_and<T>(
-    own: &Description<'_>,
-    beside: impl Fn(&Section<'_>) -> T,
-) -> Vec<(String, (RegionMaterial, T))> {
-    let formulation = own.common.elastic.formulation;
-    own.root.each("materials", |section| {
-        let coefficients = ["mass_coefficient", "stiffness_coefficient"];
-        let coefficients = coefficients.map(|key| section.optional_number(key));
-        let table = modulus_table(section, &own.tables);
-        let elastic = elastic(section, formulation, table.as_deref());
-        let damping = match coefficients {
-            [None, None] => None,
-            [mass, stiffness] => Some(RayleighDamping {
-                mass_coefficient: mass.unwrap_or(0.0),
-                stiffness_coefficient: stiffness.unwrap_or(0.0),
-            }),
-        };
-        (RegionMaterial { damping, table, ..elastic.into() }, beside(section))
-    })
+/// The material of a section of `[materials.*]`.
+pub(super) fn material(own: &Description<'_>, section: &Section<'_>) -> RegionMaterial {
+    let coefficients = ["mass_coefficient", "stiffness_coefficient"];
+    let coefficients = coefficients.map(|key| section.optional_number(key));
+    let table = modulus_table(section, &own.tables);
+    let elastic = elastic(section, own.common.elastic.formulation, table.as_deref());
+    let damping = match coefficients {
+        [None, None] => None,
+        [mass, stiffness] => Some(RayleighDamping {
+            mass_coefficient: mass.unwrap_or(0.0),
+            stiffness_coefficient: stiffness.unwrap_or(0.0),
+        }),
+    };
+    RegionMaterial { damping, table, ..elastic.into() }
 }
 
 /// What makes a body of a mesh file, be it plane or of solid elements.
@@ -165,9 +153,7 @@ pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, String>
     if let Some(known) = raw.mesh.as_ref().filter(|known| known.file == file) {
         return Ok(known.clone());
     }
-    let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
-    let bytes = inclusion::mesh_file(&folder.join(file))?;
-    Ok(MeshBytes::new(file.to_owned(), bytes))
+    Ok(MeshBytes::new(file.to_owned(), inclusion::mesh_file(&raw.beside(file))?))
 }
 
 /// The symmetry that `mesh.sectors` says, about an axis of some direction through a point (m).

@@ -1,6 +1,6 @@
 //! `[improve]`: which modes are to be silenced, and by what.
 
-use super::{ModificationKind, Section, refuse_if};
+use super::{ModificationKind, Section};
 
 /// `[improve]`; what is `None` follows from the body and its modes.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,202 @@
 //! Every key a case can have: the one declaration, in `keys.txt`, that readers, messages,
-//! `frictionsim keys`, the JSON schema and the commented template are made from.
+//! `frictionsim keys`, the JSON schema and the commented template are made from. Of a key it says kind of value, bound,
+//! unit, default and meaning.
 
-use super::CaseKey;
+use super::RawValue;
+use super::words::words_named;
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
+/// Where a number must lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// Strictly between two values.
+    Between(f64, f64),
+    /// This value or above.
+    AtLeast(f64),
+    /// Any finite number.
+    Finite,
+}
+
+impl Bound {
+    /// Whether a value lies there; NaN and infinities never do.
+    pub fn admits(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Positive => value > 0.0,
+                Self::NotNegative => value >= 0.0,
+                Self::Between(low, high) => value > low && value < high,
+                Self::AtLeast(least) => value >= least,
+                Self::Finite => true,
+            }
+    }
+
+    /// The ends of what it admits.
+    pub fn ends(self) -> [f64; 2] {
+        match self {
+            Self::Positive | Self::NotNegative => [0.0, f64::INFINITY],
+            Self::Between(low, high) => [low, high],
+            Self::AtLeast(least) => [least, f64::INFINITY],
+            Self::Finite => [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// What an error says.
+    pub fn text(self) -> String {
+        match self {
+            Self::Positive => "must be positive and finite".to_owned(),
+            Self::NotNegative => "must be zero or positive, and finite".to_owned(),
+            Self::Between(low, high) => format!("must lie strictly between {low} and {high}"),
+            Self::AtLeast(least) => format!("must be {least} or more, and finite"),
+            Self::Finite => "must be finite".to_owned(),
+        }
+    }
+
+    /// The bound of a condition behind the word "number".
+    fn of_condition(text: &str) -> Option<Self> {
+        Some(match text {
+            "" => Self::Finite,
+            " > 0" => Self::Positive,
+            " >= 0" => Self::NotNegative,
+            _ => match text.strip_prefix(" between ") {
+                Some(ends) => {
+                    let (low, high) = ends.split_once(" and ")?;
+                    Self::Between(low.parse().ok()?, high.parse().ok()?)
+                }
+                None => Self::AtLeast(text.strip_prefix(" >= ")?.parse().ok()?),
+            },
+        })
+    }
+}
+
+/// The kind of value that a key takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Free text.
+    Text,
+    /// Texts: one or a list.
+    Texts,
+    /// True or false.
+    Flag,
+    /// A number.
+    Number(Bound),
+    /// A number, or one word that stands for its absence.
+    NumberOr(Bound, &'static str),
+    /// Numbers: one, a list, or a range `{ from, to, count, spacing }`.
+    Numbers(Bound),
+    /// A whole number of at least this.
+    Count(usize),
+    /// Whole numbers of at least this: one or a list without repetition.
+    Counts(usize),
+    /// A node: its number, or a place whose nearest node it is.
+    Node,
+    /// Nodes, each by number or place: one or a list without repetition.
+    Nodes,
+    /// One of a few words.
+    Choice(fn() -> Vec<&'static str>),
+    /// Some of a few words: one or a list.
+    Choices(fn() -> Vec<&'static str>),
+    /// One of a few words, or two vectors.
+    Directions(fn() -> Vec<&'static str>),
+    /// The dotted name of a case key whose value is a number.
+    Parameter,
+    /// A table whose keys are case keys.
+    Table,
+}
+
+impl Kind {
+    /// The kind of a declaration: `number > 0`, `integer >= 1 or list`, `one CeaMethod`.
+    fn read(text: &'static str) -> Option<Self> {
+        if let Some(least) = text.strip_prefix("integer >= ") {
+            return match least.strip_suffix(" or list") {
+                Some(least) => least.parse().ok().map(Self::Counts),
+                None => least.parse().ok().map(Self::Count),
+            };
+        }
+        if let Some(bound) = text.strip_prefix("number") {
+            if let Some(bound) = bound.strip_suffix(", list or range") {
+                return Bound::of_condition(bound).map(Self::Numbers);
+            }
+            let Some((bound, word)) = bound.split_once(" or ") else {
+                return Bound::of_condition(bound).map(Self::Number);
+            };
+            return Some(Self::NumberOr(Bound::of_condition(bound)?, word.trim_matches('"')));
+        }
+        Some(match (text, text.split_once(' ')) {
+            ("text", _) => Self::Text,
+            ("text or list", _) => Self::Texts,
+            ("true or false", _) => Self::Flag,
+            ("node", _) => Self::Node,
+            ("node or list", _) => Self::Nodes,
+            ("numeric case key", _) => Self::Parameter,
+            (_, Some(("table", _))) => Self::Table,
+            (_, Some(("some", name))) => Self::Choices(words_named(name)?),
+            (_, Some(("one", name))) => match name.strip_suffix(" or two vectors") {
+                Some(name) => Self::Directions(words_named(name)?),
+                None => Self::Choice(words_named(name)?),
+            },
+            _ => return None,
+        })
+    }
+}
+
+/// What holds where a key is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Default {
+    /// Nothing: its section needs the key, or what these words say in its place.
+    Required(&'static str),
+    /// This value, in TOML.
+    Value(&'static str),
+    /// What these words say.
+    Otherwise(&'static str),
+}
+
+/// A key of the case file: everything that is known of it but what it does.
+///
+/// A `*` in the name stands for any one name, as in `materials.*.density`.
+#[derive(Clone, Copy, Debug)]
+pub struct CaseKey {
+    /// Dotted name.
+    pub name: &'static str,
+    /// The values it takes, as declared.
+    pub(super) declared: &'static str,
+    /// Their kind.
+    pub kind: Kind,
+    /// Unit of the value; empty for a pure number and for what is no number.
+    pub unit: &'static str,
+    /// What holds where it is left out.
+    pub default: Default,
+    /// A valid value, in TOML.
+    pub example: &'static str,
+    /// What it is, to be read behind "is".
+    pub meaning: &'static str,
+    /// What holds where `cycle` and `basin` seek rotating waves, which do not use it; empty of a key that every command
+    /// uses.
+    pub of_waves: &'static str,
+    /// Names that other programs and papers have for it, apart by commas.
+    pub(super) called: &'static str,
+}
+
 impl CaseKey {
+    /// The key of a declaration, `name | values | unit | default | example`, and of what it is.
+    pub(super) fn read(head: &'static str, text: &'static str) -> Option<Self> {
+        let fields: Vec<&str> = head.split(" | ").collect();
+        let [name, declared, unit, default, example] = fields[..] else { return None };
+        let (text, called) = text.split_once(" also called: ").unwrap_or((text, ""));
+        let (meaning, of_waves) = text.split_once(" of waves: ").unwrap_or((text, ""));
+        let default = match default.strip_prefix("= ") {
+            Some(value) => Default::Value(value),
+            None if default.starts_with("required") => Default::Required(default),
+            None => Default::Otherwise(default),
+        };
+        let (kind, unit) = (Kind::read(declared)?, if unit == "-" { "" } else { unit });
+        Some(Self { name, declared, kind, unit, default, example, meaning, of_waves, called })
+    }
+
     /// This key in a section. Bodies whose sections have names of their own have no rotating waves.
     fn within(self, section: &str) -> Self {
         let name = match section {
@@ -13,6 +204,87 @@ impl CaseKey {
             _ => format!("{section}.{}", self.name).leak(),
         };
         Self { name, of_waves: if section.contains('*') { "" } else { self.of_waves }, ..self }
+    }
+
+    /// Whether the value is a single number, as a parameter study or a branch varies it.
+    pub fn is_numeric(&self) -> bool {
+        matches!(self.kind, Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node)
+    }
+
+    /// Whether it may have a value of this kind: a number, or anything else but a section.
+    pub(super) fn takes(&self, value: &RawValue) -> bool {
+        let is_list = matches!(self.kind, Kind::Numbers(_) | Kind::Counts(_) | Kind::Nodes);
+        match value {
+            RawValue::Table(_) => false,
+            RawValue::String(_) => !(is_list || self.is_numeric()),
+            _ => value.number().is_none() || is_list || self.is_numeric(),
+        }
+    }
+
+    /// The name without its section.
+    pub fn short(&self) -> &'static str {
+        self.name.rsplit('.').next().unwrap_or(self.name)
+    }
+
+    /// The section; empty for keys of the case itself.
+    pub fn section(&self) -> &'static str {
+        self.name.rsplit_once('.').map_or("", |pair| pair.0)
+    }
+
+    /// Whether this is the entry of a dotted name.
+    pub(super) fn is_named(&self, name: &str) -> bool {
+        let (own, given) = (self.name.split('.'), name.split('.'));
+        self.name == name
+            || self.name.contains('*')
+                && own.clone().count() == given.clone().count()
+                && own.zip(given).all(|(own, given)| own == "*" || own == given)
+    }
+
+    /// Whether others call it by this word.
+    pub(super) fn is_called(&self, word: &str) -> bool {
+        self.called.split_terminator(", ").any(|own| own == word)
+    }
+
+    /// What it is, with its unit.
+    pub(super) fn meaning_with_unit(&self) -> String {
+        match self.unit {
+            "" => self.meaning.to_owned(),
+            unit => format!("{}, {unit}", self.meaning),
+        }
+    }
+
+    /// The values it takes, in words.
+    pub fn values(&self) -> String {
+        match self.kind {
+            Kind::Node => "node number, { x, y } or { radius, angle_deg }".to_owned(),
+            Kind::Nodes => "node number, { x, y }, { radius, angle_deg } or list".to_owned(),
+            Kind::Choice(words) => format!("\"{}\"", words().join("\", \"")),
+            Kind::Choices(words) => format!("some of \"{}\"", words().join("\", \"")),
+            Kind::Directions(words) => format!("\"{}\" or two vectors", words().join("\", \"")),
+            _ => self.declared.to_owned(),
+        }
+    }
+
+    /// What holds where it is left out, in words.
+    pub fn default_text(&self) -> &'static str {
+        match self.default {
+            Default::Value(text) | Default::Otherwise(text) | Default::Required(text) => text,
+        }
+    }
+
+    /// Whether a value is what holds where the key is left out.
+    pub(super) fn is_default(&self, value: &RawValue) -> bool {
+        let default = self.default_value().map(|value| value.to_string());
+        let default = default.unwrap_or_else(|| self.default_text().to_owned());
+        value.to_string().trim_matches('"') == default.trim_matches('"')
+    }
+
+    /// The default's value, where it has one.
+    pub(super) fn default_value(&self) -> Option<RawValue> {
+        match self.default {
+            Default::Value(text) => RawValue::parse(text),
+            _ => None,
+        }
     }
 }
 

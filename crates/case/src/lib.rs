@@ -4,8 +4,10 @@
 //! validated. Every section is a struct in the terms of the lower floors, and every rule between
 //! keys is checked. All errors are reported at once as [`CaseErrors`].
 
+#[macro_use]
+mod diagnostic;
+
 mod assembly;
-mod attachments;
 mod body;
 mod boundaries;
 mod cea;
@@ -16,7 +18,6 @@ mod convergence;
 mod cost;
 mod cycle;
 mod description;
-mod diagnostic;
 mod elastic;
 mod file_sections;
 mod fit;
@@ -25,7 +26,6 @@ mod generated;
 mod imported;
 mod improve;
 mod inclusion;
-mod key;
 mod keys;
 mod model;
 mod modifications;
@@ -61,7 +61,6 @@ pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientC
 pub use cycle::{Continuation, Cycle};
 pub use description::Damping;
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
-use diagnostic::{caution, caution_if, diagnosis, placed, refuse, refuse_at, refuse_if};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;
@@ -69,8 +68,7 @@ pub use frictionsim_physics::cea::ModeLimit;
 pub use frictionsim_physics::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
 pub use imported::ImportedBody;
 pub use improve::Improve;
-pub use key::{Bound, CaseKey, Default, Kind};
-pub use keys::{KEYS, find as find_key};
+pub use keys::{Bound, CaseKey, Default, KEYS, Kind, find as find_key};
 pub use node::PlacedNode;
 pub use overrides::unset;
 pub use parameters::VariedKey;
@@ -84,7 +82,7 @@ pub use sweep::{Sweep, SweptKey};
 pub use taken::Taken;
 pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
-pub use value::{RawEntry, RawItem, RawTable, RawValue};
+pub use value::{RawItem, RawTable, RawValue};
 pub use words::{
     Analysis, CeaMethod, Combination, FrfMethod, ModificationKind, OnsetChoice, Spacing,
     StabilityChoice, UnitsWord,

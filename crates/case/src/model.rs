@@ -6,10 +6,7 @@ use super::description::{Description, has_common_constants};
 use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
 use super::imported::FileParts;
-use super::{
-    Body, BodyKind, Contact, MeshBytes, Section, assembly, attachments, caution, caution_if,
-    imported, refuse, refuse_if,
-};
+use super::{Body, BodyKind, Contact, MeshBytes, Section, assembly, imported, modifications};
 use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{BodySpecification, CounterfaceSpecification};
 use frictionsim_physics::prestress::BaseChoice;
@@ -25,7 +22,7 @@ pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact, Option<
         Some(file) => of_file(own, &file),
     };
     if let Some(body) = &mut body {
-        attachments::attach(own.root, &own.modifications, body, own.thickness);
+        modifications::attach(own.root, &own.modifications, body, own.thickness);
         let held = body.imported().map_or(Ok(()), |own| own.mesh.check_held());
         if let Err(error) = held {
             own.root.findings.push(own.unusable(error));
@@ -144,11 +141,12 @@ fn materials(own: &mut Description<'_>, body: &Surroundings) -> Vec<(String, Reg
 
 /// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
 fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
-    let radii = geometry.refused("inner_radius outer_radius shaft_inner_radius");
-    let counts = "circumferential_elements radial_elements axial_elements shaft_radial_elements";
-    let counts = mesh.refused(counts).into_iter().chain(mesh.refused("radial_grading element"));
-    let given = radii.into_iter().map(|key| (geometry, key));
-    for (section, key) in given.chain(counts.map(|key| (mesh, key))) {
-        caution!(section, key => "is not used: mesh.file describes the body"; "no effect");
+    let radii = "inner_radius outer_radius shaft_inner_radius";
+    let counts = "circumferential_elements radial_elements axial_elements shaft_radial_elements \
+                  radial_grading element";
+    for (section, keys) in [(geometry, radii), (mesh, counts)] {
+        for key in section.refused(keys) {
+            caution!(section, key => "is not used: mesh.file describes the body"; "no effect");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::body::solid_node_count;
 use super::reader::NodePlace;
-use super::{Body, BodyKind, Location, Section, caution, refuse_at};
+use super::{Body, BodyKind, Location, Section};
 use frictionsim_physics::mesh::{AnnulusSpecification, Counterface, SolidSpecification, Strip};
 use std::f64::consts::TAU;
 

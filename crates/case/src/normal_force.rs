@@ -3,7 +3,7 @@
 //! Without friction the summed normal force of a contact rises with its interference, by straight pieces where contact
 //! is rigid. The interference that belongs to a force is the one root of their difference.
 
-use super::{BodyKind, Case, CaseErrors, refusal};
+use super::{BodyKind, Case, CaseErrors};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
 use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::linalg::{Bracket, newton_root};

@@ -2,7 +2,7 @@
 
 use super::suggestion::Scope;
 use super::value::{convert, cut};
-use super::{Diagnostic, Location, RawEntry, RawItem, RawTable, RawValue, Source, keys, placed};
+use super::{Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys};
 use toml::de::{DeTable, DeValue};
 
 /// Path of an override: each key with its place.
@@ -62,7 +62,7 @@ fn remove(
     let parts: Vec<&str> = path.iter().map(|part| part.0.as_str()).collect();
     let mut table = Some(&mut *root);
     for part in &parts[..parts.len() - 1] {
-        table = table.and_then(|table| match &mut table.get_mut(*part)?.item.value {
+        table = table.and_then(|table| match &mut table.get_mut(*part)?.value {
             RawValue::Table(inner) => Some(inner),
             _ => None,
         });
@@ -137,13 +137,12 @@ fn insert(
 ) -> Result<(), Vec<Diagnostic>> {
     let Some(((key, key_at), rest)) = path.split_first() else { return Ok(()) };
     if rest.is_empty() {
-        let key_at = key_at.clone();
-        table.insert(key.clone(), RawEntry { key_at, item });
+        table.insert(key.clone(), RawItem { key_at: key_at.clone(), ..item });
         return Ok(());
     }
-    let empty = || RawEntry::at(RawValue::Table(RawTable::new()), key_at);
+    let empty = || RawItem::at(RawValue::Table(RawTable::new()), key_at);
     let entry = table.entry(key.clone()).or_insert_with(empty);
-    if let (RawValue::Array(items), [(part, _)]) = (&mut entry.item.value, rest)
+    if let (RawValue::Array(items), [(part, _)]) = (&mut entry.value, rest)
         && let Some(place) = keys::list_place(part)
     {
         let count = items.len();
@@ -155,11 +154,11 @@ fn insert(
         *slot = item;
         return Ok(());
     }
-    if !matches!(entry.item.value, RawValue::Table(_)) {
+    if !matches!(entry.value, RawValue::Table(_)) {
         // A path through a plain value: the reader of that key reports the table it then finds.
-        entry.item = empty().item;
+        (entry.value, entry.at) = (RawValue::Table(RawTable::new()), key_at.clone());
     }
-    match &mut entry.item.value {
+    match &mut entry.value {
         RawValue::Table(inner) => insert(inner, rest, item),
         _ => Ok(()),
     }

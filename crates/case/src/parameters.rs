@@ -2,8 +2,7 @@
 
 use super::value::collect_leaves;
 use super::{
-    Bound, CaseErrors, CaseKey, Kind, Location, RawEntry, RawTable, RawValue, Section, keys,
-    refuse_at, refuse_if,
+    Bound, CaseErrors, CaseKey, Kind, Location, RawItem, RawTable, RawValue, Section, keys,
 };
 
 /// Sections that make the model.
@@ -75,7 +74,7 @@ fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
 pub(super) fn read_all<T>(
     section: &Section<'_>,
     key: &str,
-    read: impl Fn(&Section<'_>, VariedKey, &RawEntry) -> T,
+    read: impl Fn(&Section<'_>, VariedKey, &RawItem) -> T,
     parameter_of: impl Fn(&T) -> &VariedKey,
 ) -> Vec<T> {
     let table = section.section(key, true);
@@ -91,13 +90,12 @@ pub(super) fn read_all<T>(
 type Check = fn(&Section<'_>, &str) -> Result<(), String>;
 
 /// The keys that the entries of a section name; a table that is no entry is dotted keys written without quotes.
-pub(super) fn collect<'a>(section: &Section<'a>, check: Check) -> Vec<(VariedKey, &'a RawEntry)> {
+pub(super) fn collect<'a>(section: &Section<'a>, check: Check) -> Vec<(VariedKey, &'a RawItem)> {
     let mut found = Vec::new();
     let given = section.remaining().into_iter().rev();
-    let mut rest: Vec<(String, &RawEntry)> =
-        given.map(|(key, own)| (key.to_owned(), own)).collect();
+    let mut rest: Vec<(String, &RawItem)> = given.map(|(key, own)| (key.to_owned(), own)).collect();
     while let Some((key, entry)) = rest.pop() {
-        match (&entry.item.value, check(section, &key)) {
+        match (&entry.value, check(section, &key)) {
             (_, Ok(())) => {
                 let also = also(section, &key, entry, check);
                 found.push((VariedKey { key, also, at: entry.key_at.clone() }, entry));
@@ -115,10 +113,10 @@ pub(super) fn collect<'a>(section: &Section<'a>, check: Check) -> Vec<(VariedKey
 }
 
 /// The keys that `also` names.
-fn also(section: &Section<'_>, name: &str, entry: &RawEntry, check: Check) -> Vec<String> {
-    let given = entry.item.value.table().and_then(|table| table.get("also"));
+fn also(section: &Section<'_>, name: &str, entry: &RawItem, check: Check) -> Vec<String> {
+    let given = entry.value.table().and_then(|table| table.get("also"));
     let mut keys = Vec::new();
-    for item in given.into_iter().flat_map(|given| given.item.listed()) {
+    for item in given.into_iter().flat_map(RawItem::listed) {
         let refuse = |message: String, help: &str| {
             refuse_at!(section, &item.at, "{message}"; "not a key to tie"; "{help}");
         };
@@ -137,11 +135,11 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry, check: Check) -> Ve
 }
 
 /// A number of an entry; an error where it is missing or none.
-pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&RawValue>) -> f64 {
-    let number = value.and_then(RawValue::number);
-    number.filter(|v| v.is_finite()).unwrap_or_else(|| {
+pub(super) fn number(section: &Section<'_>, entry: &RawItem, given: Option<&RawItem>) -> f64 {
+    let value = given.map(|given| &given.value);
+    value.and_then(RawValue::number).filter(|v| v.is_finite()).unwrap_or_else(|| {
         let found = value.map_or("missing".to_owned(), |v| format!("{} is given", v.shortened()));
-        refuse_at!(section, &entry.item.at, "a finite number is needed: {found}"; "not a number";
+        refuse_at!(section, &entry.at, "a finite number is needed: {found}"; "not a number";
             "write numbers in SI units");
         f64::NAN
     })

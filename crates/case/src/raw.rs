@@ -3,11 +3,12 @@
 use super::diagnostic::BACKSLASH;
 use super::value::{collect_leaves, convert_table, quote, table_of, with_point};
 use super::{
-    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides, placed,
+    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides,
 };
 use frictionsim_physics::mesh::{FileMesh, MeshFileError};
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use toml::de::DeTable;
 
@@ -147,7 +148,7 @@ impl RawCase {
             let Some(sections) = table_of(&self.root, group) else { continue };
             for name in sections.keys() {
                 let own = table_of(sections, name).and_then(|own| own.get(key));
-                let file = own.and_then(|own| own.item.value.text());
+                let file = own.and_then(|own| own.value.text());
                 found.extend(file.map(|file| (TableBytes::kept_as(key, name), file.to_owned())));
             }
         }
@@ -195,6 +196,11 @@ impl RawCase {
         CaseErrors { sources, diagnostics }
     }
 
+    /// The path of a file that the case names, which is relative to it.
+    pub(super) fn beside(&self, file: &str) -> PathBuf {
+        Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
+    }
+
     /// Where the case ends.
     pub(super) fn end(&self) -> Location {
         let end = self.text.trim_end().len();
@@ -215,7 +221,7 @@ impl RawCase {
         let key = keys::dotted(key);
         let mut parts = key.split('.').peekable();
         while let Some(part) = parts.next() {
-            let item = &table.get(part)?.item;
+            let item = table.get(part)?;
             match (&item.value, parts.peek()) {
                 (_, None) => return Some(item),
                 (RawValue::Table(inner), Some(_)) => table = inner,
@@ -308,10 +314,5 @@ fn decimal_comma(text: &str, at: usize) -> Option<String> {
 pub fn hash_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
     let mut digest = Sha256::new();
     parts.into_iter().for_each(|part| digest.update(part));
-    hex(digest)
-}
-
-/// A finished digest in hexadecimal.
-pub fn hex(digest: Sha256) -> String {
-    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    format!("{:x}", digest.finalize())
 }

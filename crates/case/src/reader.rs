@@ -1,13 +1,13 @@
 //! Typed access to the raw tree, held to the declaration of each key, that collects every error
 //! instead of stopping at one.
 
-mod choices;
 mod lists;
 
 use super::value::{cut, with_point};
+use super::words::{self, Choice};
 use super::{
-    Bound, CaseKey, Default, Diagnostic, Kind, Location, RawEntry, RawItem, RawTable, RawValue,
-    keys, placed, suggestion,
+    Bound, CaseKey, Default, Diagnostic, Kind, Location, RawItem, RawTable, RawValue, keys,
+    suggestion,
 };
 pub(super) use lists::NodePlace;
 pub use lists::range_values;
@@ -128,7 +128,7 @@ impl<'a> Section<'a> {
 
     fn item(&self, key: &str) -> Option<&'a RawItem> {
         self.asked.borrow_mut().insert(key.to_owned());
-        self.table?.get(key).map(|entry| &entry.item)
+        self.table?.get(key)
     }
 
     /// What holds for a key: as given, else its default.
@@ -143,7 +143,7 @@ impl<'a> Section<'a> {
     pub fn place(&self, key: &str) -> Location {
         self.table
             .and_then(|table| table.get(key))
-            .map_or_else(|| self.at.clone(), |entry| entry.item.at.clone())
+            .map_or_else(|| self.at.clone(), |item| item.at.clone())
     }
 
     /// Whether the case gives a key.
@@ -165,14 +165,8 @@ impl<'a> Section<'a> {
     }
 
     /// Reports an error at a key, with the key's meaning as remedy unless another is given.
-    pub fn reject(
-        &self,
-        key: &str,
-        message: impl Into<String>,
-        label: impl Into<String>,
-        help: Option<String>,
-    ) {
-        let (name, message) = (self.name(key), message.into());
+    pub fn reject(&self, key: &str, message: String, label: &str, help: Option<String>) {
+        let name = self.name(key);
         // It may only seem wrong or missing where a word or section of its part or of the body cannot be read.
         let is_cause = |own: &(String, bool, _)| own.1 && [BODY, part_of(&name)].contains(&&*own.0);
         if self.findings.misread.borrow().iter().any(is_cause) {
@@ -204,16 +198,18 @@ impl<'a> Section<'a> {
     }
 
     fn given(&self, key: &str) -> Option<&'a RawValue> {
-        self.table?.get(key).map(|entry| &entry.item.value)
+        self.table?.get(key).map(|entry| &entry.value)
     }
 
-    fn reject_at(&self, item: &RawItem, key: &str, bound: &str) {
+    /// Reports a value that is not what its key takes; there is nothing to read then.
+    fn reject_at<T>(&self, item: &RawItem, key: &str, bound: &str) -> Option<T> {
         let point = item.value.text().and_then(with_point);
         let point = point.map(|point| format!("write the number with a decimal point: {point}"));
         let help = point.or_else(|| suggestion::usage(&self.name(key)));
         let message = format!("{} = {} {bound}", self.name(key), item.value.shortened());
         let error = Diagnostic::error(message, bound, item.at.clone(), help);
         self.misread(key, !self.declared(key).is_numeric(), error);
+        None
     }
 
     /// Reports a value that cannot be read, a number or what others hang on: nothing more is said of it then, but of
@@ -236,7 +232,7 @@ impl<'a> Section<'a> {
         // A missing section is reported once, where it is opened.
         if self.is_given() {
             let message = format!("missing key `{}`", self.name(key));
-            self.reject(key, message, format!("`{key}` is required in this section"), None);
+            self.reject(key, message, &format!("`{key}` is required in this section"), None);
         }
     }
 
@@ -249,20 +245,16 @@ impl<'a> Section<'a> {
 
     /// A subsection; `required` ones are reported where absent.
     pub fn section(&self, key: &str, required: bool) -> Section<'a> {
-        self.asked.borrow_mut().insert(key.to_owned());
-        let entry = self.table.and_then(|table| table.get(key));
         let mut section = Self::new(self.findings, self.name(key), None, self.at.clone());
-        match entry {
-            Some(entry) => {
-                section.at = entry.key_at.clone();
-                match &entry.item.value {
-                    RawValue::Table(table) => section.table = Some(table),
-                    other => {
-                        let error = placed!(entry.item.at.clone(), "`{}` is {}, not a section",
-                            section.path, other.kind(); "expected a section";
-                            "write its keys below [{}]", section.path);
-                        self.misread(key, true, error);
-                    }
+        match self.item(key) {
+            Some(item) => {
+                section.at = item.key_at.clone();
+                section.table = item.value.table();
+                if section.table.is_none() {
+                    let error = placed!(item.at.clone(), "`{}` is {}, not a section", section.path,
+                        item.value.kind(); "expected a section"; "write its keys below [{}]",
+                        section.path);
+                    self.misread(key, true, error);
                 }
             }
             None if required => {
@@ -288,7 +280,7 @@ impl<'a> Section<'a> {
         let root = "the case has no such section or key";
         let place = if self.path.is_empty() { root } else { &section };
         for (key, entry) in unknown.by_ref().take(MOST_UNKNOWN) {
-            let word = (key.as_str(), &entry.item.value);
+            let word = (key.as_str(), &entry.value);
             let help = match self.declarations {
                 Some(own) => suggestion::suggest_part(key, own),
                 None => self.findings.scope.suggest(&self.path, word, &names),
@@ -307,7 +299,7 @@ impl<'a> Section<'a> {
     }
 
     /// Every entry of the section that has not been asked for, as swept keys.
-    pub fn remaining(&self) -> Vec<(&'a str, &'a RawEntry)> {
+    pub fn remaining(&self) -> Vec<(&'a str, &'a RawItem)> {
         let asked = self.asked.borrow();
         let entries = self.table.into_iter().flatten();
         let rest = entries.filter(|(key, _)| !asked.contains(key.as_str()));
@@ -315,16 +307,12 @@ impl<'a> Section<'a> {
     }
 
     fn read_number(&self, key: &str, item: &RawItem, bound: Bound) -> Option<f64> {
-        let Some(value) = item.value.number() else {
-            let kind = item.value.kind();
-            self.reject_at(item, key, &format!("must be a number, not {kind}"));
-            return None;
-        };
-        if bound.admits(value) {
-            Some(value)
-        } else {
-            self.reject_at(item, key, &bound.text());
-            None
+        match item.value.number() {
+            Some(value) if bound.admits(value) => Some(value),
+            Some(_) => self.reject_at(item, key, &bound.text()),
+            None => {
+                self.reject_at(item, key, &format!("must be a number, not {}", item.value.kind()))
+            }
         }
     }
 
@@ -340,8 +328,7 @@ impl<'a> Section<'a> {
         match (self.item(key), word) {
             (Some(_), Some(word)) if self.is_text(key, word) => None,
             (Some(item), Some(word)) if self.is_some_text(key) => {
-                self.reject_at(item, key, &format!("must be a number or \"{word}\""));
-                None
+                self.reject_at(item, key, &format!("must be a number or \"{word}\""))
             }
             (Some(item), _) => Some(self.read_number(key, item, bound).unwrap_or(f64::NAN)),
             (None, _) => declared.default_value()?.number(),
@@ -362,21 +349,19 @@ impl<'a> Section<'a> {
             // Ranges produce numbers: a whole one is a count.
             RawValue::Float(value) if value.fract() == 0.0 && value.abs() < 9e15 => value as i64,
             ref other => {
-                let kind = other.kind();
-                self.reject_at(item, key, &format!("must be an integer, not {kind}"));
-                return None;
+                return self.reject_at(
+                    item,
+                    key,
+                    &format!("must be an integer, not {}", other.kind()),
+                );
             }
         };
         match usize::try_from(value) {
             Ok(value) if value > LARGEST_COUNT => {
-                self.reject_at(item, key, &format!("must be {LARGEST_COUNT} or less"));
-                None
+                self.reject_at(item, key, &format!("must be {LARGEST_COUNT} or less"))
             }
             Ok(value) if value >= least => Some(value),
-            _ => {
-                self.reject_at(item, key, &format!("must be {least} or more"));
-                None
-            }
+            _ => self.reject_at(item, key, &format!("must be {least} or more")),
         }
     }
 
@@ -403,24 +388,18 @@ impl<'a> Section<'a> {
 
     /// True or false; false without a default.
     pub fn flag(&self, key: &str) -> bool {
-        let default = self.declared(key).default == Default::Value("true");
-        match self.item(key) {
-            None => default,
-            Some(RawItem { value: RawValue::Boolean(value), .. }) => *value,
-            Some(item) => {
-                self.reject_at(item, key, "must be true or false");
-                default
-            }
-        }
+        let read = self.item(key).and_then(|item| match item.value {
+            RawValue::Boolean(value) => Some(value),
+            _ => self.reject_at(item, key, "must be true or false"),
+        });
+        read.unwrap_or(self.declared(key).default == Default::Value("true"))
     }
 
     /// Text: as given, else its default, else none.
     pub fn optional_text(&self, key: &str) -> Option<String> {
         let item = self.held(key)?;
-        if item.value.text().is_none() {
-            self.reject_at(&item, key, "must be a string");
-        }
-        item.value.text().map(str::to_owned)
+        let text = item.value.text().map(str::to_owned);
+        text.or_else(|| self.reject_at(&item, key, "must be a string"))
     }
 
     /// Text that is given or has a default.
@@ -429,5 +408,30 @@ impl<'a> Section<'a> {
             self.needs(key);
             String::new()
         })
+    }
+
+    /// One of a few words; the default where the key is left out or wrong.
+    pub fn choice<T: Choice>(&self, key: &str) -> T {
+        self.item(key).and_then(|item| self.read_choice(key, item)).unwrap_or_else(|| {
+            let default = self.declared(key).default_text().trim_matches('"');
+            words::choice_of(default).unwrap_or(T::WORDS[0].1)
+        })
+    }
+
+    fn read_choice<T: Choice>(&self, key: &str, item: &RawItem) -> Option<T> {
+        let words = words::words::<T>();
+        let bound = format!("must be one of \"{}\"", words.join("\", \""));
+        if let RawValue::String(text) = &item.value {
+            if let Some(choice) = words::choice_of(text) {
+                return Some(choice);
+            }
+            if let Some(near) = suggestion::nearest_word(text, &words) {
+                let error = placed!(item.at.clone(), "{} = {} is not one of its values",
+                    self.name(key), item.value.shortened(); "{bound}"; "did you mean \"{near}\"?");
+                self.misread(key, true, error);
+                return None;
+            }
+        }
+        self.reject_at(item, key, &bound)
     }
 }

@@ -3,10 +3,7 @@
 
 use super::checks::material_key;
 use super::value::table_of;
-use super::{
-    Analysis, BodyKind, Case, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty, placed,
-    refusal,
-};
+use super::{Analysis, BodyKind, Case, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
 use frictionsim_physics::mesh::AnnulusSpecification;
 
 impl Case {

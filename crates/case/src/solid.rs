@@ -2,7 +2,7 @@
 
 use super::boundaries::NamedCondition;
 use super::description::Description;
-use super::{Section, imported, refuse, refuse_if, suggestion};
+use super::{Section, imported, suggestion};
 use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
@@ -12,11 +12,10 @@ use frictionsim_physics::mesh::{
 pub(super) fn axial_elements(own: &Description<'_>) -> Option<usize> {
     let Description { geometry, mesh, .. } = own;
     if !own.is_solid() {
-        for key in mesh.refused("axial_elements") {
-            refuse!(mesh, key, "mesh.axial_elements has no effect on a plane body";
-                "needs material.formulation = \"three-dimensional\"";
-                "set that formulation and geometry.thickness, or leave mesh.axial_elements out");
-        }
+        refuse_each!(mesh, "axial_elements"; key,
+            "mesh.axial_elements has no effect on a plane body";
+            "needs material.formulation = \"three-dimensional\"";
+            "set that formulation and geometry.thickness, or leave mesh.axial_elements out");
         return None;
     }
     refuse_if!(!geometry.has("thickness"); geometry, "thickness",
@@ -38,7 +37,8 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
         if section.has("boundary") && !section.is_text("boundary", "inner") {
             let given = section.text("boundary");
             let near = suggestion::nearest(&given, ["inner", "top"].into_iter());
-            let message = "contact.boundary of a three-dimensional body is \"inner\" or \"top\"";
+            let message =
+                "contact.boundary of a three-dimensional body is \"inner\" or \"top\"".to_owned();
             let help = near.map(|near| format!("did you mean \"{near}\"?"));
             section.reject("boundary", message, "no such face of contact", help);
         }
@@ -66,7 +66,8 @@ pub(super) fn parts(
     let radii = body.corner_radii().unwrap_or_default();
     let height = |layer: usize| body.thickness * layer as f64 / body.axial_elements as f64;
     let heights: Vec<f64> = (0..=body.axial_elements).map(height).collect();
-    let found = imported::materials_and(own, |section| {
+    let found = own.root.each("materials", |section| {
+        let material = imported::material(own, section);
         refuse_if!(!section.has("radii") && !section.has("heights"); section, "radii",
             "{} needs the radii or the heights between which it lies", section.name("radii");
             "lies nowhere"; "describe the rest of the body in [material]");
@@ -93,7 +94,7 @@ pub(super) fn parts(
             }
             [from, to]
         };
-        [range("radii", &radii), range("heights", &heights)]
+        (material, [range("radii", &radii), range("heights", &heights)])
     });
     let section = own.root.section("materials", false);
     let mut parts: Vec<(SolidPart, RegionMaterial)> = Vec::new();

@@ -1,8 +1,7 @@
 //! `[superelements.*]`: systems that other programs have reduced to matrices.
 
 use super::cea::mode_selection;
-use super::raw::hex;
-use super::{CaseErrors, Findings, ModeLimit, RawCase, Section, placed, refuse, refuse_if};
+use super::{CaseErrors, Findings, ModeLimit, RawCase, Section};
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;
 use sha2::{Digest, Sha256};
@@ -61,9 +60,8 @@ impl FreeSystem {
             "several superelements without a body have nothing in common"; "the second one";
             "give each a case of its own");
         let mut digest = Sha256::new_with_prefix(raw.canonical());
-        let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
         let read = names.first().and_then(|name| {
-            all.section(name, true).closed(|own| superelement(own, name, folder, &mut digest))
+            all.section(name, true).closed(|own| superelement(own, name, &raw, &mut digest))
         });
         names.iter().skip(1).for_each(|name| _ = all.section(name, false));
         all.close();
@@ -72,9 +70,13 @@ impl FreeSystem {
         root.close();
         let (errors, _) = findings.into_parts();
         match read {
-            Some(superelement) if errors.is_empty() => {
-                Ok(Self { title, superelement, modes, hash: hex(digest), raw })
-            }
+            Some(superelement) if errors.is_empty() => Ok(Self {
+                title,
+                superelement,
+                modes,
+                hash: format!("{:x}", digest.finalize()),
+                raw,
+            }),
             _ => Err(raw.errors(errors)),
         }
     }
@@ -101,14 +103,14 @@ pub(super) fn refuse_body(raw: &RawCase) -> Result<(), CaseErrors> {
 fn superelement(
     section: &Section<'_>,
     name: &str,
-    folder: &Path,
+    raw: &RawCase,
     digest: &mut Sha256,
 ) -> Option<Superelement> {
     section.needs("mass");
     section.needs("stiffness");
     let [mass, damping, stiffness] = MATRICES.map(|key| {
         let file = section.optional_text(key)?;
-        Some(matrix(section, key, &folder.join(file), digest))
+        Some(matrix(section, key, &raw.beside(&file), digest))
     });
     let (mass, stiffness) = (mass??, stiffness??);
     let none = MarketMatrix { entries: Vec::new(), ..mass.clone() };

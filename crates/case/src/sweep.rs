@@ -2,8 +2,8 @@
 
 use super::value::range_count;
 use super::{
-    Analysis, Bound, Case, CaseErrors, Combination, Diagnostic, RawEntry, RawValue, Section,
-    VariedKey, parameters, placed, refuse_at,
+    Analysis, Bound, Case, CaseErrors, Combination, Diagnostic, RawItem, RawValue, Section,
+    VariedKey, parameters,
 };
 use std::collections::BTreeSet;
 
@@ -102,13 +102,13 @@ fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
 }
 
 /// The values of an entry: its own, or those beside `also`.
-fn listed(entry: &RawEntry) -> &RawEntry {
-    entry.item.value.table().and_then(|table| table.get("values")).unwrap_or(entry)
+fn listed(entry: &RawItem) -> &RawItem {
+    entry.value.table().and_then(|table| table.get("values")).unwrap_or(entry)
 }
 
 /// How many values an entry stands for.
-fn length(entry: &RawEntry) -> usize {
-    match &listed(entry).item.value {
+fn length(entry: &RawItem) -> usize {
+    match &listed(entry).value {
         RawValue::Array(items) => items.len(),
         RawValue::Table(table) => range_count(table),
         _ => 1,
@@ -116,7 +116,7 @@ fn length(entry: &RawEntry) -> usize {
 }
 
 /// Refuses studies of too many points or values.
-fn fits(section: &Section<'_>, how: Combination, entries: &[(VariedKey, &RawEntry)]) -> bool {
+fn fits(section: &Section<'_>, how: Combination, entries: &[(VariedKey, &RawItem)]) -> bool {
     let lengths = entries.iter().map(|(_, entry)| length(entry));
     let (count, what) = match how {
         Combination::Grid => (lengths.fold(1, usize::saturating_mul), "points"),
@@ -126,7 +126,7 @@ fn fits(section: &Section<'_>, how: Combination, entries: &[(VariedKey, &RawEntr
         return true;
     }
     if let Some((varied, entry)) = entries.iter().max_by_key(|(_, entry)| length(entry)) {
-        refuse_at!(section, &entry.item.at,
+        refuse_at!(section, &entry.at,
             "[sweep] has {count} {what}, most of them for \"{}\"", varied.key;
             "at most {MOST_POINTS}"; "sweep fewer values");
     }
@@ -137,32 +137,32 @@ fn fits(section: &Section<'_>, how: Combination, entries: &[(VariedKey, &RawEntr
 fn values(
     section: &Section<'_>,
     combination: Combination,
-    (varied, entry): (VariedKey, &RawEntry),
+    (varied, entry): (VariedKey, &RawItem),
 ) -> SweptKey {
     let key = &varied.key;
-    if let Some(table) = entry.item.value.table().filter(|table| table.contains_key("values")) {
+    if let Some(table) = entry.value.table().filter(|table| table.contains_key("values")) {
         parameters::only(section, table, &["values", "also"]);
     }
     let entry = listed(entry);
-    let values: Vec<String> = match &entry.item.value {
+    let values: Vec<String> = match &entry.value {
         RawValue::Array(items) => items.iter().map(|item| item.value.to_string()).collect(),
         RawValue::Table(table) => {
-            let range = section.range(key, table, &entry.item, Bound::Finite).into_iter();
+            let range = section.range(key, table, entry, Bound::Finite).into_iter();
             range.map(|value| RawValue::Float(value).to_string()).collect()
         }
         other => vec![other.to_string()],
     };
-    if values.is_empty() && matches!(entry.item.value, RawValue::Array(_)) {
-        refuse_at!(section, &entry.item.at, "\"{key}\" in [sweep] has no values";
+    if values.is_empty() && matches!(entry.value, RawValue::Array(_)) {
+        refuse_at!(section, &entry.at, "\"{key}\" in [sweep] has no values";
             "at least one value"; "list its values or give a range {{ from, to, count }}");
     }
     let mut seen = BTreeSet::new();
     let twice = values.iter().find(|value| !seen.insert(*value));
     if let Some(value) = twice.filter(|_| combination == Combination::Grid) {
-        refuse_at!(section, &entry.item.at, "\"{key}\" in [sweep] has the value {value} twice";
+        refuse_at!(section, &entry.at, "\"{key}\" in [sweep] has the value {value} twice";
             "its points would run twice"; "list each value once");
     }
-    SweptKey { varied: VariedKey { at: entry.item.at.clone(), ..varied }, values }
+    SweptKey { varied: VariedKey { at: entry.at.clone(), ..varied }, values }
 }
 
 /// Tries each value of a study on its own, all others as the case has them, so that a bad one is reported before

@@ -1,13 +1,12 @@
 //! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured
 //! surface.
 
-use super::{RawCase, Section, TableBytes, caution, refuse};
+use super::{RawCase, Section, TableBytes};
 use frictionsim_bounds::TABLE;
 use frictionsim_physics::contact::Topography;
 use frictionsim_physics::fem::ModulusTable;
 use frictionsim_signal::reader::{ModulusRow, read_gaps, read_moduli};
 use std::cell::RefCell;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Softest material, Pa: with less the frequencies of a body spread over more decades than a table can follow.
@@ -34,7 +33,7 @@ impl<'a> TableFiles<'a> {
         let bytes = match known.next() {
             Some(table) => Arc::clone(&table.bytes),
             None => {
-                let path = Path::new(&self.raw.name).parent().unwrap_or(Path::new("")).join(file);
+                let path = self.raw.beside(file);
                 let bytes = frictionsim_bounds::read(&path, TABLE);
                 let fail = |why| format!("cannot read the table {}: {why}", path.display());
                 bytes.map_err(fail)?.into()

@@ -10,8 +10,7 @@ use super::file_sections::sections;
 use super::value::table_of;
 use super::words::choice_of;
 use super::{
-    Diagnostic, FileSection, Location, RawCase, RawEntry, RawItem, RawTable, RawValue, UnitsWord,
-    imported, placed,
+    Diagnostic, FileSection, Location, RawCase, RawItem, RawTable, RawValue, UnitsWord, imported,
 };
 use frictionsim_physics::mesh::LeftOut;
 use std::fmt::Write as _;
@@ -91,7 +90,7 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
     if let Some(of_group) = table_of(root, group) {
         let own = if group == "material" { Some(of_group) } else { table_of(of_group, name) };
         if group == "contacts" || group == "ties" {
-            let is_known = |entry: &RawEntry| has_sides(entry, &section);
+            let is_known = |entry: &RawItem| has_sides(entry, &section);
             if own.is_none() && of_group.values().any(is_known) {
                 return None;
             }
@@ -116,26 +115,26 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
         table = entry_table(table, name, at)?;
     }
     for (key, value) in &section.keys {
-        table.insert((*key).to_owned(), RawEntry::at(value.clone(), at));
+        table.insert((*key).to_owned(), RawItem::at(value.clone(), at));
     }
     Some(section)
 }
 
 /// The table of a name, made where there is none; none where the name stands for something else.
 fn entry_table<'t>(table: &'t mut RawTable, name: &str, at: &Location) -> Option<&'t mut RawTable> {
-    let empty = || RawEntry::at(RawValue::Table(RawTable::new()), at);
+    let empty = || RawItem::at(RawValue::Table(RawTable::new()), at);
     let entry = table.entry(name.to_owned()).or_insert_with(empty);
-    match &mut entry.item.value {
+    match &mut entry.value {
         RawValue::Table(inner) => Some(inner),
         _ => None,
     }
 }
 
 /// Whether a contact or a tie of the case joins the same two surfaces.
-fn has_sides(entry: &RawEntry, section: &FileSection) -> bool {
+fn has_sides(entry: &RawItem, section: &FileSection) -> bool {
     let sides = ["surface", "counter"];
-    let table = entry.item.value.table();
-    let of_case = sides.map(|key| Some(&table?.get(key)?.item.value));
+    let table = entry.value.table();
+    let of_case = sides.map(|key| Some(&table?.get(key)?.value));
     let of_file = sides.map(|key| section.keys.iter().find(|k| k.0 == key).map(|k| &k.1));
     of_case == of_file || of_case == [of_file[1], of_file[0]]
 }
@@ -143,7 +142,7 @@ fn has_sides(entry: &RawEntry, section: &FileSection) -> bool {
 /// Whether the case gives a key of a section, or what excludes it.
 fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
     let has = |names: &[&str]| names.iter().any(|name| own.contains_key(*name));
-    let is = |name: &str, value: RawValue| own.get(name).is_some_and(|own| own.item.value == value);
+    let is = |name: &str, value: RawValue| own.get(name).is_some_and(|own| own.value == value);
     own.contains_key(key)
         || match (section, key) {
             ("boundaries", _) => has(&["condition"]),

@@ -1,9 +1,6 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::{
-    AssemblyBody, Body, BodyKind, Case, CaseErrors, PlacedNode, Section, caution, caution_if,
-    refusal, refuse, refuse_at, refuse_if,
-};
+use super::{AssemblyBody, Body, BodyKind, Case, CaseErrors, PlacedNode, Section};
 use frictionsim_physics::contact::SlidingContact;
 use frictionsim_physics::mesh::{Counterface, SolidContact};
 use frictionsim_physics::prestress::BaseChoice;
@@ -130,11 +127,9 @@ pub(super) fn transient(
 fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let initial = section.choice("initial");
     let InitialState::LimitCycle { .. } = initial else {
-        for key in section.refused("limit_cycle_harmonic limit_cycle_onset") {
-            refuse!(section, key,
-                "transient.{key} is given, but the run does not start on a limit cycle";
-                "only with initial = \"limit-cycle\"");
-        }
+        refuse_each!(section, "limit_cycle_harmonic limit_cycle_onset"; key,
+            "transient.{key} is given, but the run does not start on a limit cycle";
+            "only with initial = \"limit-cycle\"");
         return initial;
     };
     let harmonic = section.count("limit_cycle_harmonic");
@@ -156,7 +151,11 @@ fn perturbation(
     duration: f64,
 ) -> Perturbation {
     let harmonics = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
-    let unit = velocity_unit(section, body.map_or(1.0, |body| slip_speed(body, sliding)));
+    let relative = section.flag("relative").then(|| body.map(|body| slip_speed(body, sliding)));
+    let unit = relative.flatten().unwrap_or(1.0);
+    refuse_if!(unit == 0.0; section, "relative" =>
+        "= true, but contact.rotation_speed_rpm = 0: there is no slip speed";
+        "needs a cylinder that turns");
     let velocities = one_for_each(section, "velocity", &harmonics);
     let phases = one_for_each(section, "phase_deg", &harmonics);
     refuse_if!(harmonics.is_empty() && section.has("phase_deg"); section, "phase_deg" =>
@@ -209,17 +208,6 @@ fn slip_speed(body: &Body, sliding: &SlidingContact) -> f64 {
         },
     };
     sliding.rotation_speed.abs() * radius
-}
-
-/// What the velocities of a perturbation are given in, m/s: 1, or with `relative` the slip speed.
-fn velocity_unit(section: &Section<'_>, slip_speed: f64) -> f64 {
-    if !section.flag("relative") {
-        return 1.0;
-    }
-    refuse_if!(slip_speed == 0.0; section, "relative" =>
-        "= true, but contact.rotation_speed_rpm = 0: there is no slip speed";
-        "needs a cylinder that turns");
-    slip_speed
 }
 
 /// One number for all harmonics or one for each.

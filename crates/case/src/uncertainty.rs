@@ -1,7 +1,7 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
 use super::parameters::{number, only, read_all};
-use super::{RawEntry, RawValue, Section, VariedKey, caution_if, refuse, refuse_at, refuse_if};
+use super::{RawItem, RawValue, Section, VariedKey};
 use frictionsim_physics::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -76,7 +76,7 @@ pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
 }
 
 /// `{ normal = [mean, deviation] }`, `{ log_normal = [median, deviation] }` or `{ uniform = [from, to] }`.
-fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> UncertainParameter {
+fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawItem) -> UncertainParameter {
     let found = distribution(section, &parameter, entry);
     let harmless = (Distribution::Uniform { from: 0.0, to: 1.0 }, [0.0, 1.0]);
     let (distribution, range) = found.unwrap_or(harmless);
@@ -88,19 +88,19 @@ fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> U
 fn distribution(
     section: &Section<'_>,
     parameter: &VariedKey,
-    entry: &RawEntry,
+    entry: &RawItem,
 ) -> Option<(Distribution, [f64; 2])> {
     let key = &parameter.key;
     let help = "a distribution is { normal = [mean, deviation] }, { log_normal = [median, deviation of the logarithm] \
     } or { uniform = [from, to] }";
-    let at = &entry.item.at;
+    let at = &entry.at;
     let refuse = |what: String, label: &str| {
         refuse_at!(section, at, "{what}"; "{label}"; "{help}");
         None
     };
     // One of the three, with a list of two numbers.
-    let Some(table) = entry.item.value.table() else {
-        let kind = entry.item.value.kind();
+    let Some(table) = entry.value.table() else {
+        let kind = entry.value.kind();
         return refuse(format!("{key} is {kind}, not a distribution"), "no distribution");
     };
     only(section, table, &["normal", "log_normal", "uniform", "also"]);
@@ -112,14 +112,14 @@ fn distribution(
     if given.next().is_some() {
         refuse(format!("{key} has two distributions"), "one of them");
     }
-    let RawValue::Array(items) = &inner.item.value else {
+    let RawValue::Array(items) = &inner.value else {
         return refuse(format!("{word} of {key} is no list"), "two numbers");
     };
     let count = items.len();
     if count != 2 {
         return refuse(format!("{word} of {key} takes two numbers, not {count}"), "two numbers");
     }
-    let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i).map(|item| &item.value)));
+    let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i)));
     let (distribution, is_valid, needs) = match word {
         "normal" => {
             (Distribution::Normal { mean: a, deviation: b }, b > 0.0, "a positive deviation")

@@ -1,6 +1,6 @@
 //! Values of a case as its TOML says them, each with its place.
 
-use super::{Diagnostic, Location, placed};
+use super::{Diagnostic, Location};
 use frictionsim_bounds::shortened;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -9,6 +9,8 @@ use toml::de::{DeTable, DeValue};
 /// A TOML value with the place it was written at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawItem {
+    /// Where its key was written; of an item of a list, where it stands itself.
+    pub key_at: Location,
     /// The value.
     pub value: RawValue,
     /// Where it was written.
@@ -24,13 +26,12 @@ impl RawItem {
                 RawValue::Array(items.collect())
             }
             RawValue::Table(table) => {
-                let entries = table.into_iter();
-                let entries = entries.map(|(key, own)| (key, RawEntry::at(own.item.value, at)));
+                let entries = table.into_iter().map(|(key, own)| (key, Self::at(own.value, at)));
                 RawValue::Table(entries.collect())
             }
             other => other,
         };
-        Self { value, at: at.clone() }
+        Self { key_at: at.clone(), value, at: at.clone() }
     }
 
     /// The items of a list; anything else is a list of itself alone.
@@ -42,28 +43,12 @@ impl RawItem {
     }
 }
 
-/// One `key = value` of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RawEntry {
-    /// Where the key was written.
-    pub key_at: Location,
-    /// Its value.
-    pub item: RawItem,
-}
-
-impl RawEntry {
-    /// A key with its value, all at one place.
-    pub(super) fn at(value: RawValue, at: &Location) -> Self {
-        Self { key_at: at.clone(), item: RawItem::at(value, at) }
-    }
-}
-
 /// A TOML table in the order of its keys.
-pub type RawTable = BTreeMap<String, RawEntry>;
+pub type RawTable = BTreeMap<String, RawItem>;
 
 /// The section of a name in a table.
 pub(super) fn table_of<'t>(table: &'t RawTable, name: &str) -> Option<&'t RawTable> {
-    table.get(name)?.item.value.table()
+    table.get(name)?.value.table()
 }
 
 /// Adds the values below a table that hold no further ones, with their dotted names, whose parts `name` writes.
@@ -75,7 +60,7 @@ pub(super) fn collect_leaves<'t>(
 ) {
     for (key, entry) in table {
         let path = format!("{prefix}{}", name(key));
-        match &entry.item.value {
+        match &entry.value {
             RawValue::Table(inner) if !inner.is_empty() => {
                 collect_leaves(inner, &format!("{path}."), name, found);
             }
@@ -155,7 +140,7 @@ impl RawValue {
         match self {
             Self::Array(items) => items.iter().map(|item| item.value.length()).sum(),
             Self::Table(table) => {
-                let lengths = table.values().map(|entry| entry.item.value.length());
+                let lengths = table.values().map(|entry| entry.value.length());
                 lengths.fold(range_count(table), usize::saturating_add)
             }
             _ => 1,
@@ -196,8 +181,7 @@ impl std::fmt::Display for RawValue {
             }
             Self::Table(table) => {
                 let entries = table.iter();
-                let entries =
-                    entries.map(|(key, own)| format!("{} = {}", quote(key), own.item.value));
+                let entries = entries.map(|(key, own)| format!("{} = {}", quote(key), own.value));
                 write!(f, "{{ {} }}", entries.collect::<Vec<_>>().join(", "))
             }
         }
@@ -221,7 +205,7 @@ pub(super) fn with_point(text: &str) -> Option<String> {
 
 /// How many values a table stands for as a range.
 pub(super) fn range_count(table: &RawTable) -> usize {
-    match table.get("count").map(|entry| &entry.item.value) {
+    match table.get("count").map(|entry| &entry.value) {
         Some(RawValue::Integer(count)) => usize::try_from(*count).unwrap_or(0),
         _ => 0,
     }
@@ -244,16 +228,16 @@ pub(super) fn convert_table(
     errors: &mut Vec<Diagnostic>,
 ) -> RawTable {
     let entries = table.iter().map(|(key, value)| {
-        let (key_at, item) = (Location::new(source, key.span()), item(value, source, errors));
-        (key.get_ref().to_string(), RawEntry { key_at, item })
+        let key_at = Location::new(source, key.span());
+        (key.get_ref().to_string(), RawItem { key_at, ..item(value, source, errors) })
     });
     entries.collect()
 }
 
 /// Takes over one value with its place.
 fn item(value: &Spanned<DeValue<'_>>, source: usize, errors: &mut Vec<Diagnostic>) -> RawItem {
-    let at = Location::new(source, value.span());
-    RawItem { value: convert(value.get_ref(), source, value.span(), errors), at }
+    let (at, value) = (Location::new(source, value.span()), value.get_ref());
+    RawItem { key_at: at.clone(), value: convert(value, source, at.span.clone(), errors), at }
 }
 
 /// Takes over one value, whose place is `span` of text `source`.

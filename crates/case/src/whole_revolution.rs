@@ -76,35 +76,30 @@ pub(super) fn whole_revolution(
         materials[own.unwrap_or(0)].clone()
     });
     let materials = materials.collect();
-    let kind = BodyKind::Assembly(AssemblyBody {
-        ties: Vec::new(),
-        contacts: vec![sliding_surfaces(specification.contact, surface, contact)],
-        motions: motion.map(|own| Motion { regions, ..own }).into_iter().collect(),
-        base: BaseChoice::Solved,
-        mesh: Arc::new(mesh),
-    });
-    Ok(Body { materials, kind })
-}
-
-/// The contact with the cylinder or the ring.
-fn sliding_surfaces(place: SolidContact, surface: usize, contact: &Contact) -> SlidingSurfaces {
-    let sliding = &contact.sliding;
     let counterface = RigidCounterface {
-        shape: match place {
+        shape: match specification.contact {
             SolidContact::Inner => RigidShape::Cylinder(None),
             SolidContact::Ring { .. } => RigidShape::Plane,
         },
         center: [0.0; 3],
         axis: [0.0, 0.0, 1.0],
-        motion: RigidMotion::Turning(sliding.rotation_speed),
-        interference: sliding.interference,
+        motion: RigidMotion::Turning(contact.sliding.rotation_speed),
+        interference: contact.sliding.interference,
     };
-    SlidingSurfaces {
+    let surfaces = SlidingSurfaces {
         name: SlidingSurfaces::SHORT_FORM.to_owned(),
         surface,
         counter: Counterpart::Rigid(counterface),
-        friction: PairFriction { ratio: 1.0, decay: sliding.decay },
-        stiffness: contact.stiffness,
+        friction: PairFriction { ratio: 1.0, decay: contact.sliding.decay },
+        stiffness: *stiffness,
         topography: None,
-    }
+    };
+    let kind = BodyKind::Assembly(AssemblyBody {
+        ties: Vec::new(),
+        contacts: vec![surfaces],
+        motions: motion.map(|own| Motion { regions, ..own }).into_iter().collect(),
+        base: BaseChoice::Solved,
+        mesh: Arc::new(mesh),
+    });
+    Ok(Body { materials, kind })
 }

@@ -4,7 +4,7 @@ use super::Limit;
 use super::material::modulus_key;
 use super::mesh::lengths;
 use crate::contact::{Springs, section_of};
-use crate::{BodyKind, Case, Diagnostic, diagnosis};
+use crate::{BodyKind, Case, Diagnostic};
 use frictionsim_physics::mesh::{Counterface, SolidContact};
 use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
 use nalgebra::Vector3;
@@ -173,8 +173,8 @@ pub(super) fn stiffness(case: &Case) -> Option<Limit> {
         } else {
             return None;
         };
-        let name = springs.name();
-        let said = diagnosis!(case, &springs.key(),
+        let Springs { key, name, .. } = &springs;
+        let said = diagnosis!(case, key,
             "{name} = {stiffness:e} Pa/m is {share:.1e} times the modulus over the {what}";
             "{label}"; "{help}");
         Some(Limit { is_possible: share <= last, said })

@@ -1,7 +1,7 @@
 //! Materials that hardly any solid has.
 
 use super::Limit;
-use crate::{Case, Diagnostic, ModeLimit, diagnosis};
+use crate::{Case, Diagnostic, ModeLimit};
 use frictionsim_physics::fem::{ElasticMaterial, PlaneFormulation};
 use std::ops::RangeInclusive;
 

@@ -1,6 +1,6 @@
 //! Lengths that are hardly meant, and meshes that are hardly what they should be.
 
-use crate::{Case, Diagnostic, diagnosis};
+use crate::{Case, Diagnostic};
 use frictionsim_bounds::first_of;
 
 /// Lengths that a case has, m.

@@ -5,7 +5,7 @@ mod material;
 mod mesh;
 mod motion;
 
-use super::{Case, CaseKey, Diagnostic, KEYS, diagnosis};
+use super::{Case, CaseKey, Diagnostic, KEYS};
 use frictionsim_physics::linalg::c64;
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity};
 pub(super) use material::material_key;

@@ -3,7 +3,7 @@
 use super::Limit;
 use super::contact::lame_pressure;
 use super::material::bar_wave_speed;
-use crate::{Case, Diagnostic, InitialState, TimeStep, diagnosis};
+use crate::{Case, Diagnostic, InitialState, TimeStep};
 
 /// Steps beyond which no machine finishes a transient.
 const MOST_STEPS: f64 = 1e13;
@@ -100,10 +100,10 @@ pub(super) fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
             law.stiffness(law.approach(pressure)),
             format!("the stiffness of the contact at {pressure:.1e} Pa"),
         ),
-        None => (springs.stiffness, springs.name()),
+        None => (springs.stiffness, springs.name.clone()),
     };
     (stiffness > most).then(|| {
-        diagnosis!(case, &springs.key(),
+        diagnosis!(case, &springs.key,
             "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, resolves on this \
              mesh, about {most:.1e} Pa/m. The status of contact nodes would flicker";
             "nearly rigid"; "{}, or a smaller transient.time_step", case.rigid_remedy(&springs))

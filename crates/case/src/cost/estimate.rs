@@ -1,16 +1,15 @@
-//! Operation counts and memory behind the cost of each analysis.
+//! The size of a mesh, and the operation counts and memory behind the cost of each analysis.
 
-use super::size::Size;
 use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
 use crate::{
     BodyKind, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeLimit, StabilityChoice, TimeStep,
     Transient,
 };
 use frictionsim_physics::cycle::BasinRequest;
-use frictionsim_physics::fem::{ElasticMaterial, RegionMaterial};
+use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RegionMaterial};
 use frictionsim_physics::frf::FrfBoundary;
 use frictionsim_physics::linalg::SparsityPattern;
-use frictionsim_physics::mesh::{Mesh, SolidSpecification};
+use frictionsim_physics::mesh::{AnnulusSpecification, Mesh, SolidSpecification};
 use frictionsim_physics::transient::{OperatorChoice, stable_step_limit};
 use std::f64::consts::TAU;
 
@@ -84,7 +83,7 @@ impl Case {
         };
         let pairs = friction_values as f64 * modes as f64;
         let shapes = (modes * cea.shapes_at.len()) as f64;
-        let unknowns = self.unknowns(size);
+        let unknowns = size.unknowns;
         let (memory_bytes, operations) = match (&self.body.kind, cea.method) {
             (BodyKind::Revolution(solid), _) => {
                 let sectors = solid.annulus.circumferential_elements.max(1);
@@ -122,10 +121,6 @@ impl Case {
         CeaCost { friction_values, modes, run }
     }
 
-    fn unknowns(&self, size: &Size) -> f64 {
-        self.body.dimension() as f64 * size.nodes as f64
-    }
-
     pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
         let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
         // Cycles whose stability is worked out, of one and those that follow it along a branch.
@@ -134,7 +129,7 @@ impl Case {
             StabilityChoice::Point => 1,
             StabilityChoice::Branch => 1 + followed,
         } as f64;
-        let (unknowns, confirmed) = (self.unknowns(size), cycle.confirmation_periods as f64);
+        let (unknowns, confirmed) = (size.unknowns, cycle.confirmation_periods as f64);
         let (families, bytes, operations) = if self.has_rotating_waves() {
             let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
             let phases = cycle.phases.unwrap_or(LIKELY_PHASES) as f64;
@@ -159,26 +154,23 @@ impl Case {
     pub(super) fn basin_cost(&self, basin: &BasinRequest, size: &Size) -> RunCost {
         let steps = BASIN_STEPS * basin.periods as f64;
         // A few fields, less than the mesh.
-        RunCost { memory_bytes: 0.0, operations: STEP[0] * self.unknowns(size) * steps }
+        RunCost { memory_bytes: 0.0, operations: STEP[0] * size.unknowns * steps }
     }
 
     pub(super) fn frf_cost(&self, frf: &Frf, size: &Size) -> FrfCost {
-        let dofs = self.unknowns(size);
-        let lines = frf.frequencies_hz.len();
-        if let Some(solid) = self.body.revolution() {
-            return solid_frf_cost(frf, solid, dofs);
-        }
+        let (dofs, lines) = (size.unknowns, frf.frequencies_hz.len());
         let sectors = self.body.sector_count().filter(|_| self.responds_by_harmonics(frf));
         // Entries of the factor of a plane mesh under a minimum-degree ordering, 12 bytes each, as measured.
         let fill = 9.0 * dofs * dofs.max(2.0).log2();
-        let (bytes, each) = match (frf.method, sectors, self.body.assembly()) {
+        let (bytes, each) = match (frf.method, sectors, &self.body.kind) {
+            (_, _, BodyKind::Revolution(solid)) => solid_frf_cost(frf, solid, dofs),
             // One block band of a sector for each harmonic.
             (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors), _) => {
                 (100.0 * dofs / sectors.max(1) as f64, 20.0 * dofs)
             }
             (FrfMethod::Reduced, ..) => (24.0 * fill, 1e4),
             // In three dimensions eight lines share one factor.
-            (_, _, Some(own)) => {
+            (_, _, BodyKind::Assembly(own)) => {
                 let entries = factor_entries(&own.mesh, dofs);
                 (FACTOR_BYTES * entries, FACTORS / 8.0 * entries.powf(1.5))
             }
@@ -187,7 +179,8 @@ impl Case {
                 (24.0 * fill, 35.0 * fill)
             }
         };
-        frf_cost_of(lines, bytes, each)
+        let memory_bytes = PROGRAM_BYTES + bytes + 64.0 * lines as f64;
+        FrfCost { lines, run: RunCost { memory_bytes, operations: each * lines as f64 } }
     }
 
     /// Weyl's estimate of the number of modes below a frequency, see [`weyl`].
@@ -211,7 +204,7 @@ impl Case {
         };
         let steps = (transient.settings.duration / time_step).ceil();
         let is_sparse = transient.operator == OperatorChoice::Sparse;
-        let unknowns = self.unknowns(size);
+        let unknowns = size.unknowns;
         let (each, operator_bytes) = match self.body.kind {
             BodyKind::Revolution(_) => (STEP[1], 0.0),
             BodyKind::Annulus(_) if !is_sparse => (STEP[0], 0.0),
@@ -226,15 +219,9 @@ impl Case {
     }
 }
 
-/// Memory of the program with some more bytes, and so many operations for each line.
-fn frf_cost_of(lines: usize, bytes: f64, each: f64) -> FrfCost {
-    let memory_bytes = PROGRAM_BYTES + bytes + 64.0 * lines as f64;
-    FrfCost { lines, run: RunCost { memory_bytes, operations: each * lines as f64 } }
-}
-
-/// One band of three unknowns at each node of a sheet for each harmonic, complex, eliminated for each line; with
-/// friction the waves with and against the rotor differ.
-fn solid_frf_cost(frf: &Frf, solid: &SolidSpecification, dofs: f64) -> FrfCost {
+/// Bytes, and operations of each line: one band of three unknowns at each node of a sheet for each harmonic, complex,
+/// eliminated for each line; with friction the waves with and against the rotor differ.
+fn solid_frf_cost(frf: &Frf, solid: &SolidSpecification, dofs: f64) -> (f64, f64) {
     let sectors = solid.annulus.circumferential_elements.max(1) as f64;
     let unknowns = dofs / sectors;
     let half_bandwidth = solid_half_bandwidth(solid);
@@ -245,8 +232,7 @@ fn solid_frf_cost(frf: &Frf, solid: &SolidSpecification, dofs: f64) -> FrfCost {
     let entries = unknowns * (2.0 * half_bandwidth + 1.0);
     // Sixteen harmonics of three bands or 2^21 entries of each, and eight lines at a time.
     let held = (16.0 * entries).min(entries.max(f64::from(1 << 21)));
-    let each = waves * unknowns * half_bandwidth.powi(2);
-    frf_cost_of(frf.frequencies_hz.len(), 48.0 * held + 256.0 * entries, each)
+    (48.0 * held + 256.0 * entries, waves * unknowns * half_bandwidth.powi(2))
 }
 
 /// Weyl's estimate of the number of modes below an angular frequency: of motions in the plane
@@ -304,4 +290,126 @@ fn factor_entries(mesh: &Mesh, unknowns: f64) -> f64 {
 fn solid_half_bandwidth(solid: &SolidSpecification) -> f64 {
     let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
     3.0 * if solid.annulus.element.is_quadratic() { 4.0 * short + 5.0 } else { short + 3.0 }
+}
+
+/// Highest frequency of a quadratic element over that of a linear one of its size, about: its nodes lie half as far
+/// apart, and its lumped mass is uneven.
+const QUADRATIC: f64 = 2.5;
+
+/// Size of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Size {
+    /// Nodes.
+    pub nodes: u128,
+    /// Elements.
+    pub elements: u128,
+    /// Components of all displacements, before the clamped edge is taken out.
+    pub unknowns: f64,
+    /// Highest frequency that the mesh can hold, rad/s.
+    pub highest_frequency: f64,
+}
+
+impl Size {
+    /// The size of the case's own mesh.
+    pub fn of(case: &Case) -> Self {
+        let (body, materials) = (&case.body, &case.body.materials);
+        let highest_frequency = match &body.kind {
+            BodyKind::Annulus(grid) => {
+                let of_disc = grid_frequency(grid, materials.of(0), 0.0);
+                let shaft = materials.get(1).map(|shaft| &shaft.elastic);
+                of_disc.max(shaft_frequency(grid, shaft))
+            }
+            BodyKind::Revolution(solid) => {
+                let through = solid.axial_elements as f64 / solid.thickness;
+                let of =
+                    |own: &RegionMaterial| grid_frequency(&solid.annulus, &own.elastic, through);
+                materials.iter().map(of).fold(0.0, f64::max)
+            }
+            BodyKind::Imported(own) => highest(&own.mesh, materials, element_frequency),
+            BodyKind::Assembly(own) => highest(&own.mesh, materials, solid_frequency),
+        };
+        let (nodes, elements) = (body.node_count(), body.element_count());
+        Self {
+            nodes,
+            elements,
+            unknowns: body.dimension() as f64 * nodes as f64,
+            highest_frequency,
+        }
+    }
+
+    /// The size of a mesh of some dimension whose elements are split to be `factor` times as fine.
+    pub fn refined(&self, factor: f64, dimension: usize) -> Self {
+        let finer = factor.powi(dimension as i32);
+        let times = |count: u128| (count as f64 * finer) as u128;
+        Self {
+            nodes: times(self.nodes),
+            elements: times(self.elements),
+            unknowns: dimension as f64 * times(self.nodes) as f64,
+            highest_frequency: factor * self.highest_frequency,
+        }
+    }
+}
+
+/// `sqrt((lambda + 2 G) / rho)`, m/s.
+fn pressure_wave_speed(material: &ElasticMaterial) -> f64 {
+    let [lambda, shear] = material.lame_constants();
+    ((lambda + 2.0 * shear) / material.density).sqrt()
+}
+
+/// Highest frequency of a generated disc, rad/s, from the pressure-wave speed and the smallest element:
+/// `omega = 2 c_p sqrt(1 / h_r^2 + 1 / h_theta^2 + 1 / h_z^2)`, with `through = 1 / h_z`.
+fn grid_frequency(grid: &AnnulusSpecification, material: &ElasticMaterial, through: f64) -> f64 {
+    let count = grid.radial_elements as f64;
+    let width = grid.outer_radius - grid.inner_radius;
+    let log = grid.radial_grading.ln();
+    let first =
+        if log == 0.0 { width / count } else { width * log.exp_m1() / (count * log).exp_m1() };
+    let last = first * ((count - 1.0) * log).exp();
+    let around = |radius: f64| TAU * radius / grid.circumferential_elements as f64;
+    let inner = (1.0 / first).hypot(1.0 / around(grid.inner_radius + 0.5 * first));
+    let outer = (1.0 / last).hypot(1.0 / around(grid.outer_radius - 0.5 * last));
+    2.0 * pressure_wave_speed(material) * inner.max(outer).hypot(through)
+}
+
+/// The same of the shaft in it; 0 where there is none.
+fn shaft_frequency(grid: &AnnulusSpecification, material: Option<&ElasticMaterial>) -> f64 {
+    grid.shaft.zip(material).map_or(0.0, |(shaft, material)| {
+        let width = grid.inner_radius - shaft.inner_radius;
+        let radial = shaft.radial_elements as f64 / width;
+        let radius = shaft.inner_radius + 0.5 / radial;
+        let around = grid.circumferential_elements as f64 / (TAU * radius);
+        2.0 * pressure_wave_speed(material) * radial.hypot(around)
+    })
+}
+
+/// The highest of all elements of a mesh.
+fn highest(mesh: &Mesh, materials: &[RegionMaterial], of: fn(&Mesh, usize, f64) -> f64) -> f64 {
+    let speed = |element| pressure_wave_speed(&materials[mesh.region(element)].elastic);
+    let each = (0..mesh.element_count()).map(|element| of(mesh, element, speed(element)));
+    each.fold(0.0, f64::max)
+}
+
+/// The same of one element, whose sides are its longest one and its area over that.
+fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
+    let kind = mesh.element_kind(element);
+    let corners = &mesh.element_nodes(element)[..kind.corner_count()];
+    let place = |corner: usize| mesh.plane_node(corners[corner % corners.len()] as usize);
+    let side = |corner: usize| {
+        let ([x, y], [to_x, to_y]) = (place(corner), place(corner + 1));
+        (to_x - x).hypot(to_y - y)
+    };
+    let long = (0..corners.len()).map(side).fold(0.0, f64::max);
+    let short = mesh.element_measure(element) / long;
+    let order = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
+    2.0 * order * speed * (1.0 / short).hypot(1.0 / long)
+}
+
+/// The same of one solid element, as of a cube of its shortest edge.
+fn solid_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
+    let (kind, nodes) = (mesh.element_kind(element), mesh.element_nodes(element));
+    let place = |corner: usize| nalgebra::Vector3::from(mesh.nodes[nodes[corner] as usize]);
+    let lengths = kind.edges().iter().map(|&[a, b]| (place(a) - place(b)).norm());
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
+    let finer = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
+    2.0 * finer * speed * 3.0_f64.sqrt() / shortest
 }

@@ -1,7 +1,8 @@
 //! Lists, ranges, and nodes by number or by place.
 
 use super::Section;
-use crate::{Bound, Kind, Location, RawItem, RawTable, RawValue, Spacing, keys, refuse, refuse_at};
+use crate::words::Choice;
+use crate::{Bound, Kind, Location, RawItem, RawTable, RawValue, Spacing, keys};
 use frictionsim_output::rounded;
 
 /// Longest list that a range may stand for.
@@ -45,6 +46,27 @@ impl<'a> Section<'a> {
         found
     }
 
+    /// The items of a list; one value is a list of itself alone.
+    fn listed(&self, key: &str) -> &'a [RawItem] {
+        self.item(key).map_or(&[], RawItem::listed)
+    }
+
+    /// A list of words out of a few; empty where it is not given.
+    pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
+        refuse_if!(self.list_length(key) == Some(0); self, key => "is an empty list";
+            "at least one word");
+        self.listed(key).iter().filter_map(|item| self.read_choice(key, item)).collect()
+    }
+
+    /// Texts: one or a list; empty where it is not given.
+    pub fn texts(&self, key: &str) -> Vec<String> {
+        let text = |item: &RawItem| match &item.value {
+            RawValue::String(text) => Some(text.clone()),
+            _ => self.reject_at(item, key, "must be a string, or a list of strings"),
+        };
+        self.listed(key).iter().filter_map(text).collect()
+    }
+
     /// A list of whole numbers without repetition, each with its place, or the default.
     pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
         let least = self.least(key);
@@ -56,7 +78,7 @@ impl<'a> Section<'a> {
             if seen.insert(value) {
                 values.push((value, item.at.clone()));
             } else {
-                self.reject_at(item, key, "must not be listed twice");
+                self.reject_at::<()>(item, key, "must not be listed twice");
             }
         }
         Some(values)
@@ -99,8 +121,8 @@ impl<'a> Section<'a> {
             return Some(self.range(key, table, &item, bound));
         }
         if self.is_some_text(key) {
-            self.reject_at(&item, key, "must be a list of numbers or a range { from, to, count }");
-            return Some(Vec::new());
+            let bound = "must be a list of numbers or a range { from, to, count }";
+            return self.reject_at(&item, key, bound).or(Some(Vec::new()));
         }
         let values = item.listed().iter();
         Some(values.filter_map(|item| self.read_number(key, item, bound)).collect())
@@ -146,9 +168,8 @@ impl<'a> Section<'a> {
         let [from, to] = ["from", "to"].map(|end| {
             let value = range.number(end);
             match table.get(end) {
-                Some(entry) if !bound.admits(value) && value.is_finite() => {
-                    range.reject_at(&entry.item, end, &bound.text());
-                    f64::NAN
+                Some(item) if !bound.admits(value) && value.is_finite() => {
+                    range.reject_at(item, end, &bound.text()).unwrap_or(f64::NAN)
                 }
                 _ => value,
             }
@@ -159,10 +180,7 @@ impl<'a> Section<'a> {
         if from.is_nan() || to.is_nan() || count == 0 {
             return Vec::new();
         }
-        let refuse = |message: &str| {
-            self.reject_at(item, key, message);
-            Vec::new()
-        };
+        let refuse = |message: &str| self.reject_at(item, key, message).unwrap_or_default();
         if count > LONGEST_RANGE {
             return refuse(&format!("must have a count of at most {LONGEST_RANGE}"));
         }
@@ -177,8 +195,8 @@ impl<'a> Section<'a> {
 
     /// A list of nodes, each with its place in the case.
     pub fn nodes(&self, key: &str) -> Vec<(NodePlace, Location)> {
-        let items = self.item(key).map_or(&[][..], RawItem::listed).iter();
-        items.filter_map(|item| Some((self.read_node(key, item)?, item.at.clone()))).collect()
+        let read = |item: &'a RawItem| Some((self.read_node(key, item)?, item.at.clone()));
+        self.listed(key).iter().filter_map(read).collect()
     }
 
     /// One node; none where it is not given or wrong.
@@ -193,10 +211,7 @@ impl<'a> Section<'a> {
             RawValue::Integer(_) | RawValue::Float(_) => {
                 return self.read_count(key, item, 1).map(NodePlace::Number);
             }
-            _ => {
-                self.reject_at(item, key, &format!("must be a node number, {PLACE}"));
-                return None;
-            }
+            _ => return self.reject_at(item, key, &format!("must be a node number, {PLACE}")),
         };
         let mut place = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
         place.declarations = Some(&keys::PLACE);
@@ -208,10 +223,7 @@ impl<'a> Section<'a> {
             (None, None, Some(radius), Some(angle)) => {
                 NodePlace::Polar { radius, angle: angle.to_radians(), z }
             }
-            _ => {
-                self.reject_at(item, key, &format!("must be {PLACE}"));
-                return None;
-            }
+            _ => return self.reject_at(item, key, &format!("must be {PLACE}")),
         };
         let is_read = [x, y, z, radius, angle].into_iter().flatten();
         is_read.into_iter().all(f64::is_finite).then_some(found)
