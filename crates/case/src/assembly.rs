@@ -103,9 +103,9 @@ pub(super) fn sections(own: &Description<'_>) -> (AssemblyParts, Contact) {
     let motions = root.each("motion", motion);
     let ties = root.each("ties", |section| ["surface", "counter"].map(|key| section.text(key)));
     let mut contacts = Vec::new();
-    for (name, mut contact) in root.each("contacts", |section| contact(section, tables)) {
-        contact.surfaces.name = name;
-        contacts.push(contact);
+    for (name, mut own) in root.each("contacts", |section| contact(section, tables)) {
+        own.surfaces.name = name;
+        contacts.push(own);
     }
     if root.has("contact") && !root.has("contacts") {
         let short = |section: &Section<'_>| short_form(section, own.is_pressed());
@@ -135,25 +135,18 @@ pub(super) fn sections(own: &Description<'_>) -> (AssemblyParts, Contact) {
 
 pub(super) fn motion(section: &Section<'_>) -> Motion {
     section.needs("axis");
+    let (frame, has_inertia) = (section.choice("frame"), section.flag("rotation_terms"));
+    refuse_if!(!has_inertia && section.has("frame"); section, "frame" =>
+        "has no effect without the inertia of rotation"; "needs rotation_terms = true";
+        "give rotation_terms = true, or leave frame out");
     Motion {
         regions: Vec::new(),
         axis: unit(section, "axis"),
         center: section.vector("center"),
         rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
-        inertia: inertia(section),
+        // In which frame it counts.
+        inertia: has_inertia.then_some(frame),
     }
-}
-
-/// In which frame the inertia of a motion counts.
-fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
-    let frame = section.choice("frame");
-    if section.flag("rotation_terms") {
-        return Some(frame);
-    }
-    refuse_if!(section.has("frame"); section, "frame" =>
-        "has no effect without the inertia of rotation"; "needs rotation_terms = true";
-        "give rotation_terms = true, or leave frame out");
-    None
 }
 
 /// The solid bodies of a mesh file, and their materials; no error where a name is missing, which has been told.

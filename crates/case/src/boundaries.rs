@@ -8,12 +8,8 @@ use frictionsim_physics::mesh::{BoundaryCondition, ElasticSupport};
 /// A boundary of the case with its condition.
 pub(super) type NamedCondition = (String, BoundaryCondition);
 
-/// `[boundaries.*]`, in the order given.
-pub(super) fn all(root: &Section<'_>) -> Vec<NamedCondition> {
-    root.each("boundaries", condition)
-}
-
-fn condition(section: &Section<'_>) -> BoundaryCondition {
+/// One section.
+pub(super) fn condition(section: &Section<'_>) -> BoundaryCondition {
     let word: ConditionWord = section.choice("condition");
     let support = ElasticSupport {
         normal_stiffness: section.number("normal_stiffness"),
@@ -51,8 +47,8 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
             if axes.is_empty() {
                 section.missing("directions");
             }
-            let has = |axis: HeldAxis| axes.contains(&axis);
-            BoundaryCondition::Fixed([has(HeldAxis::X), has(HeldAxis::Y), has(HeldAxis::Z)])
+            let all = [HeldAxis::X, HeldAxis::Y, HeldAxis::Z];
+            BoundaryCondition::Fixed(all.map(|axis| axes.contains(&axis)))
         }
         ConditionWord::Pressure => {
             BoundaryCondition::Pressure(pressure.unwrap_or_else(|| section.number("pressure")))

@@ -149,27 +149,26 @@ pub(super) fn contact(
 
 /// The springs and dashpots of a contact, and how they stiffen; one without springs loses nothing in them.
 pub(super) fn contact_stiffness(section: &Section<'_>, is_compliant: bool) -> ContactStiffness {
+    let given = section.optional_number("normal_stiffness");
     let stiffness = ContactStiffness {
-        normal_stiffness: section.optional_number("normal_stiffness"),
         normal_damping: section.number("normal_damping"),
         tangential_damping: section.number("tangential_damping"),
         is_base_compliant: is_compliant,
         loss_factor: loss_factor(section),
         ..ContactStiffness::default()
     };
-    let stiffness = with_law(section, stiffness);
+    let law = law(section, given);
+    let normal_stiffness = law.map(|law| law.stiffness(0.0)).or(given);
     let idle = [
         ("normal_damping", stiffness.normal_damping, ""),
         ("loss_factor", stiffness.loss_factor, ", which stores no energy"),
     ];
     for (key, value, why) in idle {
-        if stiffness.normal_stiffness.is_none() && value > 0.0 {
-            let name = section.name(key);
-            refuse!(section, key, "{name} = {value} has no effect on a rigid contact{why}";
-                "needs normal_stiffness"; "give normal_stiffness, or leave {key} out");
-        }
+        refuse_if!(normal_stiffness.is_none() && value > 0.0; section, key =>
+            "= {value} has no effect on a rigid contact{why}"; "needs normal_stiffness";
+            "give normal_stiffness, or leave {key} out");
     }
-    stiffness
+    ContactStiffness { normal_stiffness, law, ..stiffness }
 }
 
 /// How friction falls with the slip speed; a ratio of one is a constant coefficient.
@@ -216,8 +215,8 @@ const LAW_KEYS: [(&str, &[NormalLawWord]); 4] = [
     ("height", &[NormalLawWord::Exponential]),
 ];
 
-/// A contact with how it stiffens with pressure, and its stiffness without.
-fn with_law(section: &Section<'_>, stiffness: ContactStiffness) -> ContactStiffness {
+/// How a contact of some stiffness stiffens with pressure.
+fn law(section: &Section<'_>, stiffness: Option<f64>) -> Option<NormalLaw> {
     let word: NormalLawWord = section.choice("normal_law");
     for (key, laws) in LAW_KEYS {
         if !laws.contains(&word) && section.has(key) {
@@ -234,18 +233,13 @@ fn with_law(section: &Section<'_>, stiffness: ContactStiffness) -> ContactStiffn
     // What another law would take is told above, and read.
     let [cubic_stiffness, reference_pressure, height] =
         ["cubic_stiffness", "reference_pressure", "height"].map(|key| section.optional_number(key));
-    let law = match word {
-        NormalLawWord::Linear => None,
-        NormalLawWord::Cubic => stiffness
-            .normal_stiffness
-            .zip(cubic_stiffness)
-            .map(|(stiffness, cubic_stiffness)| NormalLaw::Cubic { stiffness, cubic_stiffness }),
-        NormalLawWord::Exponential => {
-            reference_pressure.zip(height).map(|(reference_pressure, height)| {
-                NormalLaw::Exponential { reference_pressure, height }
-            })
+    Some(match word {
+        NormalLawWord::Linear => return None,
+        NormalLawWord::Cubic => {
+            NormalLaw::Cubic { stiffness: stiffness?, cubic_stiffness: cubic_stiffness? }
         }
-    };
-    let at_rest = law.map(|law| law.stiffness(0.0));
-    ContactStiffness { normal_stiffness: at_rest.or(stiffness.normal_stiffness), law, ..stiffness }
+        NormalLawWord::Exponential => {
+            NormalLaw::Exponential { reference_pressure: reference_pressure?, height: height? }
+        }
+    })
 }

@@ -109,7 +109,7 @@ pub(super) fn read(
     section: &Section<'_>,
     root: &Section<'_>,
     body: Option<&Body>,
-    has: [bool; 3],
+    has: impl Fn(Analysis) -> bool,
 ) -> Convergence {
     refuse_if!(root.has("modifications"); root, "modifications",
         "[modifications] are places of one mesh: a finer one would have others";
@@ -136,7 +136,14 @@ pub(super) fn read(
     let is_linear = body.is_none_or(Body::suits_transient);
     // Cycles of a body without symmetry have no name that two meshes share.
     let has_waves = body.is_none_or(|body| body.annulus().is_some());
-    let analyses = analyses(section, is_linear, [has[0], has[1], has[2] && has_waves]);
+    let can_run = |analysis| match analysis {
+        Analysis::Cea => has(analysis),
+        Analysis::Transient => has(analysis) && is_linear,
+        Analysis::Cycle => has(analysis) && is_linear && has_waves,
+        // A boundary is no number that a mesh converges to within one step of its search.
+        Analysis::Basin => false,
+    };
+    let analyses = analyses(section, can_run);
     refuse_if!(!time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient); section,
         "time_step_factors", "convergence.time_step_factors needs a [transient]";
         "there is no transient in this case";
@@ -221,52 +228,39 @@ fn check_meshes(
                 "factors further apart, or a finer mesh to start from");
             return;
         }
-        let [a, r] = [
-            around as f64 / annulus.circumferential_elements as f64,
-            radial as f64 / annulus.radial_elements as f64,
-        ];
-        caution_if!((a / r - 1.0).abs() > UNEVEN; section, "factors",
-            "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
-             observed order suffers from that"; "uneven after rounding");
-        let layers = solid.map_or(1, |solid| solid.axial_elements) as f64;
-        let z = (layers * factor).round() / layers;
-        caution_if!(solid.is_some() && (z / a - 1.0).abs() > UNEVEN; section, "factors",
-            "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: the \
-             observed order suffers from that"; "uneven after rounding");
+        let a = around as f64 / annulus.circumferential_elements as f64;
+        let r = radial as f64 / annulus.radial_elements as f64;
+        let layers = solid.map(|solid| solid.axial_elements as f64);
+        let z = layers.map_or(a, |layers| (layers * factor).round() / layers);
+        for (other, ratio, along) in
+            [(r, a / r, "along the radius"), (z, z / a, "over the thickness")]
+        {
+            caution_if!((ratio - 1.0).abs() > UNEVEN; section, "factors",
+                "{name}, refines by {a:.3} around and {other:.3} {along} after rounding: the \
+                 observed order suffers from that"; "uneven after rounding");
+        }
         previous = Some((factor, mesh));
     }
 }
 
 /// What is studied: what the section names, else what the case has sections for and its elements can run.
-fn analyses(
-    section: &Section<'_>,
-    is_linear: bool,
-    [has_cea, has_transient, has_cycle]: [bool; 3],
-) -> Vec<Analysis> {
+fn analyses(section: &Section<'_>, can_run: impl Fn(Analysis) -> bool) -> Vec<Analysis> {
     let all = [Analysis::Cea, Analysis::Transient, Analysis::Cycle, Analysis::Basin];
     let named = section.choices("analyses");
-    let is_there = |analysis: Analysis| match analysis {
-        Analysis::Cea => has_cea,
-        Analysis::Transient => has_transient && is_linear,
-        Analysis::Cycle => has_cycle && is_linear,
-        // A boundary is no number that a mesh converges to within one step of its search.
-        Analysis::Basin => false,
-    };
     if named.is_empty() {
-        let all: Vec<Analysis> = all.into_iter().filter(|own| is_there(*own)).collect();
+        let all: Vec<Analysis> = all.into_iter().filter(|own| can_run(*own)).collect();
         refuse_if!(all.is_empty() && !section.has("analyses"); section, "analyses",
             "[convergence] has nothing to study: the case has neither [cea] nor a [transient] or a \
              [cycle] that its elements can run"; "no analysis in the case";
             "add\n[cea]\nmax_frequency_hz = 17500.0");
         return all;
     }
-    for analysis in all {
-        if named.contains(&analysis) && !is_there(analysis) {
-            refuse!(section, "analyses",
-                "convergence.analyses names \"{}\", which this case cannot run", analysis.word();
-                "an analysis needs its own section; a transient also needs quad4 elements, a cycle \
-                 quad4 elements and the built-in annulus");
-        }
+    let named: Vec<Analysis> = all.into_iter().filter(|own| named.contains(own)).collect();
+    for analysis in &named {
+        refuse_if!(!can_run(*analysis); section, "analyses",
+            "convergence.analyses names \"{}\", which this case cannot run", analysis.word();
+            "an analysis needs its own section; a transient also needs quad4 elements, a cycle \
+             quad4 elements and the built-in annulus");
     }
-    all.into_iter().filter(|analysis| named.contains(analysis)).collect()
+    named
 }

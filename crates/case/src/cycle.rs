@@ -118,7 +118,20 @@ impl Case {
                  deformable shaft"; "not with a deformable shaft"; "leave {key} out"));
         }
         self.require_annulus("rotating waves are sought in")?;
-        self.require_constant_friction()
+        if self.contact.stiffness.law.is_some() {
+            return Err(refusal!(self, "contact.normal_law",
+                "rotating waves are those of rigid contact, whose pressure is another one than on \
+                 a contact that stiffens"; "stiffens with pressure";
+                "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"));
+        }
+        if self.contact.sliding.decay.is_none() {
+            return Ok(());
+        }
+        Err(refusal!(self, "contact.static_friction_ratio",
+            "limit cycles are computed for a constant friction coefficient only";
+            "friction falls with speed here";
+            "follow the transient to its limit cycle instead ([transient] with stop_when_settled = \
+             true), or set contact.static_friction_ratio = 1.0"))
     }
 }
 
@@ -187,13 +200,10 @@ fn continuation(section: &Section<'_>, is_assembly: bool) -> Continuation {
 pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest {
     let pair = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
     let modes = section.counts("modes");
-    let modes: Option<Vec<usize>> =
-        modes.map(|values| values.into_iter().map(|(mode, _)| mode).collect());
-    if modes.as_ref().is_some_and(|own| !(1..=2).contains(&own.len())) {
-        refuse!(section, "modes",
-            "basin.modes must name two different modes, or one that competes with steady sliding";
-            "one or two of them");
-    }
+    let modes = modes.map(|own| own.into_iter().map(|(mode, _)| mode).collect::<Vec<usize>>());
+    refuse_if!(modes.as_ref().is_some_and(|own| !(1..=2).contains(&own.len())); section, "modes",
+        "basin.modes must name two different modes, or one that competes with steady sliding";
+        "one or two of them");
     let request = BasinRequest {
         modes,
         harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),

@@ -48,8 +48,13 @@ impl<'a> Description<'a> {
         let file = mesh.optional_text("file").or_else(|| mesh.has("file").then(String::new));
         let common = material(root, &tables);
         let modifications = modifications::sections(root);
-        let conditions = boundaries::all(root);
-        let scale = length_factor(&mesh);
+        let conditions = root.each("boundaries", boundaries::condition);
+        let (units, scale): (UnitsWord, _) = (mesh.choice("units"), mesh.number("scale"));
+        let (_, _): (Vec<FilePart>, _) = (mesh.choices("take"), mesh.texts("drop"));
+        refuse_if!(mesh.has("units") && mesh.has("scale"); mesh, "scale",
+            "mesh.units and mesh.scale both scale the coordinates"; "beside mesh.units";
+            "leave one of them out");
+        let scale = if mesh.has("units") { 10f64.powi(units.power("m")) } else { scale };
         if file.is_none() {
             refuse_each!(mesh, "units scale take drop"; key => "is for a mesh file (mesh.file)";
                 "the body is generated";
@@ -90,21 +95,6 @@ impl<'a> Description<'a> {
         let is_pressure = |own: &BoundaryCondition| matches!(own, BoundaryCondition::Pressure(_));
         self.conditions.iter().any(|(_, condition)| is_pressure(condition))
     }
-}
-
-/// Factor on the coordinates of a mesh file: that of its units, or `mesh.scale`.
-fn length_factor(mesh: &Section<'_>) -> f64 {
-    let units: UnitsWord = mesh.choice("units");
-    let _: Vec<FilePart> = mesh.choices("take");
-    let _ = mesh.texts("drop");
-    let scale = mesh.number("scale");
-    if !mesh.has("units") {
-        return scale;
-    }
-    refuse_if!(mesh.has("scale"); mesh, "scale",
-        "mesh.units and mesh.scale both scale the coordinates"; "beside mesh.units";
-        "leave one of them out");
-    10f64.powi(units.power("m"))
 }
 
 /// Whether `[material]` has the constants of regions without a section of their own; a formulation alone gives them

@@ -140,15 +140,10 @@ impl CaseErrors {
         let mut group = match self.sources.get(diagnostic.at.source) {
             Some(source) => {
                 let span = clamp(&diagnostic.at.span, &source.text);
-                let mut annotation = AnnotationKind::Primary.span(span);
-                if !diagnostic.label.is_empty() {
-                    annotation = annotation.label(diagnostic.label.as_str());
-                }
-                title.element(
-                    Snippet::source(source.text.as_str())
-                        .path(source.name.as_str())
-                        .annotation(annotation),
-                )
+                let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty());
+                let annotation = AnnotationKind::Primary.span(span).label(label);
+                let snippet = Snippet::source(source.text.as_str()).path(source.name.as_str());
+                title.element(snippet.annotation(annotation))
             }
             None => Group::with_title(title),
         };

@@ -54,16 +54,13 @@ pub(super) fn read(section: &Section<'_>, body: Option<&Body>) -> Frf {
         }
         direction
     };
-    let force_direction = direction("force_direction");
-    let response_direction =
-        section.has("response_direction").then(|| direction("response_direction"));
+    let force = Terminal { node: force_node, direction: direction("force_direction") };
+    let key = "response_direction";
+    let along = if section.has(key) { direction(key) } else { force.direction };
     let frf = Frf {
         boundary: section.choice("boundary"),
-        force: Terminal { node: force_node, direction: force_direction },
-        response: Terminal {
-            node: response_node,
-            direction: response_direction.unwrap_or(force_direction),
-        },
+        force,
+        response: Terminal { node: response_node, direction: along },
         frequencies_hz,
         quantity: section.choice("quantity"),
         method: section.choice("method"),

@@ -164,24 +164,18 @@ fn annulus(own: &Description<'_>) -> (AnnulusSpecification, Option<RegionMateria
         },
         shaft: shaft.as_ref().map(|(shaft, _)| *shaft),
     };
-    check_mesh(mesh, &annulus);
-    (annulus, shaft.map(|(_, material)| material))
-}
-
-fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
     // Node indices are 32 bits wide, with room for two unknowns at each node.
-    let (nodes, limit) = (node_count(annulus), u128::from(u32::MAX / 2));
+    let (nodes, limit) = (node_count(&annulus), u128::from(u32::MAX / 2));
     refuse_if!(nodes > limit; mesh, "circumferential_elements",
         "the mesh would have {nodes} nodes, above the limit of {limit}"; "too many elements";
         "lower mesh.circumferential_elements or mesh.radial_elements");
     // Sizes that differ by more than this leave elements without width in double precision.
     let ratio = annulus.radial_grading.ln() * (annulus.radial_elements as f64 - 1.0);
-    if ratio.abs() > 1e6f64.ln() {
-        refuse!(mesh, "radial_grading",
-            "mesh.radial_grading = {} makes the largest element {:.1e} times the \
-             smallest", annulus.radial_grading, ratio.abs().exp();
-            "at most a factor 1e6 over all elements"; "bring mesh.radial_grading nearer to 1");
-    }
+    refuse_if!(ratio.abs() > 1e6f64.ln(); mesh, "radial_grading",
+        "mesh.radial_grading = {} makes the largest element {:.1e} times the smallest",
+        annulus.radial_grading, ratio.abs().exp();
+        "at most a factor 1e6 over all elements"; "bring mesh.radial_grading nearer to 1");
+    (annulus, shaft.map(|(_, material)| material))
 }
 
 /// The shaft, if the case has one, and its material.
@@ -205,10 +199,16 @@ fn shaft(own: &Description<'_>, reach: f64) -> Option<(ShaftSpecification, Regio
         "the shaft of geometry.shaft_inner_radius has no material"; "needs [materials.shaft]";
         "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \
          shaft_inner_radius out for a rigid cylinder");
+    let given = own.conditions.iter().find(|(name, _)| name == "bore");
+    let condition = given.map_or(BoundaryCondition::Clamped, |own| own.1);
+    refuse_if!(!condition.holds_turning(); own.root.section("boundaries", false), "bore",
+        "nothing holds the shaft against the friction that turns it";
+        "must hold the bore tangentially";
+        "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0");
     let shaft = ShaftSpecification {
         inner_radius: bore,
         radial_elements: elements.unwrap_or_else(|| mesh.count("shaft_radial_elements")),
-        bore: bore_condition(own),
+        bore: condition,
     };
     found.map(|material| (shaft, material))
 }
@@ -231,18 +231,4 @@ fn materials(own: &Description<'_>, has_shaft: bool) -> Option<RegionMaterial> {
     }
     let mut shafts = imported::materials(own).into_iter().filter(|(name, _)| name == "shaft");
     shafts.next().map(|(_, material)| material)
-}
-
-fn bore_condition(own: &Description<'_>) -> BoundaryCondition {
-    let given = own.conditions.iter().find(|(name, _)| name == "bore");
-    match given.map_or(BoundaryCondition::Clamped, |own| own.1) {
-        condition if condition.holds_turning() => condition,
-        _ => {
-            refuse!(own.root.section("boundaries", false), "bore",
-                "nothing holds the shaft against the friction that turns it";
-                "must hold the bore tangentially";
-                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0");
-            BoundaryCondition::Clamped
-        }
-    }
 }

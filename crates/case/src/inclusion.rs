@@ -51,7 +51,8 @@ impl Expansion {
                 format!("{here}, line {}: cannot include {name}: {reason}", number + 1)
             };
             let path = self.found(name);
-            if self.chain.iter().any(|other| is_same(other, &path)) {
+            let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+            if self.chain.iter().any(|other| real(other) == real(&path)) {
                 return Err(at("it includes this file itself".to_owned()));
             }
             let depth = self.budget.descend(self.chain.len(), "files");
@@ -75,12 +76,5 @@ impl Expansion {
         let beside = |file: &Path| file.parent().unwrap_or(Path::new("")).join(name);
         let path = beside(&self.chain[self.chain.len() - 1]);
         if path.exists() { path } else { beside(&self.chain[0]) }
-    }
-}
-
-fn is_same(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => a == b,
     }
 }

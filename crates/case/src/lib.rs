@@ -179,7 +179,7 @@ impl Case {
         let cycle = root.read_section("cycle", |own| cycle::cycle(own, body.as_ref()));
         let basin = root.read_section("basin", |own| cycle::basin(own, body.as_ref()));
         let frf = root.read_section("frf", |own| frf::read(own, body.as_ref()));
-        let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
+        let has = |analysis: Analysis| root.has(analysis.word());
         let convergence = root
             .read_section("convergence", |own| convergence::read(own, &root, body.as_ref(), has));
         let fit = root.read_section("fit", fit::fit);
@@ -296,10 +296,8 @@ fn title(raw: &RawCase, title: String) -> String {
     if title.is_empty() || raw.overrides.is_empty() {
         return title;
     }
-    let shown = raw.overrides.iter().take(MOST);
-    let mut shown: Vec<String> = shown.map(|text| overrides::shown(text)).collect();
-    if raw.overrides.len() > MOST {
-        shown.push(format!("{} more", raw.overrides.len() - MOST));
-    }
-    format!("{title}  [with {}]", shown.join(", "))
+    let (all, more) = (&raw.overrides, raw.overrides.len().saturating_sub(MOST));
+    let shown = all.iter().take(MOST).map(|text| overrides::shown(text));
+    let more = Some(format!("{more} more")).filter(|_| more > 0);
+    format!("{title}  [with {}]", shown.chain(more).collect::<Vec<_>>().join(", "))
 }

@@ -54,7 +54,11 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
         let axes = still.map(|axis| parts.axis().unwrap_or(axis));
         (Joints::Solids(parts), contact, axes)
     } else {
-        let (place, contact) = plane_joint(own);
+        let (contact, place, _) = contact(root, None, own.is_pressed());
+        refuse_if!(own.is_solid(); own.mesh, "file",
+            "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"";
+            "triangles and quadrilaterals in the plane";
+            "give a plane formulation, a file with solid elements, or the radii of a body that is generated");
         let axis = match place.counterface {
             CounterfaceSpecification::Cylinder { center: [x, y], .. } => {
                 Some([[0.0, 0.0, 1.0], [x, y, 0.0]])
@@ -83,16 +87,6 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
     });
     own.mesh.close();
     (body, contact, bytes)
-}
-
-/// `[contact]` of plane bodies of a mesh file.
-fn plane_joint(own: &Description<'_>) -> (BodySpecification, Contact) {
-    let (contact, place, _) = contact(own.root, None, own.is_pressed());
-    refuse_if!(own.is_solid(); own.mesh, "file",
-        "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"";
-        "triangles and quadrilaterals in the plane";
-        "give a plane formulation, a file with solid elements, or the radii of a body that is generated");
-    (place, contact)
 }
 
 /// `[contacts.*]`, `[ties.*]` and `[motion.*]` of solid bodies, or their `[contact]`.

@@ -84,15 +84,14 @@ fn numbered(
         "probes" => format!("probe {number}"),
         _ => format!("{} = {number}", section.name(key)),
     };
-    if let Some(mesh) = body.whole_mesh() {
-        // Labels rise, as nodes stand in the order of their numbers.
-        let labels = &mesh.labels;
+    // Labels rise, as nodes stand in the order of their numbers.
+    if let Some(labels) = body.whole_mesh().map(|mesh| &mesh.labels) {
         let found = labels.binary_search(&number).ok();
         if found.is_none() {
-            let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
+            let [first, last] = [labels.first(), labels.last()].map(|own| own.map_or(0, |&n| n));
             refuse_at!(section, at,
-                "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} \
-                 to {}", labels.len(), ends[0], ends[1]; "no node of the body";
+                "{what} does not exist: the elements of the mesh file have {} nodes, numbered \
+                 {first} to {last}", labels.len(); "no node of the body";
                 "give its position instead, {{ x = .., y = .. }} in metres");
         }
         return found;

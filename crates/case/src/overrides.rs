@@ -62,10 +62,7 @@ fn remove(
     let parts: Vec<&str> = path.iter().map(|part| part.0.as_str()).collect();
     let mut table = Some(&mut *root);
     for part in &parts[..parts.len() - 1] {
-        table = table.and_then(|table| match &mut table.get_mut(*part)?.value {
-            RawValue::Table(inner) => Some(inner),
-            _ => None,
-        });
+        table = table.and_then(|table| table.get_mut(*part)?.value.table_mut());
     }
     let taken = table.and_then(|table| table.remove(parts[parts.len() - 1]));
     let name = parts.join(".");
@@ -158,8 +155,5 @@ fn insert(
         // A path through a plain value: the reader of that key reports the table it then finds.
         (entry.value, entry.at) = (RawValue::Table(RawTable::new()), key_at.clone());
     }
-    match &mut entry.value {
-        RawValue::Table(inner) => insert(inner, rest, item),
-        _ => Ok(()),
-    }
+    entry.value.table_mut().map_or(Ok(()), |inner| insert(inner, rest, item))
 }

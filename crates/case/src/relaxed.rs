@@ -21,22 +21,20 @@ pub(super) fn relaxed(case: &Case) -> Option<Vec<RegionMaterial>> {
         Some(ModeLimit::MaxFrequency(limit)) => Some([LOWEST * limit, limit]),
         Some(ModeLimit::Lowest(_)) | None => None,
     };
-    let needs_band = materials.iter().any(|own| own.elastic.loss_factor != 0.0);
-    if needs_band && band.is_none() {
-        return None;
-    }
-    let chain = |own: &RegionMaterial| {
-        if let Some(table) = &own.table {
-            let [low, high] = table.range_hz();
-            let ratio = |frequency_hz: f64| table.ratio(frequency_hz);
-            return Some(MaxwellChain::fit(&ratio, [low.max(LOWEST_OF_TABLE * high), high]));
-        }
+    let each = materials.iter().enumerate().map(|(k, own)| {
         let eta = own.elastic.loss_factor;
-        let band = band.filter(|_| eta != 0.0)?;
-        Some(MaxwellChain::fit(&|_| c64::new(1.0, eta), band))
-    };
-    let each = materials.iter().enumerate();
-    Some(each.map(|(k, own)| RegionMaterial::in_time(materials, k, chain(own))).collect())
+        let chain = match &own.table {
+            Some(table) => {
+                let [low, high] = table.range_hz();
+                let ratio = |frequency_hz: f64| table.ratio(frequency_hz);
+                Some(MaxwellChain::fit(&ratio, [low.max(LOWEST_OF_TABLE * high), high]))
+            }
+            None if eta == 0.0 => None,
+            None => Some(MaxwellChain::fit(&|_| c64::new(1.0, eta), band?)),
+        };
+        Some(RegionMaterial::in_time(materials, k, chain))
+    });
+    each.collect()
 }
 
 impl Case {

@@ -5,6 +5,7 @@ use super::checks::material_key;
 use super::value::table_of;
 use super::{Analysis, BodyKind, Case, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
 use frictionsim_physics::mesh::AnnulusSpecification;
+use frictionsim_physics::prestress::BaseChoice;
 
 impl Case {
     /// Whether it has the section of an analysis.
@@ -49,31 +50,25 @@ impl Case {
         }
     }
 
-    /// Limit cycles are sought under a constant friction coefficient.
-    pub(super) fn require_constant_friction(&self) -> Result<(), CaseErrors> {
-        if self.contact.stiffness.law.is_some() {
-            return Err(refusal!(self, "contact.normal_law",
-                "rotating waves are those of rigid contact, whose pressure is another one than on \
-                 a contact that stiffens"; "stiffens with pressure";
-                "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"));
-        }
-        if self.contact.sliding.decay.is_none() {
-            return Ok(());
-        }
-        Err(refusal!(self, "contact.static_friction_ratio",
-            "limit cycles are computed for a constant friction coefficient only";
-            "friction falls with speed here";
-            "follow the transient to its limit cycle instead ([transient] with stop_when_settled = \
-             true), or set contact.static_friction_ratio = 1.0"))
-    }
-
     /// A body that the explicit transient can step; `plane` and `solid` say who needs linear elements of it.
     pub(super) fn require_steps(&self, plane: &str, solid: &str) -> Result<(), CaseErrors> {
         let label = match &self.body.kind {
             BodyKind::Annulus(_) => plane,
             BodyKind::Revolution(_) => solid,
             BodyKind::Imported(_) => return Ok(()),
-            BodyKind::Assembly(assembly) => return self.check_stepped(assembly),
+            BodyKind::Assembly(own) if own.base == BaseChoice::Closed => {
+                return Err(refusal!(self, "contacts",
+                    "contacts with state = \"closed\" are free of stress: without a normal force there \
+                     is no friction to step in time"; "steps in time need state = \"solved\"";
+                    "press the bodies together (condition = \"pressure\"), or leave `state` out"));
+            }
+            BodyKind::Assembly(own) if own.motions.iter().any(|own| own.inertia.is_some()) => {
+                return Err(refusal!(self, "motion",
+                    "rotation_terms are not stepped in time: the gyroscopic forces of the last half \
+                     step would feed the motion"; "with rotation_terms = false";
+                    "use `frictionsim cea`, or leave rotation_terms out"));
+            }
+            BodyKind::Assembly(_) => return Ok(()),
         };
         if !self.body.is_quadratic() {
             return Ok(());

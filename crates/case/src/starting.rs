@@ -5,8 +5,9 @@ use super::file_sections::sections;
 use super::taken::drop_key;
 use super::value::quote;
 use super::{FileSection, RawValue, UnitsWord, inclusion};
-use frictionsim_physics::mesh::{FileElasticity, FileMesh, LeftOut, SurfaceFace};
+use frictionsim_physics::mesh::{FileElasticity, FileElement, FileMesh, LeftOut, SurfaceFace};
 use nalgebra::Vector3;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -105,14 +106,10 @@ fn units_of(file: &FileMesh) -> (UnitsWord, String) {
 
 /// `[material]` of steel where some region has none in the file.
 fn missing_materials(file: &FileMesh, sections: &[FileSection], out: &mut String) {
-    let has = |region: &str| {
-        let mut own = sections.iter().filter(|s| s.path.0 == "materials");
-        own.any(|section| section.path.1 == region)
-    };
-    let mut bare: Vec<&str> =
-        file.elements.iter().map(|e| &*e.region).filter(|r| !has(r)).collect();
-    bare.sort_unstable();
-    bare.dedup();
+    let own = sections.iter().filter(|section| section.path.0 == "materials");
+    let own: BTreeSet<&str> = own.map(|section| &*section.path.1).collect();
+    let regions: BTreeSet<&str> = file.elements.iter().map(|element| &*element.region).collect();
+    let bare: Vec<&str> = regions.difference(&own).copied().collect();
     if !bare.is_empty() {
         let _ = write!(
             out,
@@ -160,7 +157,9 @@ fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], 
     let Some(contact) = file.model.contacts.first() else { return };
     let faces = file.surfaces.get(&contact.counter);
     let (true, false, Some(faces)) = (has("contacts"), has("motion"), faces) else { return };
-    let Some(region) = faces.first().and_then(|face| region_of(file, face)) else { return };
+    let Some((_, corners)) = faces.first() else { return };
+    let has_all = |own: &&FileElement| corners.iter().all(|node| own.nodes.contains(node));
+    let Some(region) = file.elements.iter().find(has_all).map(|own| &own.region) else { return };
     let normal = faces.iter().map(|face| area_of(file, face)).sum::<Vector3<f64>>();
     let axis = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
     // Round-off is no part of a proposal.
@@ -168,9 +167,8 @@ fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], 
         let [x, y, z] = [0, 1, 2].map(|i| (1e6 * vector[i]).round() / 1e6 + 0.0);
         format!("[{x}, {y}, {z}]")
     };
-    let own = file.elements.iter().filter(|element| *element.region == *region);
-    let nodes: std::collections::BTreeSet<u32> =
-        own.flat_map(|e| e.nodes.iter().copied()).collect();
+    let own = file.elements.iter().filter(|element| element.region == *region);
+    let nodes: BTreeSet<u32> = own.flat_map(|element| element.nodes.iter().copied()).collect();
     let sum: Vector3<f64> =
         nodes.iter().map(|&node| Vector3::from(file.points[node as usize])).sum();
     let center = sum / nodes.len() as f64 * 10f64.powi(units.power("m"));
@@ -179,19 +177,11 @@ fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], 
         "\n[motion.{}]    # CHOOSE: the file has none; about the mean normal of {}, through the \
         mean of the region's nodes\n\
          axis = {}\ncenter = {}    # m\nrotation_speed_rpm = {SPEED_RPM:?}\n",
-        quote(&region),
+        quote(region),
         contact.counter,
         rounded(axis),
         rounded(center),
     );
-}
-
-fn region_of(file: &FileMesh, (_, nodes): &SurfaceFace) -> Option<String> {
-    let has_all = |element: &&frictionsim_physics::mesh::FileElement| {
-        nodes.iter().all(|node| element.nodes.contains(node))
-    };
-    let element = file.elements.iter().find(has_all)?;
-    Some(element.region.to_string())
 }
 
 fn area_of(file: &FileMesh, (kind, nodes): &SurfaceFace) -> Vector3<f64> {

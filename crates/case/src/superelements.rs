@@ -129,24 +129,21 @@ fn superelement(
             "1 to {SUPERELEMENT_UNKNOWNS} unknowns"; "reduce the system further");
         return None;
     }
-    let own = Superelement { name: name.to_owned(), mass, damping, stiffness };
-    is_determined(section, &own).then_some(own)
-}
-
-/// Whether every unknown is part of some equation; the first that is not is reported.
-fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
-    let matrices = [&own.mass, &own.damping, &own.stiffness];
-    let mut is_met = vec![false; own.mass.rows];
-    let entries = matrices.into_iter().flat_map(|matrix| &matrix.entries);
-    for &(_, column, value) in entries {
+    // Every unknown must be part of some equation.
+    let mut is_met = vec![false; size];
+    for &(_, column, value) in
+        [&mass, &damping, &stiffness].into_iter().flat_map(|own| &own.entries)
+    {
         is_met[column] |= value != 0.0;
     }
-    let Some(unknown) = is_met.iter().position(|met| !met) else { return true };
-    refuse!(section, "stiffness",
-        "unknown {} of superelement {} has no entry in any of its matrices: nothing holds it and \
-         it has no mass", unknown + 1, own.name;
-        "an empty column"; "remove its row and column from every matrix");
-    false
+    if let Some(unknown) = is_met.iter().position(|met| !met) {
+        refuse!(section, "stiffness",
+            "unknown {} of superelement {name} has no entry in any of its matrices: nothing holds \
+             it and it has no mass", unknown + 1;
+            "an empty column"; "remove its row and column from every matrix");
+        return None;
+    }
+    Some(Superelement { name: name.to_owned(), mass, damping, stiffness })
 }
 
 /// The matrix of a file.

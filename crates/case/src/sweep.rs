@@ -57,10 +57,7 @@ impl Sweep {
 }
 
 pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
-    let section = root.section("sweep", false);
-    if !section.is_given() {
-        return None;
-    }
+    let section = Some(root.section("sweep", false)).filter(Section::is_given)?;
     let combination = section.choice("combine");
     let analyses = section.choices("analyses");
     let entries = parameters::collect(&section, check);

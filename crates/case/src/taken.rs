@@ -123,11 +123,7 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
 /// The table of a name, made where there is none; none where the name stands for something else.
 fn entry_table<'t>(table: &'t mut RawTable, name: &str, at: &Location) -> Option<&'t mut RawTable> {
     let empty = || RawItem::at(RawValue::Table(RawTable::new()), at);
-    let entry = table.entry(name.to_owned()).or_insert_with(empty);
-    match &mut entry.value {
-        RawValue::Table(inner) => Some(inner),
-        _ => None,
-    }
+    table.entry(name.to_owned()).or_insert_with(empty).value.table_mut()
 }
 
 /// Whether a contact or a tie of the case joins the same two surfaces.

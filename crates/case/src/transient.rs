@@ -1,9 +1,8 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::{AssemblyBody, Body, BodyKind, Case, CaseErrors, PlacedNode, Section};
+use super::{Body, BodyKind, Case, CaseErrors, PlacedNode, Section};
 use frictionsim_physics::contact::SlidingContact;
 use frictionsim_physics::mesh::{Counterface, SolidContact};
-use frictionsim_physics::prestress::BaseChoice;
 use frictionsim_physics::transient::{
     InitialState, OperatorChoice, Perturbation, RecorderSettings, StandingWave, TimeStep,
     TransientSettings, whole_intervals,
@@ -58,23 +57,6 @@ impl Case {
         }
         Ok(transient)
     }
-
-    /// Refuses what an assembly cannot have in a transient, nor in a limit cycle, which is one.
-    pub(super) fn check_stepped(&self, assembly: &AssemblyBody) -> Result<(), CaseErrors> {
-        if assembly.base == BaseChoice::Closed {
-            return Err(refusal!(self, "contacts",
-                "contacts with state = \"closed\" are free of stress: without a normal force there \
-                 is no friction to step in time"; "steps in time need state = \"solved\"";
-                "press the bodies together (condition = \"pressure\"), or leave `state` out"));
-        }
-        if assembly.motions.iter().any(|motion| motion.inertia.is_some()) {
-            return Err(refusal!(self, "motion",
-                "rotation_terms are not stepped in time: the gyroscopic forces of the last half \
-                 step would feed the motion"; "with rotation_terms = false";
-                "use `frictionsim cea`, or leave rotation_terms out"));
-        }
-        Ok(())
-    }
 }
 
 pub(super) fn transient(
@@ -83,13 +65,8 @@ pub(super) fn transient(
     sliding: &SlidingContact,
 ) -> Transient {
     let duration = section.number("duration");
-    let time_step = match section.optional_number("time_step") {
-        Some(step) => TimeStep::Seconds(step),
-        None => TimeStep::Auto,
-    };
-    if let TimeStep::Seconds(step) = time_step
-        && step > duration
-    {
+    let step = section.optional_number("time_step");
+    if let Some(step) = step.filter(|step| *step > duration) {
         refuse!(section, "time_step",
             "transient.time_step = {step:?} s is above transient.duration = {duration:?} s";
             "at most {duration:?}");
@@ -111,7 +88,7 @@ pub(super) fn transient(
         stop_when_settled: section.flag("stop_when_settled"),
         settings: TransientSettings {
             duration,
-            time_step,
+            time_step: step.map_or(TimeStep::Auto, TimeStep::Seconds),
             // Until `[output]` is read.
             sample_interval: f64::NAN,
             expansion_time,

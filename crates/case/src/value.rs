@@ -112,18 +112,17 @@ impl RawValue {
 
     /// The table that it is.
     pub(super) fn table(&self) -> Option<&RawTable> {
-        match self {
-            Self::Table(table) => Some(table),
-            _ => None,
-        }
+        if let Self::Table(table) = self { Some(table) } else { None }
+    }
+
+    /// The same to be changed.
+    pub(super) fn table_mut(&mut self) -> Option<&mut RawTable> {
+        if let Self::Table(table) = self { Some(table) } else { None }
     }
 
     /// The text that it is.
     pub(super) fn text(&self) -> Option<&str> {
-        match self {
-            Self::String(text) => Some(text),
-            _ => None,
-        }
+        if let Self::String(text) = self { Some(text) } else { None }
     }
 
     /// The number that it is, integers included.

@@ -50,28 +50,23 @@ fn regions(case: &Case) -> Vec<(String, &ElasticMaterial)> {
 
 /// Speed of waves in a bar of the material of each region, `sqrt(E / rho)`: what is least possible first.
 pub(super) fn wave_speed(case: &Case) -> Option<Limit> {
-    let found = regions(case).into_iter().filter_map(|own| wave_speed_in(case, own));
+    let found = regions(case).into_iter().filter_map(|(section, own)| {
+        let (modulus, density) = (own.young_modulus, own.density);
+        let speed = Some((modulus / density).sqrt()).filter(|own| !WAVE_SPEEDS.contains(own))?;
+        // The one that no solid has; rigid ones are within a factor of ten.
+        let [modulus_key, density_key] =
+            [modulus_name(own), "density"].map(|key| format!("{section}.{key}"));
+        let (key, label) = match DENSITIES.contains(&density) {
+            true => (&modulus_key, "pascals?"),
+            false => (&density_key, "kg/m3?"),
+        };
+        let said = diagnosis!(case, key,
+            "{modulus_key} = {modulus:e} Pa and {density_key} = {density:e} kg/m3 give waves of \
+             {speed:.3e} m/s, outside {} to {} m/s", WAVE_SPEEDS.start(), WAVE_SPEEDS.end();
+            "{label}"; "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3");
+        Some(Limit { is_possible: POSSIBLE_WAVES.contains(&speed), said })
+    });
     found.min_by_key(|limit| limit.is_possible)
-}
-
-fn wave_speed_in(case: &Case, (section, own): (String, &ElasticMaterial)) -> Option<Limit> {
-    let (modulus, density) = (own.young_modulus, own.density);
-    let speed = (modulus / density).sqrt();
-    if WAVE_SPEEDS.contains(&speed) {
-        return None;
-    }
-    // The one that no solid has; rigid ones are within a factor of ten.
-    let [modulus_key, density_key] =
-        [modulus_name(own), "density"].map(|key| format!("{section}.{key}"));
-    let (key, label) = match DENSITIES.contains(&density) {
-        true => (&modulus_key, "pascals?"),
-        false => (&density_key, "kg/m3?"),
-    };
-    let said = diagnosis!(case, key,
-        "{modulus_key} = {modulus:e} Pa and {density_key} = {density:e} kg/m3 give waves of \
-         {speed:.3e} m/s, outside {} to {} m/s", WAVE_SPEEDS.start(), WAVE_SPEEDS.end();
-        "{label}"; "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3");
-    Some(Limit { is_possible: POSSIBLE_WAVES.contains(&speed), said })
 }
 
 /// A density that no solid has, where the speed of waves does not give it away.

@@ -95,17 +95,14 @@ impl Case {
             diagnosis!(self, name, "{name} is not used by {analysis}: {of_waves}"; "not used")
         };
         let mut said: Vec<Diagnostic> = ignored.map(say).collect();
-        said.extend(self.ignored_harmonics(command));
+        // A search for periodic motions of a whole body knows no circumferential harmonics.
+        let harmonics = self.cycle.as_ref().and_then(|own| own.harmonics.as_ref());
+        if command == "cycle" && !self.has_rotating_waves() && harmonics.is_some() {
+            let key = "cycle.harmonics";
+            said.push(diagnosis!(self, key,
+                "{key} is not used: the limit cycles of this body are no rotating waves. They are \
+                 motions of the whole mesh, one for each mode that grows"; "not used"));
+        }
         said
-    }
-
-    /// That a search for periodic motions of a whole body knows no circumferential harmonics.
-    fn ignored_harmonics(&self, command: &str) -> Option<Diagnostic> {
-        let is_heard = command == "cycle" && !self.has_rotating_waves();
-        self.cycle.as_ref()?.harmonics.as_ref().filter(|_| is_heard)?;
-        let key = "cycle.harmonics";
-        Some(diagnosis!(self, key,
-            "{key} is not used: the limit cycles of this body are no rotating waves. They are \
-             motions of the whole mesh, one for each mode that grows"; "not used"))
     }
 }
