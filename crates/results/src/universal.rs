@@ -1,14 +1,13 @@
 //! Meshes and modes as universal files.
 
 use crate::prelude::*;
-use frictionsim_signal::reader::{ModeData, write_mesh, write_mode};
-use std::io::{self, Write};
+use frictionsim_signal::reader::{write_mesh, write_mode};
 
 /// Writes units, nodes and elements of a mesh.
 ///
 /// # Errors
 /// Those of the writer; an element that universal files do not have (a pyramid).
-pub fn write_universal_mesh(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
+pub fn write_universal_mesh(out: &mut dyn io::Write, mesh: &Mesh) -> io::Result<()> {
     let listed = (0..mesh.element_count()).map(|element| {
         let kind = mesh.element_kind(element);
         let (descriptor, nodes) = kind.universal(mesh.element_nodes(element)).ok_or_else(|| {
@@ -25,15 +24,14 @@ pub fn write_universal_mesh(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> 
 
 /// Writes a mode by the real and imaginary displacements of the nodes, each along x, y and z.
 pub fn write_universal_mode(
-    out: &mut dyn Write,
+    out: &mut dyn io::Write,
     mesh: &Mesh,
-    (name, number): (&str, usize),
+    named: (&str, usize),
     eigenvalue: c64,
     [real, imaginary]: [&[f64]; 2],
 ) -> io::Result<()> {
     let pairs = real.chunks_exact(3).zip(imaginary.chunks_exact(3));
-    let shape: Vec<[c64; 3]> =
-        pairs.map(|(re, im)| [0, 1, 2].map(|k| c64::new(re[k], im[k]))).collect();
-    let labels: Vec<usize> = (0..mesh.node_count()).map(|node| mesh.node_label(node)).collect();
-    write_mode(out, &ModeData { name, number, eigenvalue, labels: &labels, shape: &shape })
+    let shape = pairs.map(|(re, im)| [0, 1, 2].map(|k| c64::new(re[k], im[k])));
+    let labels = (0..mesh.node_count()).map(|node| mesh.node_label(node));
+    write_mode(out, named, eigenvalue, labels.zip(shape))
 }

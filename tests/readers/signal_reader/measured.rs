@@ -95,6 +95,15 @@ fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
 }
 
 #[test]
+fn a_listing_of_ansys_has_its_errors_at_their_lines() {
+    let page = " ***** ANSYS POST26 VARIABLE LISTING *****\n  FREQ   2 UZ\n  REAL   IMAGINARY\n";
+    let rows = rows("  ", ".", "\n");
+    let said = message(&format!("{page}{rows}{page}  20.0000  1.0  2.0\n"));
+    let begin = "FRF.csv:17:3: frequency 20 Hz is already in line 5 with another value";
+    assert!(said.starts_with(begin), "{said}");
+}
+
+#[test]
 fn responses_of_one_table_are_all_read_and_one_is_picked_by_name_or_number() {
     let text = table("f,H11 re,H11 im,H21 re,H21 im,coherence", |f, h| {
         format!("{f},{},{},{},{},{}", h.re, h.im, -h.re, -h.im, if f < 50.0 { 0.5 } else { 0.99 })

@@ -3,6 +3,7 @@
 use super::error::ReadError;
 use super::table::Table;
 use super::units::{level_reference, words};
+use faer::c64;
 
 /// What a column of a response table holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,26 +18,14 @@ pub(super) enum Part {
     Other,
 }
 
-/// The columns that make a response.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Layout {
-    /// A column of complex numbers.
-    Whole(usize),
-    /// Columns of real and imaginary parts.
-    Complex(usize, usize),
-    Polar {
-        magnitude: usize,
-        /// The reference of a level in decibel.
-        level_reference: Option<f64>,
-        /// Column and factor to radians.
-        phase: Option<(usize, f64)>,
-    },
-}
-
-impl Layout {
-    pub(super) fn has_phase(self) -> bool {
-        !matches!(self, Layout::Polar { phase: None, .. })
-    }
+/// A response of a table.
+pub(super) struct Found {
+    pub name: String,
+    /// Its first column.
+    pub column: usize,
+    /// Complex values of each row; real magnitudes where there is no phase.
+    pub values: Vec<c64>,
+    pub has_phase: bool,
 }
 
 /// Each part with the words that name it and the words that its words may begin with; the first that fits is it. A
@@ -67,16 +56,17 @@ pub(super) fn part(name: &str) -> Part {
     }
 }
 
-/// Every response of a table with its name.
-pub(super) fn layouts(
+/// Every response of a table.
+pub(super) fn responses(
     table: &Table,
     frequency: usize,
     notes: &mut Vec<String>,
-) -> Result<Vec<(String, Layout)>, ReadError> {
-    let whole: Vec<usize> =
-        (0..table.columns.len()).filter(|k| table.columns[*k].imaginary.is_some()).collect();
+) -> Result<Vec<Found>, ReadError> {
+    let whole: Vec<(usize, &[f64])> = (table.columns.iter().enumerate())
+        .filter_map(|(k, column)| Some((k, column.imaginary.as_deref()?)))
+        .collect();
     if table.names.is_empty() && whole.is_empty() {
-        return Ok(vec![("response".to_string(), unnamed_layout(table)?)]);
+        return Ok(vec![Found { name: "response".to_string(), ..unnamed(table)? }]);
     }
     let columns = |wanted: Part| -> Vec<usize> {
         let named = (0..table.names.len()).filter(|k| *k != frequency);
@@ -91,13 +81,13 @@ pub(super) fn layouts(
         return missing("real part", "name it `real`, or give magnitude and phase");
     }
     // Complex numbers come first, then pairs of parts, then levels, then magnitudes.
-    let found: Vec<(usize, Layout)> = if !whole.is_empty() {
-        whole.iter().map(|k| (*k, Layout::Whole(*k))).collect()
+    let mut found: Vec<Found> = if !whole.is_empty() {
+        whole.iter().map(|(k, imaginary)| complex(table, *k, imaginary)).collect()
     } else if !real.is_empty() {
         let pairs = real.iter().zip(paired(table, &real, imaginary));
-        pairs.map(|(re, im)| (*re, Layout::Complex(*re, im))).collect()
+        pairs.map(|(re, im)| complex(table, *re, &table.columns[im].real)).collect()
     } else {
-        polar(table, &columns, notes)
+        all_polar(table, &columns, notes)?
     };
     if found.is_empty() {
         return missing(
@@ -105,25 +95,67 @@ pub(super) fn layouts(
             "name the columns `real` and `imaginary`, or `magnitude` or `magnitude_db` and `phase_deg`",
         );
     }
-    Ok(one_estimator(named(table, found), notes))
+    let count = found.len();
+    for (i, nameless) in found.iter_mut().enumerate().filter(|(_, own)| own.name.is_empty()) {
+        let number = if count == 1 { String::new() } else { format!(" {}", i + 1) };
+        nameless.name = format!("response{number}");
+    }
+    // H1 and H2 are two estimates of one response.
+    let has = |own: &Found, word: &str| words(&own.name.to_lowercase()).contains(&word);
+    if ["h1", "h2"].iter().all(|word| found.iter().any(|own| has(own, word))) {
+        found.retain(|own| !has(own, "h2"));
+        notes.push("H1 and H2 are two estimates of one response: H1 is used".to_string());
+    }
+    Ok(found)
+}
+
+/// A response of the real parts in a column and imaginary ones.
+fn complex(table: &Table, column: usize, imaginary: &[f64]) -> Found {
+    let pairs = table.columns[column].real.iter().zip(imaginary);
+    let values = pairs.map(|(re, im)| c64::new(*re, *im)).collect();
+    Found { name: name(table, column), column, values, has_phase: true }
+}
+
+/// A response of the magnitudes in a column, or levels over a reference in decibel, and the phases in another one, of
+/// this factor to radians.
+fn polar(
+    table: &Table,
+    column: usize,
+    level_reference: Option<f64>,
+    phase: Option<(usize, f64)>,
+) -> Result<Found, ReadError> {
+    let value = |(i, value): (usize, &f64)| {
+        let of_level = |reference| reference * 10f64.powf(value / 20.0);
+        let modulus = level_reference.map_or(*value, of_level);
+        if modulus < 0.0 {
+            let problem = format!(
+                "magnitude {value} is negative; if it is in decibels, say so in the header (magnitude_db)"
+            );
+            return Err(table.error(i, column, problem));
+        }
+        let angle = phase.map_or(0.0, |(k, factor)| table.columns[k].real[i] * factor);
+        Ok(c64::from_polar(modulus, angle))
+    };
+    let values = table.columns[column].real.iter().enumerate().map(value);
+    let (values, has_phase) = (values.collect::<Result<_, _>>()?, phase.is_some());
+    Ok(Found { name: name(table, column), column, values, has_phase })
 }
 
 /// The `others` in the order of the columns that they go with: by their names where each has one, else as they stand.
 fn paired(table: &Table, columns: &[usize], others: Vec<usize>) -> Vec<usize> {
-    let name = |k: usize| named(table, vec![(k, Layout::Whole(k))]).remove(0).0;
     let partner = |&k: &usize| {
-        let mut same = others.iter().copied().filter(|&other| name(other) == name(k));
+        let mut same = others.iter().copied().filter(|&other| name(table, other) == name(table, k));
         same.next().filter(|_| same.next().is_none())
     };
     columns.iter().map(partner).collect::<Option<_>>().unwrap_or(others)
 }
 
 /// Magnitudes with their phases: as many as magnitudes in degrees or radians, or none.
-fn polar(
+fn all_polar(
     table: &Table,
     columns: &dyn Fn(Part) -> Vec<usize>,
     notes: &mut Vec<String>,
-) -> Vec<(usize, Layout)> {
+) -> Result<Vec<Found>, ReadError> {
     let decibel = columns(Part::Decibel);
     let is_level = !decibel.is_empty();
     let magnitudes = if is_level { decibel } else { columns(Part::Magnitude) };
@@ -145,66 +177,38 @@ fn polar(
     numbered
         .map(|(i, &magnitude)| {
             let level_reference = is_level.then(|| level_reference(&table.names[magnitude]));
-            let phase = phases.get(i).map(|&k| (k, factor(k)));
-            (magnitude, Layout::Polar { magnitude, level_reference, phase })
+            polar(table, magnitude, level_reference, phases.get(i).map(|&k| (k, factor(k))))
         })
         .collect()
 }
 
-/// Each response by the title of its first column without the words for its parts.
-fn named(table: &Table, found: Vec<(usize, Layout)>) -> Vec<(String, Layout)> {
-    let count = found.len();
-    let numbered = found.into_iter().enumerate();
-    numbered
-        .map(|(i, (column, layout))| {
-            let title = table.titles.get(column).map_or("", |t| t.as_str());
-            // What follows `dB` is its reference.
-            let level = title.to_ascii_lowercase().find("db");
-            let title = &title[..level.unwrap_or(title.len())];
-            let between = |c: char| c.is_whitespace() || "_()[],".contains(c);
-            let is_name = |word: &&str| {
-                use Part::{Decibel, Degrees, Imaginary, Real};
-                let lower = word.to_lowercase();
-                !word.is_empty()
-                    && !matches!(part(&lower), Real | Imaginary | Decibel | Degrees)
-                    && (!super::units::is_unit(&lower) || lower.parse::<u32>().is_ok())
-                    && !lower.starts_with("mag")
-            };
-            let kept: Vec<&str> = title.split(between).filter(is_name).collect();
-            let name = match (kept.is_empty(), count) {
-                (true, 1) => "response".to_string(),
-                (true, _) => format!("response {}", i + 1),
-                (false, _) => kept.join(" "),
-            };
-            (name, layout)
-        })
-        .collect()
-}
-
-/// H1 and H2 are two estimates of one response: the first is kept.
-fn one_estimator(
-    mut found: Vec<(String, Layout)>,
-    notes: &mut Vec<String>,
-) -> Vec<(String, Layout)> {
-    let has = |name: &str, word: &str| words(&name.to_lowercase()).contains(&word);
-    if ["h1", "h2"].iter().all(|word| found.iter().any(|(name, _)| has(name, word))) {
-        found.retain(|(name, _)| !has(name, "h2"));
-        notes.push("H1 and H2 are two estimates of one response: H1 is used".to_string());
-    }
-    found
+/// The title of a column without the words for its part, empty where it has no others.
+fn name(table: &Table, column: usize) -> String {
+    let title = table.titles.get(column).map_or("", |t| t.as_str());
+    // What follows `dB` is its reference.
+    let level = title.to_ascii_lowercase().find("db");
+    let title = &title[..level.unwrap_or(title.len())];
+    let between = |c: char| c.is_whitespace() || "_()[],".contains(c);
+    let is_name = |word: &&str| {
+        use Part::{Decibel, Degrees, Imaginary, Real};
+        let lower = word.to_lowercase();
+        !word.is_empty()
+            && !matches!(part(&lower), Real | Imaginary | Decibel | Degrees)
+            && (!super::units::is_unit(&lower) || lower.parse::<u32>().is_ok())
+            && !lower.starts_with("mag")
+    };
+    title.split(between).filter(is_name).collect::<Vec<_>>().join(" ")
 }
 
 /// Columns without names, where the numbers leave no doubt.
-fn unnamed_layout(table: &Table) -> Result<Layout, ReadError> {
+fn unnamed(table: &Table) -> Result<Found, ReadError> {
     let column = |k: usize| table.columns[k].real.iter().copied();
     let least = |k: usize| column(k).fold(f64::INFINITY, f64::min);
     let most = |k: usize| column(k).fold(f64::NEG_INFINITY, f64::max);
     let size = |k: usize| most(k).max(-least(k));
     let changes_sign = |k: usize| least(k) < 0.0 && most(k) > 0.0;
     match table.columns.len() {
-        2 if least(1) >= 0.0 => {
-            Ok(Layout::Polar { magnitude: 1, level_reference: None, phase: None })
-        }
+        2 if least(1) >= 0.0 => polar(table, 1, None, None),
         // Decibels beside degrees are of another size than two parts of one number.
         3 if changes_sign(1)
             && changes_sign(2)
@@ -212,7 +216,7 @@ fn unnamed_layout(table: &Table) -> Result<Layout, ReadError> {
             && size(2) < 20.0 * size(1)
             && size(2) < 90.0 =>
         {
-            Ok(Layout::Complex(1, 2))
+            Ok(complex(table, 1, &table.columns[2].real))
         }
         1 => Err(table.missing("response", "frequency and response must stand side by side")),
         count => {

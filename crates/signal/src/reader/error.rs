@@ -1,6 +1,5 @@
 //! Why a measurement cannot be read, with line and column.
 
-use super::super::SignalError;
 use super::text::shortened;
 use std::fmt::Display;
 
@@ -28,42 +27,41 @@ impl Display for ReadError {
 impl std::error::Error for ReadError {}
 
 impl ReadError {
-    /// Of the file as a whole.
-    pub(super) fn whole(source_name: &str, problem: impl Into<String>) -> Self {
-        let source_name = source_name.to_string();
-        Self { source_name, line: None, column: None, problem: problem.into() }
+    /// Of the file as a whole, which [`Self::of`] names.
+    pub(super) fn whole(problem: impl Display) -> Self {
+        Self { source_name: String::new(), line: None, column: None, problem: problem.to_string() }
     }
 
     /// Of a place in it.
-    pub(super) fn at(
-        source_name: &str,
-        line: usize,
-        column: usize,
-        problem: impl Into<String>,
-    ) -> Self {
-        Self { line: Some(line), column: Some(column), ..Self::whole(source_name, problem) }
+    pub(super) fn at(line: usize, column: usize, problem: impl Display) -> Self {
+        Self { line: Some(line), column: Some(column), ..Self::whole(problem) }
+    }
+
+    /// The same under the name of the source.
+    pub(super) fn of(self, source_name: &str) -> Self {
+        Self { source_name: source_name.to_owned(), ..self }
     }
 
     /// A file of a known format that is damaged or uses what is not read.
-    pub(super) fn damaged(source_name: &str, format: &str, reason: impl Display) -> Self {
-        Self::whole(source_name, format!("{format}: {reason}"))
+    pub(super) fn damaged(format: &str, reason: impl Display) -> Self {
+        Self::whole(format!("{format}: {reason}"))
     }
 
     /// A file of a format that is recognised but not read.
-    pub(super) fn foreign(source_name: &str, found: &str) -> Self {
-        Self::whole(source_name, format!("this is {found}; supported formats: {FORMATS}"))
+    pub(super) fn foreign(found: &str) -> Self {
+        Self::whole(format!("this is {found}; supported formats: {FORMATS}"))
+    }
+
+    /// A needed column that is not among those found.
+    pub(super) fn missing(wanted: &str, columns: &str, remedy: &str) -> Self {
+        Self::whole(format!("no column of {wanted} found (columns: {columns}); {remedy}"))
     }
 
     /// No line consists of numbers.
-    pub(super) fn no_numbers(source_name: &str) -> Self {
+    pub(super) fn no_numbers() -> Self {
         let needed = "rows of numbers separated by comma, semicolon, tab or blanks are needed, or \
              another supported format";
-        Self::whole(source_name, format!("no row of numbers found; {needed}: {FORMATS}"))
-    }
-
-    /// The numbers are readable, but no signal.
-    pub(super) fn signal(source_name: &str, error: &SignalError) -> Self {
-        Self::whole(source_name, error.to_string())
+        Self::whole(format!("no row of numbers found; {needed}: {FORMATS}"))
     }
 }
 
@@ -79,11 +77,6 @@ pub(super) const EMPTY: &str =
 pub(super) const NO_RATE: &str = "no time column and no sampling rate; give --rate HZ, or a first \
     line that names a `time_s` column";
 
-/// Names given for another number of columns.
-pub(super) fn column_count(given: usize, found: usize) -> String {
-    format!("--columns names {given} columns, the table has {found}; write `-` for one to skip")
-}
-
 /// A field in a column, by name or number, that is no number.
 pub(super) fn not_a_number(field: &str, name: &str) -> String {
     format!("`{field}` in column {name} is not a number; remove the row or correct the value")
@@ -94,11 +87,6 @@ pub(super) fn not_finite(field: &str, name: &str) -> String {
     format!(
         "`{field}` in column {name} is not finite (or beyond 1e100); remove the row, or export without missing values"
     )
-}
-
-/// A needed column that is not among those found.
-pub(super) fn missing_column(wanted: &str, columns: &str, remedy: &str) -> String {
-    format!("no column of {wanted} found (columns: {columns}); {remedy}")
 }
 
 /// Why a field is no number.

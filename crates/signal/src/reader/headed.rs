@@ -1,12 +1,11 @@
 //! Tables with a head of names, cells of which may be empty.
 
 use super::error::{EMPTY, ReadError, not_a_number};
-use super::separator::{Separator, character, fields};
+use super::separator::{character, fields, separator_of};
 use super::text::{comment, lines};
 
 /// A row of such a table.
 pub(super) struct Row<'a> {
-    source: &'a str,
     pub line: usize,
     text: &'a str,
     cells: Vec<&'a str>,
@@ -19,13 +18,13 @@ impl<'a> Row<'a> {
     }
 
     /// An error at a cell.
-    pub fn error(&self, cell: &str, problem: impl Into<String>) -> ReadError {
-        ReadError::at(self.source, self.line, character(self.text, cell), problem)
+    pub fn error(&self, cell: &str, problem: String) -> ReadError {
+        ReadError::at(self.line, character(self.text, cell), problem)
     }
 
     /// That the row has no number in a column that needs one.
     pub fn missing(&self, name: &str) -> ReadError {
-        ReadError::at(self.source, self.line, 1, not_a_number("", &format!("`{name}`")))
+        ReadError::at(self.line, 1, not_a_number("", &format!("`{name}`")))
     }
 }
 
@@ -33,28 +32,21 @@ impl<'a> Row<'a> {
 ///
 /// # Errors
 /// A text without a head.
-pub(super) fn headed<'a>(
-    text: &'a str,
-    source: &'a str,
-) -> Result<(Vec<String>, impl Iterator<Item = Row<'a>>), ReadError> {
+pub(super) fn headed(
+    text: &str,
+) -> Result<(Vec<String>, impl Iterator<Item = Row<'_>>), ReadError> {
     let blank = |c: char| c.is_whitespace() || ";,".contains(c);
     let is_content = move |line: &str| !line.trim_matches(blank).is_empty();
     let mut rows = lines(text).filter(move |(_, line)| is_content(line) && comment(line).is_none());
-    let (_, head) = rows.next().ok_or_else(|| ReadError::whole(source, EMPTY))?;
-    let separator = match head {
-        _ if head.contains(';') => Separator::Semicolon,
-        _ if head.trim().contains('\t') => Separator::Tab,
-        _ if head.contains(',') => Separator::Comma,
-        _ => Separator::Blanks,
-    };
+    let head = rows.next().ok_or_else(|| ReadError::whole(EMPTY))?;
+    let separator = separator_of(&[head]);
     // Units in brackets are part of the name: `Frequency [Hz]` is frequency_hz.
     let name = |field: &str| {
         let words = field.to_lowercase().replace([')', ']'], "");
         let words = words.split([' ', '(', '[']).filter(|word| !word.is_empty());
         words.collect::<Vec<_>>().join("_")
     };
-    let names = fields(head, separator).map(name).collect();
-    let row =
-        move |(line, text)| Row { source, line, text, cells: fields(text, separator).collect() };
+    let names = fields(head.1, separator).map(name).collect();
+    let row = move |(line, text)| Row { line, text, cells: fields(text, separator).collect() };
     Ok((names, rows.map(row)))
 }

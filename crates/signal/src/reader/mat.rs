@@ -2,8 +2,8 @@
 //!
 //! Source: The MathWorks, "MAT-file format", version 5.
 
-use super::error::{ReadError, column_count};
-use super::table::{Column, Table};
+use super::error::ReadError;
+use super::table::{Column, Table, given_or};
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 
@@ -35,20 +35,14 @@ struct Array {
 struct Content {
     arrays: Vec<Array>,
     remarks: String,
-    /// Numbers in the arrays.
+    /// Numbers in the arrays, of which there may be [`MOST_VALUES`].
     values: usize,
-    /// Whether there are more than [`MOST_VALUES`].
-    is_too_large: bool,
 }
 
 /// Reads the arrays of one length, the longest, as the columns of a table; `columns` are names that take the
 /// place of the file's own. Single numbers named `fs`, `dt` or alike state the sampling rate.
-pub(super) fn read_table(
-    bytes: &[u8],
-    source: &str,
-    columns: &[String],
-) -> Result<Table, ReadError> {
-    let damaged = |reason: &str| ReadError::damaged(source, "MATLAB file", reason);
+pub(super) fn read_table(bytes: &[u8], columns: &[String]) -> Result<Table, ReadError> {
+    let damaged = |reason: &str| ReadError::damaged("MATLAB file", reason);
     let is_big = bytes.get(126..128) == Some(b"MI");
     let mut content = Content::default();
     let mut elements = Elements { rest: bytes.get(128..).unwrap_or_default(), is_big };
@@ -74,18 +68,12 @@ pub(super) fn read_table(
         } else if kind == MATRIX {
             content.matrix(data, is_big, "", 0);
         }
-        if content.is_too_large {
+        if content.values > MOST_VALUES {
             return Err(damaged(&too_large));
         }
     }
-    let table = content.into_table(source).map_err(damaged)?;
-    match (columns.len(), table.columns.len()) {
-        (0, _) => Ok(table),
-        (given, found) if given != found => {
-            Err(ReadError::whole(source, column_count(given, found)))
-        }
-        _ => Ok(Table::of_columns(source, columns.to_vec(), table.columns, table.remarks)),
-    }
+    let (own, found) = content.arrays_of_one_length().map_err(damaged)?;
+    Ok(Table::of_columns(given_or(own, columns, found.len())?, found, content.remarks))
 }
 
 /// Elements one after the other: type and data.
@@ -220,11 +208,7 @@ impl Content {
     fn numbers(&mut self, parts: &mut Elements<'_>) -> Option<Vec<f64>> {
         let (kind, data) = parts.next()?;
         self.values += data.len() / numeric_type(kind)?.0;
-        self.is_too_large |= self.values > MOST_VALUES;
-        if self.is_too_large {
-            return None;
-        }
-        numbers(kind, data, parts.is_big)
+        if self.values > MOST_VALUES { None } else { numbers(kind, data, parts.is_big) }
     }
 
     fn array(&mut self, name: String, sizes: &[f64], real: Vec<f64>, imaginary: Option<Vec<f64>>) {
@@ -246,13 +230,13 @@ impl Content {
         }
     }
 
-    /// The arrays that have the longest side in common, as columns.
-    fn into_table(self, source: &str) -> Result<Table, &'static str> {
+    /// The arrays that have the longest side in common, as columns with their names.
+    fn arrays_of_one_length(&mut self) -> Result<(Vec<String>, Vec<Column>), &'static str> {
         let longest = |a: &Array| a.rows.max(a.real.len() / a.rows);
         let count = self.arrays.iter().map(longest).max();
         let count =
             count.ok_or("no numeric array of 8 values or more in it; save vectors, with -v7")?;
-        let mut fitting = self.arrays;
+        let mut fitting = std::mem::take(&mut self.arrays);
         fitting.retain(|array| longest(array) == count);
         let arrays = fitting.len();
         let (mut titles, mut columns) = (Vec::new(), Vec::new());
@@ -282,6 +266,6 @@ impl Content {
         if arrays == 1 && columns.len() > 1 {
             titles.clear();
         }
-        Ok(Table::of_columns(source, titles, columns, self.remarks))
+        Ok((titles, columns))
     }
 }

@@ -9,7 +9,6 @@
 //! to use in messages.
 
 mod columns;
-mod contents;
 mod error;
 mod field;
 mod headed;
@@ -27,14 +26,13 @@ mod uff_writing;
 mod units;
 mod wav;
 
-pub use contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 pub use error::ReadError;
 pub use modes::{MeasuredMode, read_modes};
 pub use named_columns::{ModulusRow, read_gaps, read_moduli};
-pub use response::{ResponseOptions, read_response};
+pub use response::{NamedResponse, ResponseFile, ResponseOptions, read_response};
 pub use shapes::{MeasuredShape, read_shapes};
-pub use time_signal::{SignalOptions, read_signal};
-pub use uff_writing::{ModeData, write_mesh, write_mode, write_response, write_signal};
+pub use time_signal::{Channel, SignalFile, SignalOptions, read_signal};
+pub use uff_writing::{write_mesh, write_mode, write_response, write_signal};
 pub use wav::{slowdown, write_wav};
 
 use table::{Table, read_table};
@@ -83,11 +81,11 @@ impl Format {
     }
 
     /// The table that a text or a MATLAB file is; `columns` are names that take the place of the file's own.
-    fn table(self, bytes: &[u8], source: &str, columns: &[String]) -> Result<Table, ReadError> {
+    fn table(self, bytes: &[u8], columns: &[String]) -> Result<Table, ReadError> {
         match self {
-            Format::Foreign(found) => Err(ReadError::foreign(source, found)),
-            Format::Matlab => mat::read_table(bytes, source, columns),
-            _ => read_table(bytes, source, columns),
+            Format::Foreign(found) => Err(ReadError::foreign(found)),
+            Format::Matlab => mat::read_table(bytes, columns),
+            _ => read_table(bytes, columns),
         }
     }
 }
@@ -97,7 +95,6 @@ fn selected<T: Clone>(
     all: Vec<T>,
     name: fn(&T) -> &str,
     wanted: &[String],
-    source: &str,
 ) -> Result<Vec<T>, ReadError> {
     if wanted.is_empty() {
         return Ok(all);
@@ -107,7 +104,7 @@ fn selected<T: Clone>(
         let named = all.iter().find(|one| name(one) == wanted);
         named.or_else(|| all.get(number?)).cloned().ok_or_else(|| {
             let found = text::first_of(all.iter().map(name));
-            ReadError::whole(source, format!("there is no channel {wanted}: the file has {found}"))
+            ReadError::whole(format!("there is no channel {wanted}: the file has {found}"))
         })
     };
     wanted.iter().map(one).collect()

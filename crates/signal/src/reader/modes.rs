@@ -1,6 +1,6 @@
 //! Tables of measured modes: one row for each, cells left empty where something is not known.
 
-use super::error::{ReadError, missing_column, not_a_number};
+use super::error::{ReadError, not_a_number};
 use super::field::number;
 use super::headed::{Row, headed};
 use super::text::{decode, first_of, shortened};
@@ -40,19 +40,22 @@ const COLUMNS: [&[&str]; 8] = [
 /// # Errors
 /// [`ReadError`] with the place: no such column, a cell that is no number or no possible value.
 pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadError> {
+    modes(bytes).map_err(|error| error.of(source))
+}
+
+fn modes(bytes: &[u8]) -> Result<Vec<MeasuredMode>, ReadError> {
     let text = decode(bytes);
-    let (names, rows) = headed(&text, source)?;
+    let (names, rows) = headed(&text)?;
     let place = |known: &&[&str]| names.iter().position(|name| known.contains(&name.as_str()));
     let places = COLUMNS.each_ref().map(place);
     if places[0].is_none() && places[1].is_none() {
         let remedy = "the first line names the columns: frequency_hz, and where known real_hz, \
             damping_factor, harmonic, sigma_hz, unstable";
-        let problem = missing_column("frequencies", &first_of(&names), remedy);
-        return Err(ReadError::whole(source, problem));
+        return Err(ReadError::missing("frequencies", &first_of(&names), remedy));
     }
     let modes = rows.map(|row| mode(&row, &places)).collect::<Result<Vec<_>, ReadError>>()?;
     if modes.is_empty() {
-        return Err(ReadError::no_numbers(source));
+        return Err(ReadError::no_numbers());
     }
     if modes.len() > MOST_MODES {
         let problem = format!(
@@ -60,7 +63,7 @@ pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadE
              identify` finds its modes",
             modes.len()
         );
-        return Err(ReadError::whole(source, problem));
+        return Err(ReadError::whole(problem));
     }
     Ok(modes)
 }

@@ -1,6 +1,6 @@
 //! Tables that are known by the names of their columns: gaps over a surface, moduli over frequency.
 
-use super::error::{ReadError, missing_column};
+use super::error::ReadError;
 use super::table::{Table, read_table};
 
 /// What a column is called here, and what its name may begin with; a single letter is the whole name.
@@ -19,8 +19,8 @@ struct Kind<const N: usize> {
 
 impl<const N: usize> Kind<N> {
     /// The rows of such a table, each with its line; without names, as many columns in their order.
-    fn read(&self, bytes: &[u8], source: &str) -> Result<Vec<(usize, [f64; N])>, ReadError> {
-        let table = read_table(bytes, source, &[])?;
+    fn read(&self, bytes: &[u8]) -> Result<Vec<(usize, [f64; N])>, ReadError> {
+        let table = read_table(bytes, &[])?;
         if table.names.iter().any(|name| (self.is_other)(name)) {
             return Err(table.missing(self.units.0, self.units.1));
         }
@@ -54,7 +54,7 @@ impl<const N: usize> Kind<N> {
 impl Table {
     /// That it lacks a column.
     pub(super) fn missing(&self, wanted: &str, remedy: &str) -> ReadError {
-        ReadError::whole(&self.source, missing_column(wanted, &self.described(), remedy))
+        ReadError::missing(wanted, &self.described(), remedy)
     }
 }
 
@@ -73,7 +73,7 @@ const GAPS: Kind<4> = Kind {
 /// # Errors
 /// [`ReadError`] with the place: no such column, another unit, a cell that is no number.
 pub fn read_gaps(bytes: &[u8], source: &str) -> Result<Vec<([f64; 3], f64)>, ReadError> {
-    let rows = GAPS.read(bytes, source)?.into_iter();
+    let rows = GAPS.read(bytes).map_err(|error| error.of(source))?.into_iter();
     Ok(rows.map(|(_, [x, y, z, gap])| ([x, y, z], gap)).collect())
 }
 
@@ -109,7 +109,7 @@ pub struct ModulusRow {
 /// # Errors
 /// [`ReadError`] with the place: no such column, another unit, a cell that is no number.
 pub fn read_moduli(bytes: &[u8], source: &str) -> Result<Vec<ModulusRow>, ReadError> {
-    let rows = MODULI.read(bytes, source)?.into_iter();
+    let rows = MODULI.read(bytes).map_err(|error| error.of(source))?.into_iter();
     let row = |(line, numbers): (usize, [f64; 3])| {
         let [frequency_hz, young_modulus, loss_factor] = numbers;
         ModulusRow { line, frequency_hz, young_modulus, loss_factor }

@@ -1,15 +1,31 @@
 //! Frequency responses of a table.
 
 use super::super::{FrequencyResponse, ResponseQuantity};
-use super::columns::{Layout, Part, layouts, part};
-use super::contents::{NamedResponse, ResponseFile};
+use super::columns::{self, Found, Part, part};
 use super::error::ReadError;
 use super::table::Table;
 use super::text::{first_of, shortened};
 use super::uff::ORDINATES;
 use super::units::{hertz, response_unit};
 use super::{Format, selected, uff};
-use faer::c64;
+
+/// A response and its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedResponse {
+    /// Name of its column without the words for real and imaginary part, or `response k`.
+    pub name: String,
+    /// The response.
+    pub response: FrequencyResponse,
+}
+
+/// Frequency responses and what the reader had to decide.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponseFile {
+    /// The responses, at least one.
+    pub responses: Vec<NamedResponse>,
+    /// Decisions a user should know of: rows sorted, repeated rows dropped, quantity assumed.
+    pub notes: Vec<String>,
+}
 
 /// What the header of a response does not say, or says wrongly.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,15 +54,19 @@ pub fn read_response(
     source: &str,
     options: &ResponseOptions,
 ) -> Result<ResponseFile, ReadError> {
+    responses(bytes, options).map_err(|error| error.of(source))
+}
+
+fn responses(bytes: &[u8], options: &ResponseOptions) -> Result<ResponseFile, ReadError> {
     let mut file = match Format::of(bytes) {
-        Format::Universal => uff::read_responses(bytes, source, options.quantity)?,
+        Format::Universal => uff::read_responses(bytes, options.quantity)?,
         Format::Wave => {
             let found = "a WAV file, which holds time signals: give it to `frictionsim signal`";
-            return Err(ReadError::foreign(source, found));
+            return Err(ReadError::foreign(found));
         }
-        other => from_table(&other.table(bytes, source, &options.columns)?, options)?,
+        other => from_table(&other.table(bytes, &options.columns)?, options)?,
     };
-    file.responses = selected(file.responses, |one| &one.name, &options.channels, source)?;
+    file.responses = selected(file.responses, |one| &one.name, &options.channels)?;
     let mut turned = Vec::new();
     for named in file.responses.iter_mut().filter(|named| named.response.turns_backwards()) {
         named.response.conjugate();
@@ -64,12 +84,10 @@ pub fn read_response(
 fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, ReadError> {
     let mut notes = Vec::new();
     let (frequency, factor, states_unit) = frequency_column(table)?;
-    let layouts = layouts(table, frequency, &mut notes)?;
+    let found = columns::responses(table, frequency, &mut notes)?;
     let quantity = quantity(table, options.quantity, &mut notes);
     // One order of the rows for all responses.
-    let values = layouts.iter().map(|(_, layout)| values(table, *layout));
-    let values: Vec<Vec<c64>> = values.collect::<Result<_, _>>()?;
-    let rows = ordered(table, frequency, factor, &values, &mut notes)?;
+    let rows = ordered(table, frequency, factor, &found, &mut notes)?;
     let frequencies: Vec<f64> = rows.iter().map(|row| row.0).collect();
     let highest = frequencies.last().copied().unwrap_or(0.0);
     if !states_unit && highest < 50.0 {
@@ -83,12 +101,12 @@ fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, 
     let said = "lines whose coherence is below the median count less in the fit, by (1 - c) / c";
     notes.extend((!coherences.is_empty()).then(|| said.to_owned()));
     let mut responses = Vec::new();
-    for (k, ((name, layout), values)) in layouts.into_iter().zip(values).enumerate() {
-        let scale = scale(table, layout, &mut notes);
+    for (k, Found { name, column, values, has_phase }) in found.into_iter().enumerate() {
+        let scale = scale(table, column, &mut notes);
         let values = rows.iter().map(|row| values[row.1] * scale).collect();
-        let (all, phase) = (frequencies.clone(), layout.has_phase());
-        let response = FrequencyResponse::measured(all, values, quantity, phase);
-        let mut response = response.map_err(|error| ReadError::signal(&table.source, &error))?;
+        let all = frequencies.clone();
+        let response = FrequencyResponse::measured(all, values, quantity, has_phase);
+        let mut response = response.map_err(ReadError::whole)?;
         // One coherence for each response, or one for all.
         if let Some(column) = coherences.get(k).or(coherences.first()) {
             let all = &table.columns[*column].real;
@@ -112,42 +130,12 @@ fn frequency_column(table: &Table) -> Result<(usize, f64, bool), ReadError> {
         .ok_or_else(|| table.missing("frequency", remedy))
 }
 
-/// Complex values of each row; real magnitudes where there is no phase.
-fn values(table: &Table, layout: Layout) -> Result<Vec<c64>, ReadError> {
-    let real = |k: usize| &table.columns[k].real;
-    match layout {
-        Layout::Whole(k) => {
-            let imaginary = table.columns[k].imaginary.iter().flatten();
-            Ok(real(k).iter().zip(imaginary).map(|(re, im)| c64::new(*re, *im)).collect())
-        }
-        Layout::Complex(re, im) => {
-            let pairs = real(re).iter().zip(real(im));
-            Ok(pairs.map(|(re, im)| c64::new(*re, *im)).collect())
-        }
-        Layout::Polar { magnitude, level_reference, phase } => (0..table.rows())
-            .map(|i| {
-                let value = real(magnitude)[i];
-                let of_level = |reference| reference * 10f64.powf(value / 20.0);
-                let modulus = level_reference.map_or(value, of_level);
-                if modulus < 0.0 {
-                    let problem = format!(
-                        "magnitude {value} is negative; if it is in decibels, say so in the header (magnitude_db)"
-                    );
-                    return Err(table.error(i, magnitude, problem));
-                }
-                let angle = phase.map_or(0.0, |(k, factor)| real(k)[i] * factor);
-                Ok(c64::from_polar(modulus, angle))
-            })
-            .collect(),
-    }
-}
-
 /// Frequencies in rising order, each once, with the row they come from.
 fn ordered(
     table: &Table,
     column: usize,
     factor: f64,
-    values: &[Vec<c64>],
+    found: &[Found],
     notes: &mut Vec<String>,
 ) -> Result<Vec<(f64, usize)>, ReadError> {
     let raw = &table.columns[column].real;
@@ -166,7 +154,7 @@ fn ordered(
     for row in rows {
         match kept.last() {
             Some(last) if last.0 == row.0 => {
-                if values.iter().any(|v| v[last.1] != v[row.1]) {
+                if found.iter().any(|own| own.values[last.1] != own.values[row.1]) {
                     let (value, first) = (row.0, table.line(last.1));
                     let problem = format!(
                         "frequency {value} Hz is already in line {first} with another value; keep one of the rows"
@@ -220,10 +208,7 @@ fn stated_quantity(table: &Table) -> Option<ResponseQuantity> {
 }
 
 /// Factor to SI of a response by the unit in its heading, else by one in the remarks.
-fn scale(table: &Table, layout: Layout, notes: &mut Vec<String>) -> f64 {
-    let (Layout::Whole(column)
-    | Layout::Complex(column, _)
-    | Layout::Polar { magnitude: column, .. }) = layout;
+fn scale(table: &Table, column: usize, notes: &mut Vec<String>) -> f64 {
     let title = table.titles.get(column).map_or("", String::as_str);
     let unit = response_unit(title).or_else(|| table.remarks.lines().find_map(response_unit));
     let volts = title.split([' ', '(', ')', '[', ']']).find(|word| word.contains("V/"));

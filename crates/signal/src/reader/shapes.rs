@@ -2,7 +2,7 @@
 //!
 //! Source of the datasets: SDRC, "Universal file datasets", numbers 15, 55, 2411.
 
-use super::error::{EMPTY, ReadError, missing_column, not_a_number, not_finite};
+use super::error::{EMPTY, ReadError, not_a_number, not_finite};
 use super::field::{Value, parse};
 use super::headed::{Row, headed};
 use super::text::{decode, first_of, shortened};
@@ -34,15 +34,19 @@ pub struct MeasuredShape {
 /// # Errors
 /// [`ReadError`] with the place: no such column, a cell that is no number, a dataset that ends early.
 pub fn read_shapes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
+    shapes(bytes).map_err(|error| error.of(source))
+}
+
+fn shapes(bytes: &[u8]) -> Result<Vec<MeasuredShape>, ReadError> {
     let begin = bytes.iter().position(|b| !b.is_ascii_whitespace());
     let shapes = match begin.is_some_and(|at| bytes[at..].starts_with(b"-1")) {
-        true => universal(bytes, source)?,
-        false => table(bytes, source)?,
+        true => universal(bytes)?,
+        false => table(bytes)?,
     };
     let moves = |u: &c64| u.norm_sqr() > 0.0;
     match shapes.iter().find(|shape| !shape.motion.iter().flatten().flatten().any(moves)) {
-        Some(_) => Err(ReadError::no_numbers(source)),
-        None if shapes.is_empty() => Err(ReadError::whole(source, EMPTY)),
+        Some(_) => Err(ReadError::no_numbers()),
+        None if shapes.is_empty() => Err(ReadError::whole(EMPTY)),
         None => Ok(shapes),
     }
 }
@@ -64,16 +68,15 @@ const COLUMNS: [&[&str]; 11] = [
 ];
 
 /// The shapes of a table, in the order in which their names come.
-fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
+fn table(bytes: &[u8]) -> Result<Vec<MeasuredShape>, ReadError> {
     let text = decode(bytes);
-    let (names, rows) = headed(&text, source)?;
+    let (names, rows) = headed(&text)?;
     let place = |known: &&[&str]| names.iter().position(|name| known.contains(&name.as_str()));
     let [x, y, z, ux, ux_im, uy, uy_im, uz, uz_im, mode, frequency] = COLUMNS.each_ref().map(place);
     if x.is_none() || y.is_none() || ux.or(uy).or(uz).is_none() {
         let remedy = "the first line names the columns: x, y, z in metres, and of ux, uy, uz those measured. Complex \
             ones are 0.1+0.2j, or two columns ux_re, ux_im. Several shapes have mode and frequency_hz";
-        let problem = missing_column("points and displacements", &first_of(&names), remedy);
-        return Err(ReadError::whole(source, problem));
+        return Err(ReadError::missing("points and displacements", &first_of(&names), remedy));
     }
     let mut shapes: Vec<MeasuredShape> = Vec::new();
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
@@ -134,7 +137,7 @@ impl Row<'_> {
 }
 
 /// The shapes of a universal file.
-fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
+fn universal(bytes: &[u8]) -> Result<Vec<MeasuredShape>, ReadError> {
     let mut lines = Lines::of(bytes);
     let mut nodes: BTreeMap<usize, [f64; 3]> = BTreeMap::new();
     let mut found: Vec<Shape> = Vec::new();
@@ -143,7 +146,7 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
         let body = lines.body();
         let damaged = |line: usize, reason: &str| {
             let problem = format!("universal file: dataset {number}: {reason}");
-            ReadError::at(source, first + line + 1, 1, problem)
+            ReadError::at(first + line + 1, 1, problem)
         };
         let lines = match number.as_str() {
             "15" => 1,
@@ -169,7 +172,7 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
                 let shape = k + 1;
                 let reason =
                     format!("shape {shape} moves node {node}, which no dataset 15 or 2411 places");
-                return Err(ReadError::damaged(source, "universal file", reason));
+                return Err(ReadError::damaged("universal file", reason));
             };
             points.push(*point);
             motion.push(values);

@@ -1,6 +1,6 @@
 //! Lines of text to named columns of numbers.
 
-use super::error::{EMPTY, ReadError, column_count, not_finite, unreadable};
+use super::error::{EMPTY, ReadError, not_finite, unreadable};
 use super::field::{Value, parse, time_stamp};
 use super::separator::{Line, Separator, character, fields, numeric_fields, separator_of};
 use super::text::{comment, decode, first_of, lines, shortened};
@@ -49,8 +49,6 @@ impl Column {
 /// Numbers in named columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Table {
-    /// Name of where it comes from.
-    pub source: String,
     /// Lower-case column names with their unit row joined; empty if the file has none.
     pub names: Vec<String>,
     /// Column names as written.
@@ -67,14 +65,8 @@ pub(super) struct Table {
 
 impl Table {
     /// A table that was no text.
-    pub fn of_columns(
-        source: &str,
-        titles: Vec<String>,
-        columns: Vec<Column>,
-        remarks: String,
-    ) -> Self {
+    pub fn of_columns(titles: Vec<String>, columns: Vec<Column>, remarks: String) -> Self {
         Self {
-            source: source.to_owned(),
             names: titles.iter().map(|t| t.to_lowercase()).collect(),
             titles,
             columns,
@@ -96,11 +88,11 @@ impl Table {
     /// An error at a field.
     pub fn error(&self, row: usize, column: usize, problem: String) -> ReadError {
         let Some(line) = self.lines.get(row) else {
-            return ReadError::whole(&self.source, problem);
+            return ReadError::whole(problem);
         };
         let text = lines(&self.text).nth(line - 1).map_or("", |(_, text)| text);
         let at = fields(text, self.separator).nth(column);
-        ReadError::at(&self.source, *line, at.map_or(1, |f| character(text, f)), problem)
+        ReadError::at(*line, at.map_or(1, |f| character(text, f)), problem)
     }
 
     /// The column names for a message.
@@ -112,12 +104,8 @@ impl Table {
     }
 }
 
-/// Reads bytes into a table; `columns` are names that take the place of the file's own.
-pub(super) fn read_table(
-    bytes: &[u8],
-    source: &str,
-    columns: &[String],
-) -> Result<Table, ReadError> {
+/// Reads bytes into a table; `given` are names that take the place of the file's own.
+pub(super) fn read_table(bytes: &[u8], given: &[String]) -> Result<Table, ReadError> {
     let text = decode(bytes);
     // Comments and titles are remarks; what is left is a head of words and rows of numbers.
     let mut remarks = String::new();
@@ -133,68 +121,73 @@ pub(super) fn read_table(
         }
     }
     if content.is_empty() {
-        return Err(ReadError::whole(source, EMPTY));
+        return Err(ReadError::whole(EMPTY));
     }
-    if remarks.contains("post26") {
-        return post26_listing(&content, remarks, columns, source);
-    }
-    let first = first_data_line(&content).ok_or_else(|| blame_first_number(&content, source))?;
-    let (head, data) = content.split_at(first);
-    if let Some(line) = head.last() {
-        // A row of numbers with one that cannot be read is no header.
+    let (data, separator, own) = if remarks.contains("post26") {
+        let own = take_page_headers(&mut content)?;
+        (&content[..], Separator::Blanks, own)
+    } else {
+        let first = first_data_line(&content).ok_or_else(|| blame_first_number(&content))?;
+        let (head, data) = content.split_at(first);
         let separator = separator_of(data);
-        let (numeric, all) = numeric_fields(line.1, separator);
-        if numeric * 2 >= all && numeric > 0 {
-            return Err(blame_first_number(&[*line], source));
+        if let Some(line) = head.last() {
+            // A row of numbers with one that cannot be read is no header.
+            let (numeric, all) = numeric_fields(line.1, separator);
+            if numeric * 2 >= all && numeric > 0 {
+                return Err(blame_first_number(&[*line]));
+            }
         }
-    }
-    for (_, line) in head {
-        remarks += &(line.to_lowercase() + "\n");
-    }
-    // Names are those given, those above the numbers, or those of a comment.
-    let separator = separator_of(data);
-    let above = if head.is_empty() { &commented[..] } else { head };
-    let count = fields(data[0].1, separator).count();
-    if columns.is_empty() {
-        refuse_decimal_comma_separators(data[0], separator, head, count, source)?;
-    }
-    let titles = titles(columns, above, separator, count, source)?;
-    let columns = numbers(data, separator, &titles, source)?;
+        for (_, line) in head {
+            remarks += &(line.to_lowercase() + "\n");
+        }
+        let count = fields(data[0].1, separator).count();
+        if given.is_empty() {
+            refuse_decimal_comma_separators(data[0], separator, head, count)?;
+        }
+        // Names are those above the numbers, or those of a comment.
+        let above = if head.is_empty() { &commented[..] } else { head };
+        (data, separator, titles(above, separator, count))
+    };
+    let titles = given_or(own, given, fields(data[0].1, separator).count())?;
+    let columns = numbers(data, separator, &titles)?;
     let lines = data.iter().map(|(line, _)| *line).collect();
-    Ok(Table { lines, separator, text, ..Table::of_columns(source, titles, columns, remarks) })
+    Ok(Table { lines, separator, text, ..Table::of_columns(titles, columns, remarks) })
 }
 
-/// A listing of the time-history post-processor of ANSYS: pages that repeat a header of several lines,
-/// of which the words real, imaginary, amplitude and phase name the columns.
-fn post26_listing(
-    content: &[Line],
-    remarks: String,
-    columns: &[String],
-    source: &str,
-) -> Result<Table, ReadError> {
+/// The names of so many columns that are given, or else a file's own.
+pub(super) fn given_or(
+    own: Vec<String>,
+    given: &[String],
+    count: usize,
+) -> Result<Vec<String>, ReadError> {
+    match given.len() {
+        0 => Ok(own),
+        names if names == count => Ok(given.to_vec()),
+        names => Err(ReadError::whole(format!(
+            "--columns names {names} columns, the table has {count}; write `-` for one to skip"
+        ))),
+    }
+}
+
+/// Leaves the rows of numbers of a listing of the time-history post-processor of ANSYS: pages that repeat a header of
+/// several lines, of which the words real, imaginary, amplitude and phase name the columns.
+fn take_page_headers(content: &mut Vec<Line>) -> Result<Vec<String>, ReadError> {
     let is_data = |line: &Line| {
         let (numeric, all) = numeric_fields(line.1, Separator::Blanks);
         numeric == all && all > 1
     };
-    let data: Vec<Line> = content.iter().filter(|line| is_data(line)).copied().collect();
-    let Some(first) = data.first() else { return Err(ReadError::no_numbers(source)) };
-    let count = first.1.split_whitespace().count();
-    let head = content.iter().take_while(|line| line.0 < first.0);
-    let words: Vec<String> =
-        head.flat_map(|(_, line)| line.split_whitespace()).map(str::to_lowercase).collect();
+    let first = content.iter().position(is_data).ok_or_else(ReadError::no_numbers)?;
+    let count = content[first].1.split_whitespace().count();
+    let head = content[..first].iter().flat_map(|(_, line)| line.split_whitespace());
+    let words: Vec<String> = head.map(str::to_lowercase).collect();
+    content.retain(is_data);
     let is_time = words.iter().any(|w| w == "time");
     let is_part = |w: &str| matches!(w, "real" | "imaginary" | "amplitude" | "phase");
     let kinds: [&dyn Fn(&str) -> bool; 2] = [&is_part, &|w| w.contains('_')];
     let all = kinds.map(|is| words.iter().filter(|w| is(w)).cloned().collect::<Vec<_>>());
     let numbered = || (1..count).map(|k| format!("variable {}", k + 1)).collect();
-    let mut titles = vec![if is_time { "time" } else { "freq" }.to_string()];
-    let named = all.into_iter().find(|names| names.len() + 1 == count);
-    titles.extend(named.unwrap_or_else(numbered));
-    if !columns.is_empty() {
-        titles = self::titles(columns, &[], Separator::Blanks, count, source)?;
-    }
-    let values = numbers(&data, Separator::Blanks, &titles, source)?;
-    Ok(Table::of_columns(source, titles, values, remarks))
+    let named = all.into_iter().find(|names| names.len() + 1 == count).unwrap_or_else(numbered);
+    Ok([vec![if is_time { "time" } else { "freq" }.to_string()], named].concat())
 }
 
 /// Index of the first line all of whose fields are numbers under some separator, time stamps not alone.
@@ -215,7 +208,7 @@ fn first_data_line(content: &[Line]) -> Option<usize> {
 }
 
 /// No line is all numbers: name the first field that spoils a line which has one.
-fn blame_first_number(content: &[Line], source: &str) -> ReadError {
+fn blame_first_number(content: &[Line]) -> ReadError {
     for (line, text) in content {
         let separator = separator_of(&[(*line, *text)]);
         let (numeric, all) = numeric_fields(text, separator);
@@ -223,10 +216,10 @@ fn blame_first_number(content: &[Line], source: &str) -> ReadError {
         let spoils = spoils.find(|(_, f)| parse(f).is_none());
         if let Some((k, field)) = spoils.filter(|_| numeric * 2 >= all && all > 1) {
             let problem = unreadable(field, &(k + 1).to_string());
-            return ReadError::at(source, *line, character(text, field), problem);
+            return ReadError::at(*line, character(text, field), problem);
         }
     }
-    ReadError::no_numbers(source)
+    ReadError::no_numbers()
 }
 
 /// Parses every row.
@@ -234,7 +227,6 @@ fn numbers(
     data: &[Line],
     separator: Separator,
     titles: &[String],
-    source: &str,
 ) -> Result<Vec<Column>, ReadError> {
     let expected = fields(data[0].1, separator).count();
     let name = |k: usize| match titles.get(k) {
@@ -245,9 +237,8 @@ fn numbers(
     let mut columns: Vec<Column> = (0..expected).map(column).collect();
     let mut first_day = None;
     for (line, text) in data {
-        let fail = |field: &str, problem| {
-            Err(ReadError::at(source, *line, character(text, field), problem))
-        };
+        let fail =
+            |field: &str, problem| Err(ReadError::at(*line, character(text, field), problem));
         let mut found = 0;
         for (k, field) in fields(text, separator).enumerate() {
             found = k + 1;
@@ -266,7 +257,8 @@ fn numbers(
             return fail(last, field_count(found, expected));
         }
     }
-    Ok(joined_time_stamps(columns, data, separator))
+    join_time_stamps(&mut columns, data, separator);
+    Ok(columns)
 }
 
 /// A row has another number of fields than the first.
@@ -275,11 +267,7 @@ fn field_count(found: usize, expected: usize) -> String {
 }
 
 /// A date in one column and the time of day in the next are one time.
-fn joined_time_stamps(
-    mut columns: Vec<Column>,
-    data: &[Line],
-    separator: Separator,
-) -> Vec<Column> {
+fn join_time_stamps(columns: &mut [Column], data: &[Line], separator: Separator) {
     let mut first = fields(data[0].1, separator).map(time_stamp);
     let is_date = matches!(first.next(), Some(Some((day, seconds))) if day != 0 && seconds == 0.0);
     let is_time_of_day = matches!(first.next(), Some(Some((0, _))));
@@ -289,7 +277,6 @@ fn joined_time_stamps(
             *date += time;
         }
     }
-    columns
 }
 
 /// `f,re,im` above `10,0,1,5,2,5`: twice as many fields as names.
@@ -298,7 +285,6 @@ fn refuse_decimal_comma_separators(
     separator: Separator,
     head: &[Line],
     found: usize,
-    source: &str,
 ) -> Result<(), ReadError> {
     let named = head.last().map_or(0, |(_, header)| fields(header, separator).count());
     if separator == Separator::Comma && named > 1 && found > named {
@@ -306,25 +292,13 @@ fn refuse_decimal_comma_separators(
             "{found} fields separated by commas where the header names {named}: the comma seems to be both separator \
              and decimal sign. Export with decimal points or separate by semicolons"
         );
-        return Err(ReadError::at(source, first.0, 1, problem));
+        return Err(ReadError::at(first.0, 1, problem));
     }
     Ok(())
 }
 
-/// Names given, or those of the line above the numbers, joined with a row of units between.
-fn titles(
-    given: &[String],
-    above: &[Line],
-    separator: Separator,
-    count: usize,
-    source: &str,
-) -> Result<Vec<String>, ReadError> {
-    if !given.is_empty() {
-        if given.len() != count {
-            return Err(ReadError::whole(source, column_count(given.len(), count)));
-        }
-        return Ok(given.to_vec());
-    }
+/// Names of the line above the numbers, joined with a row of units between; none where they are not as many.
+fn titles(above: &[Line], separator: Separator, count: usize) -> Vec<String> {
     let split = |line: &str| -> Option<Vec<String>> {
         // A header may be separated otherwise than its numbers; commas never stand in a name.
         [separator, Separator::Comma, Separator::Blanks]
@@ -332,16 +306,14 @@ fn titles(
             .map(|s| fields(line, *s).map(str::to_string).collect::<Vec<_>>())
             .find(|fields| fields.len() == count)
     };
-    let rows: Vec<Vec<String>> =
-        above.iter().rev().take(2).map_while(|(_, line)| split(line)).collect();
-    let are_units = |row: &Vec<String>| row.iter().all(|f| super::units::is_unit(f));
-    Ok(match (rows.first(), rows.get(1)) {
-        (Some(units), Some(names)) if are_units(units) => names
+    let mut rows = above.iter().rev().take(2).map_while(|(_, line)| split(line));
+    let (last, before) = (rows.next().unwrap_or_default(), rows.next());
+    match before {
+        Some(names) if last.iter().all(|field| super::units::is_unit(field)) => names
             .iter()
-            .zip(units)
+            .zip(&last)
             .map(|(name, unit)| format!("{name} {unit}").trim().to_string())
             .collect(),
-        (Some(names), _) => names.clone(),
-        (None, _) => Vec::new(),
-    })
+        _ => last,
+    }
 }

@@ -1,17 +1,18 @@
 //! Bytes to lines of text.
 
-/// Decodes UTF-8, UTF-16 (with a byte-order mark) or else Latin-1, and drops the mark.
+/// Decodes UTF-8, UTF-16 (with a byte-order mark) or else Latin-1, drops the mark, and makes every end of a line `\n`.
 pub(super) fn decode(bytes: &[u8]) -> String {
     let wide = |rest: &[u8], join: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = rest.chunks_exact(2).map(|p| join([p[0], p[1]])).collect();
         String::from_utf16_lossy(&units)
     };
-    match bytes {
+    let text = match bytes {
         [0xff, 0xfe, rest @ ..] => wide(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => wide(rest, u16::from_be_bytes),
         [0xef, 0xbb, 0xbf, rest @ ..] => utf8_or_latin1(rest),
         _ => utf8_or_latin1(bytes),
-    }
+    };
+    if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n") } else { text }
 }
 
 fn utf8_or_latin1(bytes: &[u8]) -> String {
@@ -19,25 +20,9 @@ fn utf8_or_latin1(bytes: &[u8]) -> String {
     std::str::from_utf8(bytes).map_or_else(latin1, str::to_string)
 }
 
-/// Lines with their 1-based numbers; ends are `\n`, `\r\n` or `\r`.
+/// Lines with their 1-based numbers.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let mut rest = text;
-    let mut number = 0;
-    std::iter::from_fn(move || {
-        if rest.is_empty() {
-            return None;
-        }
-        let (line, after) = match rest.find(['\n', '\r']) {
-            Some(end) => {
-                let skip = if rest[end..].starts_with("\r\n") { 2 } else { 1 };
-                (&rest[..end], &rest[end + skip..])
-            }
-            None => (rest, ""),
-        };
-        rest = after;
-        number += 1;
-        Some((number, line))
-    })
+    (1..).zip(text.lines())
 }
 
 /// The text of a comment line without its mark; `None` for other lines.

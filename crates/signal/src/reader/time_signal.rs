@@ -1,6 +1,5 @@
 //! Time signals.
 
-use super::contents::{Channel, SignalFile};
 use super::error::{NO_RATE, ReadError};
 use super::table::Table;
 use super::units::{sampling_rate, seconds};
@@ -10,6 +9,28 @@ use super::{Format, selected, uff, wav};
 const JITTER: f64 = 0.3;
 /// Fewest samples of a signal.
 const FEWEST: usize = 16;
+
+/// One column of a signal table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Name as written, or `channel k`.
+    pub name: String,
+    /// Samples, in the unit of the file.
+    pub samples: Vec<f64>,
+}
+
+/// Equidistant samples of one or more channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalFile {
+    /// Sampling rate, Hz.
+    pub sampling_rate: f64,
+    /// Time of the first sample, s.
+    pub start: f64,
+    /// Channels in the order of their columns, of one length, at least one.
+    pub channels: Vec<Channel>,
+    /// Decisions a user should know of.
+    pub notes: Vec<String>,
+}
 
 /// What the header of a signal does not say, or says wrongly.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,14 +60,18 @@ pub fn read_signal(
     source: &str,
     options: &SignalOptions,
 ) -> Result<SignalFile, ReadError> {
+    signals(bytes, options).map_err(|error| error.of(source))
+}
+
+fn signals(bytes: &[u8], options: &SignalOptions) -> Result<SignalFile, ReadError> {
     if let Some(value) = options.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
         let problem = format!("sampling rate {value} Hz must be positive and finite");
-        return Err(ReadError::whole(source, problem));
+        return Err(ReadError::whole(problem));
     }
     let mut file = match Format::of(bytes) {
-        Format::Universal => uff::read_signals(bytes, source)?,
-        Format::Wave => wav::read_wav(bytes, source)?,
-        other => from_table(&other.table(bytes, source, &options.columns)?, options)?,
+        Format::Universal => uff::read_signals(bytes)?,
+        Format::Wave => wav::read_wav(bytes)?,
+        other => from_table(&other.table(bytes, &options.columns)?, options)?,
     };
     // A file that states its rate is overruled aloud.
     if let Some(rate) = options.rate.filter(|rate| *rate != file.sampling_rate) {
@@ -55,23 +80,23 @@ pub fn read_signal(
             .push(format!("the file states {stated} Hz; {rate} Hz, from the option, is used"));
         file.sampling_rate = rate;
     }
-    file.channels = selected(file.channels, |one| &one.name, &options.channels, source)?;
+    file.channels = selected(file.channels, |one| &one.name, &options.channels)?;
     let count = file.channels.first().map_or(0, |c| c.samples.len());
     if count < FEWEST {
-        return Err(too_short(source, count));
+        return Err(too_short(count));
     }
     Ok(file)
 }
 
-fn too_short(source: &str, count: usize) -> ReadError {
+fn too_short(count: usize) -> ReadError {
     let (what, remedy) = ("the signal", "give a longer record");
-    ReadError::signal(source, &crate::error::too_short(what, count, FEWEST, remedy))
+    ReadError::whole(crate::error::too_short(what, count, FEWEST, remedy))
 }
 
 fn from_table(table: &Table, options: &SignalOptions) -> Result<SignalFile, ReadError> {
     let time = time_column(table);
     if table.rows() < FEWEST {
-        return Err(too_short(&table.source, table.rows()));
+        return Err(too_short(table.rows()));
     }
     let mut notes = Vec::new();
     let (rate, start) = match time {
@@ -85,7 +110,7 @@ fn from_table(table: &Table, options: &SignalOptions) -> Result<SignalFile, Read
         }
         None => {
             let stated = sampling_rate(&table.remarks).or(options.rate);
-            (stated.ok_or_else(|| ReadError::whole(&table.source, NO_RATE))?, 0.0)
+            (stated.ok_or_else(|| ReadError::whole(NO_RATE))?, 0.0)
         }
     };
     let is_skipped = |k: usize| {
@@ -141,7 +166,7 @@ fn regular_step(table: &Table, column: usize, t: &[f64]) -> Result<f64, ReadErro
             "the time column is rounded to {step} s, which hides the sampling rate (about \
              {rate:.1} Hz); give it with --rate HZ"
         );
-        return Err(ReadError::whole(&table.source, problem));
+        return Err(ReadError::whole(problem));
     }
     if let Some(i) = (1..t.len()).find(|&i| t[i] <= t[i - 1]) {
         let (value, previous) = (t[i], t[i - 1]);
@@ -196,7 +221,7 @@ fn agreed_rate(
     if (option / found - 1.0).abs() > 1e-2 || !found.is_finite() {
         let problem =
             format!("the time column says {found} Hz, the option {option} Hz; leave --rate out");
-        return Err(ReadError::whole(&table.source, problem));
+        return Err(ReadError::whole(problem));
     }
     // Within 1 % the column knows better, if it is regular.
     Ok(1.0 / regular_step(table, column, t)?)

@@ -5,10 +5,11 @@
 
 use super::super::error::not_finite;
 use super::super::{FrequencyResponse, ResponseQuantity};
-use super::contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 use super::error::{NO_RATE, ReadError};
 use super::mat::whole;
+use super::response::{NamedResponse, ResponseFile};
 use super::text::first_of;
+use super::time_signal::{Channel, SignalFile};
 use super::units::response_unit;
 use faer::c64;
 use frictionsim_formats::universal_fields;
@@ -93,14 +94,14 @@ impl<'a> Lines<'a> {
 }
 
 /// All functions of a file, and the factor to SI of responses in its units.
-fn functions(bytes: &[u8], source: &str) -> Result<(Vec<Function>, f64), ReadError> {
+fn functions(bytes: &[u8]) -> Result<(Vec<Function>, f64), ReadError> {
     let mut lines = Lines::of(bytes);
     let (mut found, mut system) = (Vec::new(), 1.0);
     while let Some(words) = lines.dataset() {
         let number = found.len() + 1;
         let damaged = |reason: &str| {
             let reason = format!("dataset 58 number {number}: {reason}");
-            ReadError::damaged(source, "universal file", reason)
+            ReadError::damaged("universal file", reason)
         };
         match words.first().map(String::as_str) {
             Some("58") => found.push(function(&mut lines, None).map_err(damaged)?),
@@ -231,10 +232,9 @@ fn binary_numbers(
 /// Frequency responses of a universal file, each with its coherence where the file has one of its name.
 pub(super) fn read_responses(
     bytes: &[u8],
-    source: &str,
     quantity: Option<ResponseQuantity>,
 ) -> Result<ResponseFile, ReadError> {
-    let (all, system) = functions(bytes, source)?;
+    let (all, system) = functions(bytes)?;
     let (mut notes, mut responses) = (Vec::new(), Vec::new());
     let is_response = |f: &&Function| f.kind == FREQUENCY_RESPONSE || (f.kind == 0 && f.is_complex);
     for f in all.iter().filter(is_response) {
@@ -257,7 +257,7 @@ pub(super) fn read_responses(
         let values = f.values.iter().map(|z| z * scale).collect();
         let response =
             FrequencyResponse::measured(f.abscissae.clone(), values, taken, f.is_complex);
-        let mut response = response.map_err(|error| ReadError::signal(source, &error))?;
+        let mut response = response.map_err(ReadError::whole)?;
         let same = |c: &&Function| {
             c.kind == COHERENCE && c.name == f.name && c.values.len() == f.values.len()
         };
@@ -268,18 +268,18 @@ pub(super) fn read_responses(
         responses.push(NamedResponse { name: f.name.clone(), response });
     }
     if responses.is_empty() {
-        return Err(without(source, "frequency response to a force (function type 4)", &all));
+        return Err(without("frequency response to a force (function type 4)", &all));
     }
     Ok(ResponseFile { responses, notes })
 }
 
 /// Time signals of a universal file.
-pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, ReadError> {
-    let (all, _) = functions(bytes, source)?;
+pub(super) fn read_signals(bytes: &[u8]) -> Result<SignalFile, ReadError> {
+    let (all, _) = functions(bytes)?;
     let is_signal = |f: &&Function| f.kind == TIME || (f.kind == 0 && f.axis == TIME_AXIS);
     let signals: Vec<&Function> = all.iter().filter(is_signal).collect();
     let Some(first) = signals.first() else {
-        return Err(without(source, "time response (function type 1)", &all));
+        return Err(without("time response (function type 1)", &all));
     };
     let count = first.abscissae.len();
     let step = match first.step {
@@ -288,7 +288,7 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
         _ => 0.0,
     };
     if !(step > 0.0 && step.is_finite() && (1.0 / step).is_finite()) {
-        return Err(ReadError::whole(source, NO_RATE));
+        return Err(ReadError::whole(NO_RATE));
     }
     let (fit, others): (Vec<&Function>, Vec<&Function>) = signals
         .iter()
@@ -300,8 +300,7 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
     }
     for f in &fit {
         if let Some(i) = f.values.iter().position(|z| !z.re.is_finite()) {
-            let error = not_finite("sample", i, f.values[i].re);
-            return Err(ReadError::signal(source, &error));
+            return Err(ReadError::whole(not_finite("sample", i, f.values[i].re)));
         }
     }
     let samples = |f: &Function| f.values.iter().map(|z| z.re).collect();
@@ -311,9 +310,9 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
     Ok(SignalFile { sampling_rate, start, channels, notes })
 }
 
-fn without(source: &str, wanted: &str, all: &[Function]) -> ReadError {
+fn without(wanted: &str, all: &[Function]) -> ReadError {
     let kinds: BTreeSet<u32> = all.iter().map(|f| f.kind).collect();
     let kinds = first_of(kinds.iter().map(ToString::to_string));
     let reason = format!("no {wanted} in it (function types: {kinds})");
-    ReadError::damaged(source, "universal file", reason)
+    ReadError::damaged("universal file", reason)
 }

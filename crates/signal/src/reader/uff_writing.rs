@@ -2,7 +2,8 @@
 //!
 //! Source: SDRC, "Universal file datasets", by their numbers.
 
-use super::contents::{NamedResponse, SignalFile};
+use super::response::NamedResponse;
+use super::time_signal::SignalFile;
 use super::uff::{FREQUENCY_RESPONSE, ORDINATES, TIME, TIME_AXIS};
 use faer::c64;
 use std::fmt::Write as _;
@@ -71,33 +72,26 @@ pub fn write_mesh(
     writeln!(out, "    -1")
 }
 
-/// A complex mode for [`write_mode`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModeData<'a> {
-    /// What it is called, up to 80 characters of ASCII.
-    pub name: &'a str,
-    /// Its number in the file, from 1.
-    pub number: usize,
-    /// Eigenvalue, 1/s.
-    pub eigenvalue: c64,
-    /// Labels of the nodes.
-    pub labels: &'a [usize],
-    /// Displacement of each node along x, y, z.
-    pub shape: &'a [[c64; 3]],
-}
-
 /// A complex mode as dataset 55: displacements at nodes in single precision, which is what its form
 /// `6E13.5` holds.
-pub fn write_mode(out: &mut dyn Write, mode: &ModeData<'_>) -> io::Result<()> {
+///
+/// Its name of up to 80 characters of ASCII, its number in the file, from 1, its eigenvalue, 1/s, and of each node the
+/// label and the displacement along x, y, z.
+pub fn write_mode(
+    out: &mut dyn Write,
+    (name, number): (&str, usize),
+    eigenvalue: c64,
+    shape: impl Iterator<Item = (usize, [c64; 3])>,
+) -> io::Result<()> {
     let row = |values: &[c64]| complex_row(values, 13, 5);
-    writeln!(out, "    -1\n    55\n{}\nNONE\nNONE\nNONE\nNONE", mode.name)?;
+    writeln!(out, "    -1\n    55\n{name}\nNONE\nNONE\nNONE\nNONE")?;
     // Structural, complex eigenvalue, three translations, displacement, complex, three values a node.
-    writeln!(out, "{}\n{}", whole_row(&[1, 3, 2, 8, 5, 3]), whole_row(&[2, 6, 1, mode.number]))?;
+    writeln!(out, "{}\n{}", whole_row(&[1, 3, 2, 8, 5, 3]), whole_row(&[2, 6, 1, number]))?;
     // The eigenvalue; factors of modal mass and damping are not scaled.
     let one = c64::new(1.0, 0.0);
-    writeln!(out, "{}", row(&[mode.eigenvalue, one, one]))?;
-    for (label, displacement) in mode.labels.iter().zip(mode.shape) {
-        writeln!(out, "{label:>10}\n{}", row(displacement))?;
+    writeln!(out, "{}", row(&[eigenvalue, one, one]))?;
+    for (label, displacement) in shape {
+        writeln!(out, "{label:>10}\n{}", row(&displacement))?;
     }
     writeln!(out, "    -1")
 }

@@ -94,24 +94,21 @@ pub(super) fn response_unit(heading: &str) -> Option<(f64, usize)> {
     })
 }
 
+/// The number that a text begins with, and what follows it.
+fn leading_number(text: &str) -> Option<(f64, &str)> {
+    let mut parts = (1..=text.len().min(32)).rev().filter_map(|end| text.split_at_checked(end));
+    parts.find_map(|(number, rest)| Some((number.parse().ok()?, rest)))
+}
+
 /// The number of the reference of a level, as in `dB re 1e-6 m/s2/N` or `dB re 20 uPa`; 1 where none is written.
 pub(super) fn level_reference(name: &str) -> f64 {
     let Some((_, after)) = name.split_once("re ").or_else(|| name.split_once("ref ")) else {
         return 1.0;
     };
     let after = after.trim_start_matches(['.', ':', '=', ' ']);
-    let end = after
-        .char_indices()
-        .find(|(k, c)| {
-            let sign = matches!(c, '+' | '-') && after[..*k].ends_with('e');
-            let exponent = *c == 'e'
-                && after[k + 1..].starts_with(|d: char| d.is_ascii_digit() || d == '-' || d == '+');
-            !(c.is_ascii_digit() || *c == '.' || sign || exponent)
-        })
-        .map_or(after.len(), |(k, _)| k);
-    let value: f64 = after[..end].parse().unwrap_or(1.0);
+    let (value, unit) = leading_number(after).unwrap_or((1.0, after));
     // A prefix of what is no unit of a response, as of `uPa`; that of one is in the unit.
-    let unit = after[end..].trim_start();
+    let unit = unit.trim_start();
     let is_micro = unit.starts_with(['u', 'µ', 'μ']) && response_unit(unit).is_none();
     let value = if is_micro { 1e-6 * value } else { value };
     if value > 0.0 && value.is_finite() { value } else { 1.0 }
@@ -128,12 +125,8 @@ pub(super) fn sampling_rate(remarks: &str) -> Option<f64> {
         if rest.starts_with(|c: char| c.is_alphanumeric()) {
             return None;
         }
-        let rest = rest.trim_start_matches(|c: char| !c.is_ascii_digit());
-        let end = rest
-            .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | 'e' | '+')))
-            .unwrap_or(rest.len());
-        let value: f64 = rest[..end].parse().ok()?;
-        let factor = if rest[end..].trim_start().starts_with("khz") { 1e3 } else { 1.0 };
+        let (value, unit) = leading_number(rest.trim_start_matches(|c: char| !c.is_ascii_digit()))?;
+        let factor = if unit.trim_start().starts_with("khz") { 1e3 } else { 1.0 };
         (value > 0.0).then_some(value * factor)
     })
 }

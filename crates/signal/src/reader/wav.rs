@@ -2,8 +2,8 @@
 
 use super::super::SignalError;
 use super::super::error::{not_finite, not_positive};
-use super::contents::{Channel, SignalFile};
 use super::error::ReadError;
+use super::time_signal::{Channel, SignalFile};
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use std::io::Cursor;
 
@@ -13,8 +13,8 @@ const FASTEST: f64 = 96_000.0;
 const PEAK: f64 = 0.89;
 
 /// Reads all channels of a WAV file of integers or floating-point numbers; full scale reads 1.
-pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadError> {
-    let damaged = |reason: String| ReadError::damaged(source, "WAV", reason);
+pub(super) fn read_wav(bytes: &[u8]) -> Result<SignalFile, ReadError> {
+    let damaged = |reason: String| ReadError::damaged("WAV", reason);
     let mut wav = WavReader::new(Cursor::new(bytes))
         .map_err(|error| damaged(format!("{error}; write PCM or 32-bit floating-point samples")))?;
     let spec = wav.spec();
@@ -37,8 +37,7 @@ pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadErr
         notes.push(format!("the file ends early: {rows} samples of each channel are read"));
     }
     if let Some(position) = values.iter().position(|v| !v.is_finite()) {
-        let error = not_finite("sample", position / count, values[position]);
-        return Err(ReadError::signal(source, &error));
+        return Err(ReadError::whole(not_finite("sample", position / count, values[position])));
     }
     let channels = (0..count.min(values.len())).map(|k| Channel {
         name: format!("channel {}", k + 1),
@@ -60,7 +59,7 @@ pub fn slowdown(sampling_rate: f64) -> u32 {
 /// 1 dB, `slower` times slower than they were recorded: 9.4 kHz sounds as 0.94 kHz at 10.
 ///
 /// # Errors
-/// [`SignalError::Asked`] for a rate of less than 1 Hz after slowing down; [`SignalError::Fit`] never.
+/// [`SignalError::Asked`] for a rate of less than 1 Hz after slowing down.
 pub fn write_wav(file: &SignalFile, slower: u32) -> Result<Vec<u8>, SignalError> {
     let rate = (file.sampling_rate / f64::from(slower.max(1))).round();
     let what = "sampling rate of the WAV file";
@@ -111,7 +110,7 @@ mod tests {
             notes: Vec::new(),
         };
         assert_eq!((slowdown(5e5), slowdown(51_200.0), slowdown(192_000.0)), (10, 1, 2));
-        let read = read_wav(&write_wav(&file, 10).unwrap(), "x").unwrap();
+        let read = read_wav(&write_wav(&file, 10).unwrap()).unwrap();
         assert_eq!((read.sampling_rate, read.channels.len()), (5e4, 2));
         let mean = (0..1000).map(tone).sum::<f64>() / 1000.0;
         let top = (0..1000).map(|k| (tone(k) - mean).abs()).fold(0.0, f64::max);
