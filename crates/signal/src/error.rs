@@ -3,7 +3,7 @@
 /// A signal or frequency response that cannot be analysed as asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SignalError {
-    /// Samples or lines that are too few, not finite, or out of order: which, and the remedy.
+    /// Samples, lines or modes that are too few, not finite, out of order or in one place: which, and the remedy.
     #[error("{0}")]
     Unfit(String),
     /// A number asked for that is not positive, or a resolution that the record cannot give: what to change.
@@ -23,15 +23,11 @@ pub enum SignalError {
     /// Resonances exist, but none can be resolved: what the resolution is, and the remedy.
     #[error("{0}")]
     Unresolved(String),
-    /// Too few damping factors for the two Rayleigh coefficients.
-    #[error(
-        "{0} usable damping factor(s): alpha_R and beta_R with an uncertainty need at least 2 \
-         modes of known uncertainty, or 3 without. Widen the frequency range"
-    )]
-    TooFewModes(usize),
-    /// The fit cannot be computed.
-    #[error("the modal fit failed: {0}")]
-    Fit(&'static str),
+}
+
+/// A fit that cannot be computed.
+pub(super) fn failed_fit(why: &str) -> SignalError {
+    SignalError::Unfit(format!("the modal fit failed: {why}"))
 }
 
 /// Fewer samples than the analysis needs.

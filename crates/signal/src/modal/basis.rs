@@ -1,6 +1,7 @@
 //! A frequency response as a sum of modes and a smooth remainder.
 
-use crate::ResponseQuantity;
+use super::NoiseModel;
+use crate::{FrequencyResponse, ResponseQuantity};
 use faer::{Mat, c64};
 
 /// Lowest power of `s` in the remainder: damped rigid-body motion, `1/(s^2 + alpha s)`, expanded.
@@ -65,13 +66,16 @@ impl ModalModel {
     }
 }
 
-/// The frequency lines at which the functions of a model are needed, with their weights.
-pub(super) struct Lines {
+/// The frequency lines of a response with their weights, at which the functions of a model are needed.
+pub(super) struct Lines<'a> {
+    pub response: &'a FrequencyResponse,
+    /// `1 / sigma` of one real component, for each line.
+    pub weights: Vec<f64>,
     /// `f / f_ref`.
     x: Vec<f64>,
     /// `s^p` times the weight.
     factor: Vec<c64>,
-    reference_hz: f64,
+    pub reference_hz: f64,
 }
 
 /// Fills a complex column of a real matrix: real parts above, imaginary parts below.
@@ -83,17 +87,21 @@ pub(super) fn fill(matrix: &mut Mat<f64>, k: usize, values: impl Iterator<Item =
     }
 }
 
-impl Lines {
+impl<'a> Lines<'a> {
+    /// Weights from a noise model and the moduli (the data's own, or a model's), and from what is known of single lines.
     pub(super) fn new(
-        frequencies_hz: &[f64],
-        weights: &[f64],
-        quantity: ResponseQuantity,
+        response: &'a FrequencyResponse,
+        noise: &NoiseModel,
+        moduli: &[f64],
         reference_hz: f64,
     ) -> Self {
-        let x: Vec<f64> = frequencies_hz.iter().map(|f| f / reference_hz).collect();
-        let power = |x: &f64| c64::new(0.0, *x).powi(quantity.derivatives());
-        let factor = x.iter().zip(weights).map(|(x, w)| power(x) * *w).collect();
-        Self { x, factor, reference_hz }
+        let weight = |(m, factor): (&f64, &f64)| 1.0 / (noise.variance(*m) * factor).sqrt();
+        let weights: Vec<f64> =
+            moduli.iter().zip(response.variance_factors()).map(weight).collect();
+        let x: Vec<f64> = response.frequencies_hz().iter().map(|f| f / reference_hz).collect();
+        let power = |x: &f64| c64::new(0.0, *x).powi(response.quantity().derivatives());
+        let factor = x.iter().zip(&weights).map(|(x, w)| power(x) * *w).collect();
+        Self { response, weights, x, factor, reference_hz }
     }
 
     /// Scaled frequency and scaled damping `(u, 2 zeta u)`.
@@ -168,8 +176,8 @@ impl Lines {
         }
     }
 
-    /// Model times weight on every line.
-    pub(super) fn weighted_values(&self, poles: &[Pole], share: &ModalShare) -> Vec<c64> {
+    /// The model on every line.
+    pub(super) fn values(&self, poles: &[Pole], share: &ModalShare) -> Vec<c64> {
         let mut sums = vec![c64::new(0.0, 0.0); self.x.len()];
         for (k, x) in self.x.iter().enumerate() {
             // Horner over i x, then (i x)^-3 = i / x^3.
@@ -186,10 +194,8 @@ impl Lines {
                 *sum += c64::new(*a, b * x) * inverse(*x, u, d);
             }
         }
-        for (sum, factor) in sums.iter_mut().zip(&self.factor) {
-            *sum *= factor;
-        }
-        sums
+        let factors = self.factor.iter().zip(&self.weights);
+        sums.iter().zip(factors).map(|(sum, (factor, weight))| sum * factor / *weight).collect()
     }
 
     /// Squared length of the projection of a weighted residual on the two functions of a pole,

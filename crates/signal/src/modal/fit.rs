@@ -93,7 +93,7 @@ impl ModalFit {
 ///
 /// # Errors
 /// [`SignalError::NoResonance`] without starts; [`SignalError::Unfit`] for fewer lines than
-/// unknowns; [`SignalError::Fit`] if the normal equations are singular.
+/// unknowns, or normal equations that are singular.
 pub fn fit_modes(
     responses: &[FrequencyResponse],
     starts: &[Pole],

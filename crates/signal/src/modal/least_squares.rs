@@ -10,17 +10,9 @@ use nalgebra::{DMatrix, DVector};
 /// Iterations of Levenberg and Marquardt.
 const ITERATIONS: usize = 60;
 
-/// One response with its weights.
-struct Weighted<'a> {
-    response: &'a FrequencyResponse,
-    /// `1 / sigma` of one real component, for each line.
-    weights: Vec<f64>,
-    lines: Lines,
-}
-
 /// Responses with weights, to which models with common poles are fitted.
 pub(super) struct Problem<'a> {
-    parts: Vec<Weighted<'a>>,
+    parts: Vec<Lines<'a>>,
     reference_hz: f64,
 }
 
@@ -35,8 +27,7 @@ pub(super) struct Fitted {
 }
 
 impl<'a> Problem<'a> {
-    /// Weights from a noise model and the moduli (the data's own, or a model's) of each response, and from
-    /// what is known of its single lines.
+    /// Responses, each with its noise and the moduli that this depends on.
     pub(super) fn new(
         responses: &'a [FrequencyResponse],
         noise: &[NoiseModel],
@@ -45,21 +36,14 @@ impl<'a> Problem<'a> {
         let last = |r: &FrequencyResponse| r.frequencies_hz()[r.frequencies_hz().len() - 1];
         let reference_hz = responses.iter().map(last).fold(0.0, f64::max);
         let parts = responses.iter().zip(noise).zip(moduli);
-        let parts = parts.map(|((response, noise), moduli)| {
-            let factors = response.variance_factors();
-            let weights: Vec<f64> = (moduli.iter().zip(factors))
-                .map(|(m, factor)| 1.0 / (noise.variance(*m) * factor).sqrt())
-                .collect();
-            let f = response.frequencies_hz();
-            let lines = Lines::new(f, &weights, response.quantity(), reference_hz);
-            Weighted { response, weights, lines }
-        });
+        let parts =
+            parts.map(|((own, noise), moduli)| Lines::new(own, noise, moduli, reference_hz));
         Self { parts: parts.collect(), reference_hz }
     }
 
     /// Real numbers in the data: two for each line, one where the phase is unknown.
     pub(super) fn data_count(&self) -> usize {
-        let count = |part: &Weighted| {
+        let count = |part: &Lines| {
             let components = if part.response.has_phase() { 2 } else { 1 };
             components * part.weights.len()
         };
@@ -70,7 +54,7 @@ impl<'a> Problem<'a> {
     /// within `reach` bandwidths.
     pub(super) fn projection(&self, residuals: &[Vec<c64>], pole: Pole, reach: f64) -> f64 {
         let pairs = self.parts.iter().zip(residuals);
-        pairs.map(|(part, residual)| part.lines.projection(residual, pole, reach)).sum()
+        pairs.map(|(part, residual)| part.projection(residual, pole, reach)).sum()
     }
 
     /// Noise of each response about a model, and the moduli of the model.
@@ -93,8 +77,7 @@ impl<'a> Problem<'a> {
     /// poles (variable projection in Ruhe and Wedin's second form). Without, the first ones come from
     /// lending the model's phase to the data a few times, and then all are iterated together.
     pub(super) fn fit(&self, poles: &[Pole], remainder: usize) -> Result<Fitted, SignalError> {
-        let shares = self.parts.iter();
-        let shares = shares.map(|part| part.start(poles, remainder, self.reference_hz));
+        let shares = self.parts.iter().map(|part| part.start(poles, remainder));
         let mut model = ModalModel {
             poles: poles.to_vec(),
             shares: shares.collect::<Result<_, _>>()?,
@@ -190,13 +173,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-impl Weighted<'_> {
-    fn values(&self, poles: &[Pole], share: &ModalShare) -> Vec<c64> {
-        let weighted = self.lines.weighted_values(poles, share);
-        let pairs = weighted.iter().zip(&self.weights);
-        pairs.map(|(v, w)| v / *w).collect()
-    }
-
+impl Lines<'_> {
     /// Noise about a model with these values, and their moduli.
     fn noise(&self, values: &[c64]) -> (NoiseModel, Vec<f64>) {
         let residuals = self.residuals(values);
@@ -221,12 +198,7 @@ impl Weighted<'_> {
     }
 
     /// Numerators for given poles, before any iteration.
-    fn start(
-        &self,
-        poles: &[Pole],
-        remainder: usize,
-        reference_hz: f64,
-    ) -> Result<ModalShare, SignalError> {
+    fn start(&self, poles: &[Pole], remainder: usize) -> Result<ModalShare, SignalError> {
         if self.response.has_phase() {
             return self.projected(poles, remainder, self.response.values());
         }
@@ -238,7 +210,8 @@ impl Weighted<'_> {
         for pole in poles {
             let nearest = f.partition_point(|f| *f < pole.frequency_hz).min(f.len() - 1);
             let own = ModalShare { quantity, numerators: vec![[1.0, 0.0]], remainder: Vec::new() };
-            let alone = ModalModel { poles: vec![*pole], shares: vec![own], reference_hz };
+            let (poles, shares) = (vec![*pole], vec![own]);
+            let alone = ModalModel { poles, shares, reference_hz: self.reference_hz };
             let height = data[nearest].re / alone.evaluate(0, f[nearest]).norm();
             share.numerators.push([height, 0.0]);
         }
@@ -264,7 +237,7 @@ impl Weighted<'_> {
         let columns = 2 * poles.len() + remainder;
         let count = self.weights.len();
         let mut matrix = Mat::<f64>::zeros(2 * count, columns + 1);
-        self.lines.fill_linear(poles, remainder, 0, &mut matrix);
+        self.fill_linear(poles, remainder, 0, &mut matrix);
         fill(&mut matrix, columns, data.iter().zip(&self.weights).map(|(z, w)| z * *w));
         let (normal, right) = gram(&matrix);
         let x = damped_step(&normal, &right, 0.0)?;
@@ -281,8 +254,8 @@ impl Weighted<'_> {
         let columns = 4 * poles.len() + remainder;
         let count = self.weights.len();
         let mut matrix = Mat::<f64>::zeros(2 * count, columns + 1);
-        self.lines.fill_pole_derivatives(poles, share, &mut matrix);
-        self.lines.fill_linear(poles, remainder, 2 * poles.len(), &mut matrix);
+        self.fill_pole_derivatives(poles, share, &mut matrix);
+        self.fill_linear(poles, remainder, 2 * poles.len(), &mut matrix);
         let values = self.values(poles, share);
         if !self.response.has_phase() {
             turn_to(&values, &mut matrix);

@@ -1,6 +1,7 @@
 //! Normal equations of weighted least squares, equilibrated and damped.
 
 use crate::SignalError;
+use crate::error::failed_fit;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, Par};
 use nalgebra::{DMatrix, DVector};
@@ -49,7 +50,7 @@ fn factor(
         }
         ridge *= 100.0;
     }
-    Err(SignalError::Fit("the normal equations are singular; restrict the frequency range"))
+    Err(failed_fit("the normal equations are singular; restrict the frequency range"))
 }
 
 /// Solution of the normal equations with `damping` on the diagonal of the equilibrated matrix.

@@ -2,6 +2,7 @@
 
 use super::Pole;
 use crate::SignalError;
+use crate::error::failed_fit;
 use crate::statistics::{NORMAL_95, student_95};
 use faer::Mat;
 use frictionsim_output::Described;
@@ -53,15 +54,18 @@ pub struct RayleighFit {
 /// Rayleigh). A coefficient that would be negative is set to zero, and its interval begins there.
 ///
 /// # Errors
-/// [`SignalError::TooFewModes`] for fewer than 2 modes, or fewer than 3 without covariance; [`SignalError::Asked`] for
-/// a frequency not positive; [`SignalError::Fit`] for a covariance that is singular or modes at one frequency.
+/// [`SignalError::Unfit`] for fewer than 2 modes, or fewer than 3 without covariance, for a covariance that is singular
+/// and for modes at one frequency; [`SignalError::Asked`] for a frequency not positive.
 pub fn fit_rayleigh(
     samples: &[Pole],
     covariance: Option<&Mat<f64>>,
 ) -> Result<RayleighFit, SignalError> {
     let m = samples.len();
     if m < 2 || (m < 3 && covariance.is_none()) {
-        return Err(SignalError::TooFewModes(m));
+        return Err(SignalError::Unfit(format!(
+            "{m} usable damping factor(s): alpha_R and beta_R with an uncertainty need at least 2 modes of known \
+             uncertainty, or 3 without. Widen the frequency range"
+        )));
     }
     for s in samples {
         crate::error::check_positive("modal frequency", s.frequency_hz, " (Hz)")?;
@@ -74,16 +78,17 @@ pub fn fit_rayleigh(
         if k == 0 { 0.5 / x } else { 0.5 * x }
     });
     let zeta = DVector::from_iterator(m, samples.iter().map(|s| s.damping_factor));
-    let singular = SignalError::Fit("the covariance of the damping factors is singular");
+    let singular = || failed_fit("the covariance of the damping factors is singular");
     let weight = match covariance {
-        Some(c) => DMatrix::from_fn(m, m, |i, j| c[(i, j)]).cholesky().ok_or(singular)?.inverse(),
+        Some(c) => {
+            DMatrix::from_fn(m, m, |i, j| c[(i, j)]).cholesky().ok_or_else(singular)?.inverse()
+        }
         None => DMatrix::from_diagonal(&zeta.map(|z| 1.0 / (z * z).max(f64::MIN_POSITIVE))),
     };
     let normal = design.transpose() * &weight * &design;
     let right = design.transpose() * &weight * &zeta;
-    let spread = normal.clone().try_inverse().ok_or(SignalError::Fit(
-        "the modes lie at one frequency, which cannot tell alpha_R from beta_R",
-    ))?;
+    let same = "the modes lie at one frequency, which cannot tell alpha_R from beta_R";
+    let spread = normal.clone().try_inverse().ok_or_else(|| failed_fit(same))?;
     let mut x = &spread * &right;
     for k in 0..2 {
         if x[k] < 0.0 {
@@ -145,7 +150,8 @@ mod tests {
     #[test]
     fn two_modes_need_a_known_uncertainty() {
         let samples = curve(40.0, 4.5e-7, &[2000.0, 8000.0]);
-        assert!(matches!(fit_rayleigh(&samples, None), Err(SignalError::TooFewModes(2))));
+        let few = fit_rayleigh(&samples, None).unwrap_err().to_string();
+        assert!(few.starts_with("2 usable damping factor(s)"), "{few}");
         let covariance = Mat::from_fn(2, 2, |i, j| if i == j { 1e-10 } else { 0.0 });
         let fit = fit_rayleigh(&samples, Some(&covariance)).unwrap();
         assert!(fit.mass_coefficient.low < 40.0 && 40.0 < fit.mass_coefficient.high);
