@@ -1,23 +1,9 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
 use super::contacts::{NamedContact, contact, short_form, unit};
-use super::description::Description;
 use super::imported::{FileParts, near_name};
-use super::modifications::Misfit;
-use super::value::quote;
-use super::{Case, Contact, Diagnostic, Section};
-use frictionsim_physics::contact::{
-    Counterpart, Motion, RigidCounterface, RigidMotion, SlidingContact,
-};
-use frictionsim_physics::fem::{
-    MassKind, MaterialField, PlaneFormulation, RegionMaterial, RotationFrame,
-};
-use frictionsim_physics::mesh::Mesh;
-use frictionsim_physics::prestress::{
-    Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces,
-};
-use std::f64::consts::TAU;
-use std::sync::Arc;
+use crate::prelude::*;
+use frictionsim_physics::prestress::{Assembly, PrestressError, TiedSurfaces};
 
 /// Solid bodies of a mesh file that are tied together and slide on each other.
 #[derive(Clone, Debug, PartialEq)]

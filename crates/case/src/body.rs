@@ -1,14 +1,8 @@
 //! The body of a case: what it is made of, and its kinds, each with data of its own.
 
-use super::{AssemblyBody, ImportedBody};
-use frictionsim_physics::contact::RigidMotion;
-use frictionsim_physics::fem::{ModulusTable, RegionMaterial};
-use frictionsim_physics::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
-    SolidContact, SolidSpecification,
-};
+use crate::prelude::*;
+use frictionsim_physics::mesh::{AnnulusMesh, MeshError};
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// The body of a case.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! `[boundaries.*]`: what holds each boundary.
 
-use super::Section;
 use super::elastic::loss_factor;
 use super::words::{ConditionWord, HeldAxis};
-use frictionsim_physics::mesh::{BoundaryCondition, ElasticSupport};
+use crate::prelude::*;
+use frictionsim_physics::mesh::ElasticSupport;
 
 /// A boundary of the case with its condition.
 pub(super) type NamedCondition = (String, BoundaryCondition);

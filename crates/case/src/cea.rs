@@ -1,8 +1,8 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
-use super::{Body, Case, CeaMethod, Section};
+use super::CeaMethod;
+use crate::prelude::*;
 use frictionsim_physics::cea::ModeLimit;
-use frictionsim_physics::fem::MassKind;
 
 /// `[cea]`.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,13 +1,10 @@
 //! The section `[contact]`: what presses, the springs and how they stiffen with pressure, friction.
 
 use super::elastic::loss_factor;
-use super::value::quote;
+use super::solid;
 use super::words::{BaseContact, NormalLawWord, word_of};
-use super::{Case, Section, imported, solid};
-use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
-use frictionsim_physics::mesh::{AnnulusSpecification, BodySpecification, SolidContact};
-use frictionsim_physics::prestress::SlidingSurfaces;
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 
 /// `[contact]`.
 #[derive(Clone, Copy, Debug, PartialEq)]

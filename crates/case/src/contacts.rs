@@ -1,16 +1,10 @@
 //! The contacts of solid bodies: `[contacts.NAME]`, and `[contact]` with a rigid counterface.
 
-use super::Section;
 use super::contact::{contact_stiffness, friction_decay, interference};
 use super::tables::{TableFiles, topography};
 use super::words::{BaseContact, CounterfaceWord};
-use frictionsim_physics::contact::{
-    Counterpart, PairFriction, RigidCounterface, RigidMotion, RigidShape, Topography,
-};
-use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
-use nalgebra::Vector3;
-use std::f64::consts::TAU;
-use std::sync::Arc;
+use crate::prelude::*;
+use frictionsim_physics::contact::Topography;
 
 /// A contact with the names of its surfaces.
 pub(super) struct NamedContact {

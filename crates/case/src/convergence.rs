@@ -1,11 +1,8 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::body::node_count;
-use super::{Analysis, Body, BodyKind, Section};
-use frictionsim_physics::mesh::{
-    AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification,
-};
-use std::sync::Arc;
+use crate::prelude::*;
+use frictionsim_physics::mesh::ShaftSpecification;
 
 /// Fewest refinements that an order can be observed from.
 const FEWEST: usize = 3;

@@ -5,7 +5,8 @@
 
 mod estimate;
 
-use super::{Analysis, Case, CaseErrors};
+use super::sweep::evenly;
+use crate::prelude::*;
 use estimate::Size;
 use serde::{Serialize, Serializer};
 
@@ -193,10 +194,9 @@ impl Case {
     pub fn sweep_cost(&self) -> Option<StudyCost> {
         let sweep = self.sweep.as_ref()?;
         let runs = sweep.point_count();
-        let (last, tried) = (runs.saturating_sub(1), runs.min(TRIED_POINTS));
-        let points = (0..tried).map(|i| i * last / tried.max(2).saturating_sub(1));
+        let tried = runs.min(TRIED_POINTS);
         // A point that is no valid case fails at once and costs nothing.
-        let costs = points.map(|point| {
+        let costs = evenly(runs, tried).map(|point| {
             let raw = self.raw.sweep_point(&sweep.overrides(point)).ok()?;
             let case = Case::read(raw).ok()?;
             let cost = case.cost();

@@ -1,9 +1,7 @@
 //! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
-use super::{
-    Body, Case, CaseErrors, CaseKey, OnsetChoice, Section, Spacing, StabilityChoice, keys,
-    range_values,
-};
+use super::{OnsetChoice, range_values};
+use crate::prelude::*;
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,

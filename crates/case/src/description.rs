@@ -1,15 +1,11 @@
 //! The sections that describe the body of a case, of whichever kind it is.
 
-use super::boundaries::NamedCondition;
 use super::elastic::elastic;
 use super::modifications::Modification;
 use super::tables::{TableFiles, modulus_table};
 use super::words::FilePart;
-use super::{RawCase, Section, UnitsWord, boundaries, modifications};
-use frictionsim_physics::fem::{
-    ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial,
-};
-use frictionsim_physics::mesh::BoundaryCondition;
+use super::{boundaries, modifications};
+use crate::prelude::*;
 
 /// `[damping]`.
 #[derive(Clone, Copy, Debug, PartialEq)]

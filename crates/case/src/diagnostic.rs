@@ -2,8 +2,8 @@
 
 use super::shown;
 use super::shown::shown_in_place;
+use crate::prelude::*;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use std::fmt::Write as _;
 use std::ops::Range;
 
 /// Errors of a case that are shown; the others are counted.

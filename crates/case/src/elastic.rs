@@ -1,10 +1,8 @@
 //! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
 
-use super::Section;
 use super::words::AxesWord;
-use frictionsim_physics::fem::{
-    ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
-};
+use crate::prelude::*;
+use frictionsim_physics::fem::{MaterialAxes, Orthotropy, RATIOS};
 
 /// The constants of an isotropic material.
 const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];

@@ -1,13 +1,9 @@
 //! What a mesh file holds beside the mesh, as the sections that a case would have for it, in SI units.
 
-use super::value::quote;
-use super::{Location, RawItem, RawValue, UnitsWord, keys};
-use frictionsim_output::rounded;
+use crate::prelude::*;
 use frictionsim_physics::mesh::{
-    FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMesh, LeftOut, MaterialAxes,
-    ModelData,
+    FileConditionKind, FileContact, FileMaterial, MaterialAxes, ModelData,
 };
-use std::collections::BTreeMap;
 
 /// A section as a mesh file gives it.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::parameters::{number, only, read_all};
 use super::words::choice_of;
-use super::{RawItem, RawValue, Section, Spacing, VariedKey};
+use crate::prelude::*;
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,8 @@
 //! `[frf]`: a frequency response of the model.
 
-use super::{Body, FrfMethod, Section};
-use frictionsim_physics::fem::MassKind;
-use frictionsim_physics::frf::{Direction, FrfBoundary, Terminal};
-use frictionsim_signal::ResponseQuantity;
+use super::FrfMethod;
+use crate::prelude::*;
+use frictionsim_physics::frf::{Direction, Terminal};
 
 /// `[frf]`.
 #[derive(Clone, Debug, PartialEq)]

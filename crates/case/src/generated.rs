@@ -3,18 +3,11 @@
 
 use super::body::node_count;
 use super::contact::contact;
-use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
-use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
-use super::{
-    Body, BodyKind, Contact, Section, assembly, boundaries, imported, modifications, solid,
-};
-use frictionsim_physics::contact::Motion;
-use frictionsim_physics::fem::{RegionMaterial, RotationFrame};
-use frictionsim_physics::mesh::{
-    AnnulusSpecification, BoundaryCondition, ShaftSpecification, SolidSpecification,
-};
+use super::{assembly, boundaries, modifications, solid};
+use crate::prelude::*;
+use frictionsim_physics::mesh::ShaftSpecification;
 
 /// The generated body with what its modifications take away or move, and its contact. Closes both sections.
 pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {

@@ -1,20 +1,14 @@
 //! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
-use super::description::{Description, has_common_constants};
+use super::description::has_common_constants;
 use super::elastic::elastic;
-use super::modifications::{Misfit, reshaped};
+use super::inclusion;
+use super::modifications::reshaped;
 use super::tables::modulus_table;
-use super::value::quote;
 use super::words::CounterfaceWord;
-use super::{Diagnostic, MeshBytes, RawCase, Section, inclusion, suggestion};
-use frictionsim_bounds::first_of;
+use crate::prelude::*;
 use frictionsim_physics::contact::ContactInterface;
-use frictionsim_physics::fem::{RayleighDamping, RegionMaterial};
-use frictionsim_physics::mesh::{
-    BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
-    Mesh, refined_file, repeated_file,
-};
-use std::sync::Arc;
+use frictionsim_physics::mesh::{BodyPart, CyclicSymmetry, refined_file, repeated_file};
 
 /// Names that a message lists.
 const MOST_NAMES: usize = 10;
@@ -36,7 +30,16 @@ pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option
     let direction = section.vector("direction");
     let speed = section.optional_number("speed");
     let word: CounterfaceWord = section.choice("counterface");
-    let opposite = opposite_curve(section, word);
+    // Only two bodies have it.
+    let (key, opposite) = ("counter_boundary", section.optional_text("counter_boundary"));
+    let are_two = word == CounterfaceWord::Body;
+    refuse_if!(are_two && opposite.is_none(); section, key,
+        "contact.counterface = \"body\" needs contact.counter_boundary";
+        "the curve of the other body"; "name the physical curve of the other body");
+    refuse_if!(!are_two && opposite.is_some(); section, key,
+        "contact.counter_boundary is for two bodies"; "the curve of the other body";
+        "set contact.counterface = \"body\", or leave it out");
+    let opposite = opposite.filter(|_| are_two);
     refuse_if!(word == CounterfaceWord::Sphere; section, "counterface",
         "contact.counterface = \"sphere\" is for a mesh of solid elements"; "the body is plane";
         "leave it out for a round contact curve; of a straight one give \"plane\" with `speed`");
@@ -283,24 +286,6 @@ impl ImportedBody {
         let mesh = Mesh::from_gmsh(&fine, specification)?;
         Ok(Self::new(mesh, Arc::new(fine), specification.clone()))
     }
-}
-
-/// `contact.counter_boundary`, which only two bodies have.
-fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
-    let key = "counter_boundary";
-    let given = section.optional_text(key);
-    match (word, &given) {
-        (CounterfaceWord::Body, None) => refuse!(section, key,
-            "contact.counterface = \"body\" needs contact.counter_boundary";
-            "the curve of the other body"; "name the physical curve of the other body"),
-        (CounterfaceWord::Cylinder | CounterfaceWord::Plane | CounterfaceWord::Sphere, Some(_)) => {
-            refuse!(section, key, "contact.counter_boundary is for two bodies";
-                "the curve of the other body";
-                "set contact.counterface = \"body\", or leave it out");
-        }
-        _ => return given,
-    }
-    None
 }
 
 /// Two bodies must have their curves before each other, at most as far into each other as the interference.

@@ -1,8 +1,9 @@
 //! Mesh files with the files that they include.
 
+use crate::prelude::*;
 use frictionsim_bounds::{Budget, MESH, Refusal};
 use frictionsim_physics::mesh::{MeshFormat, included_text};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The bytes of a mesh file; lines that include a file are replaced by its text.
 ///

@@ -2,9 +2,8 @@
 //! `frictionsim keys`, the JSON schema and the commented template are made from. Of a key it says kind of value, bound,
 //! unit, default and meaning.
 
-use super::RawValue;
 use super::words::words_named;
-use std::borrow::Cow;
+use crate::prelude::*;
 use std::sync::LazyLock;
 
 /// Where a number must lie.

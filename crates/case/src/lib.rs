@@ -33,6 +33,7 @@ mod node;
 mod normal_force;
 mod overrides;
 mod parameters;
+mod prelude;
 mod raw;
 mod reader;
 pub mod reference;

@@ -2,14 +2,12 @@
 
 use super::assembly::AssemblyParts;
 use super::contact::contact;
-use super::description::{Description, has_common_constants};
+use super::description::has_common_constants;
 use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
 use super::imported::FileParts;
-use super::{Body, BodyKind, Contact, MeshBytes, Section, assembly, imported, modifications};
-use frictionsim_physics::fem::RegionMaterial;
-use frictionsim_physics::mesh::{BodySpecification, CounterfaceSpecification};
-use frictionsim_physics::prestress::BaseChoice;
+use super::{assembly, modifications};
+use crate::prelude::*;
 
 /// The body with its modifications, its contact, and the mesh file that it is of; no body where a mesh file makes none,
 /// which is an error already.

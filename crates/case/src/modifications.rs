@@ -1,13 +1,9 @@
 //! `[modifications.*]`: what is added to a body, or taken away from it, and the annulus whose symmetry that breaks.
 
 use super::reader::NodePlace;
-use super::{Body, BodyKind, ImportedBody, Location, Section};
-use frictionsim_physics::mesh::{
-    AnnulusMesh, AnnulusSpecification, Attachment, BodyError, BodySpecification,
-    CounterfaceSpecification, DampedPatch, FileMesh, Mesh,
-};
-use nalgebra::{Matrix3, Vector3};
-use std::sync::Arc;
+use crate::prelude::*;
+use frictionsim_physics::mesh::{AnnulusMesh, Attachment, DampedPatch};
+use nalgebra::Matrix3;
 
 /// Keys that need a node, and keys that need elements.
 const AT_NODES: [&str; 4] = ["mass", "stiffness", "damping", "direction"];

@@ -2,9 +2,8 @@
 
 use super::body::solid_node_count;
 use super::reader::NodePlace;
-use super::{Body, BodyKind, Location, Section};
-use frictionsim_physics::mesh::{AnnulusSpecification, Counterface, SolidSpecification, Strip};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim_physics::mesh::Strip;
 
 /// Share of the body's size beyond which the nearest node to a place is hardly what was meant.
 const FAR: f64 = 0.05;

@@ -3,11 +3,9 @@
 //! Without friction the summed normal force of a contact rises with its interference, by straight pieces where contact
 //! is rigid. The interference that belongs to a force is the one root of their difference.
 
-use super::{BodyKind, Case, CaseErrors};
-use frictionsim_physics::contact::{Counterpart, SlidingContact};
-use frictionsim_physics::fem::MassKind;
+use crate::prelude::*;
 use frictionsim_physics::linalg::{Bracket, newton_root};
-use frictionsim_physics::mesh::{SolidSector, Strip};
+use frictionsim_physics::mesh::Strip;
 use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
 
 /// Factor of the steps up to an interference that presses enough.

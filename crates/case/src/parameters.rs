@@ -1,9 +1,7 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
 use super::value::collect_leaves;
-use super::{
-    Bound, CaseErrors, CaseKey, Kind, Location, RawItem, RawTable, RawValue, Section, keys,
-};
+use crate::prelude::*;
 
 /// Sections that make the model.
 const MODEL: &str = "geometry, mesh, boundaries, material, materials, damping, contact, contacts, \

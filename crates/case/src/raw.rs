@@ -1,15 +1,14 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
 use super::diagnostic::BACKSLASH;
-use super::value::{collect_leaves, convert_table, quote, table_of, with_point};
-use super::{
-    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides,
-};
-use frictionsim_physics::mesh::{FileMesh, MeshFileError};
+use super::value::{collect_leaves, convert_table, with_point};
+use super::{Source, overrides};
+use crate::prelude::*;
+use frictionsim_physics::mesh::MeshFileError;
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::path::PathBuf;
+use std::sync::OnceLock;
 use toml::de::DeTable;
 
 /// A parsed, not yet validated case: the file's TOML with the overrides laid over it.

@@ -4,16 +4,11 @@
 mod lists;
 
 use super::value::{cut, with_point};
-use super::words::{self, Choice};
-use super::{
-    Bound, CaseKey, Default, Diagnostic, Kind, Location, RawItem, RawTable, RawValue, keys,
-    suggestion,
-};
+use super::words::Choice;
+use super::{Default, words};
+use crate::prelude::*;
 pub(super) use lists::NodePlace;
 pub use lists::range_values;
-use std::borrow::Cow;
-use std::cell::RefCell;
-use std::collections::BTreeSet;
 
 /// Unknown keys of one section that are named; the others are counted.
 const MOST_UNKNOWN: usize = 10;
@@ -141,9 +136,8 @@ impl<'a> Section<'a> {
 
     /// Where a key's value is written; the section's head where it is not.
     pub fn place(&self, key: &str) -> Location {
-        self.table
-            .and_then(|table| table.get(key))
-            .map_or_else(|| self.at.clone(), |item| item.at.clone())
+        let item = self.table.and_then(|table| table.get(key));
+        item.map_or(&self.at, |item| &item.at).clone()
     }
 
     /// Whether the case gives a key.
@@ -181,15 +175,12 @@ impl<'a> Section<'a> {
 
     /// Length of a key that is given as a list.
     pub fn list_length(&self, key: &str) -> Option<usize> {
-        match self.given(key) {
-            Some(RawValue::Array(items)) => Some(items.len()),
-            _ => None,
-        }
+        if let RawValue::Array(items) = self.given(key)? { Some(items.len()) } else { None }
     }
 
     /// Whether a key is given as this word.
     pub fn is_text(&self, key: &str, word: &str) -> bool {
-        matches!(self.given(key), Some(RawValue::String(text)) if text == word)
+        self.given(key).and_then(RawValue::text) == Some(word)
     }
 
     /// Whether a key is given as a string.

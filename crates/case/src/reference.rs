@@ -1,8 +1,8 @@
 //! Reference of the case keys, in the forms that people and editors read.
 
-use super::{Bound, CaseKey, Default, KEYS, Kind};
+use super::Default;
+use crate::prelude::*;
 use serde_json::{Value, json};
-use std::fmt::Write as _;
 
 /// Sections that the built-in disc needs; of another body its mesh file may give what stands there.
 const OF_DISC: [&str; 4] = ["geometry", "mesh", "material", "contact"];

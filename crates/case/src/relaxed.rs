@@ -1,8 +1,7 @@
 //! What materials with loss factors and tables over frequency are in time.
 
-use super::{Case, CaseErrors, ModeLimit};
-use frictionsim_physics::fem::{MaterialField, MaxwellChain, RegionMaterial};
-use frictionsim_physics::linalg::c64;
+use crate::prelude::*;
+use frictionsim_physics::fem::MaxwellChain;
 
 /// Band of a constant loss factor: from this part of `cea.max_frequency_hz` up to that.
 const LOWEST: f64 = 0.01;

@@ -2,10 +2,8 @@
 //! section and says what to add.
 
 use super::checks::material_key;
-use super::value::table_of;
-use super::{Analysis, BodyKind, Case, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
-use frictionsim_physics::mesh::AnnulusSpecification;
-use frictionsim_physics::prestress::BaseChoice;
+use super::{Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
+use crate::prelude::*;
 
 impl Case {
     /// Whether it has the section of an analysis.

@@ -1,12 +1,7 @@
 //! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
 
-use super::boundaries::NamedCondition;
-use super::description::Description;
-use super::{Section, imported, suggestion};
-use frictionsim_physics::fem::RegionMaterial;
-use frictionsim_physics::mesh::{
-    AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
-};
+use crate::prelude::*;
+use frictionsim_physics::mesh::SolidPart;
 
 /// Elements over the thickness; `None` in the plane, where they are an error.
 pub(super) fn axial_elements(own: &Description<'_>) -> Option<usize> {

@@ -3,13 +3,9 @@
 
 use super::file_sections::sections;
 use super::taken::drop_key;
-use super::value::quote;
-use super::{FileSection, RawValue, UnitsWord, inclusion};
-use frictionsim_physics::mesh::{FileElasticity, FileElement, FileMesh, LeftOut, SurfaceFace};
-use nalgebra::Vector3;
-use std::collections::BTreeSet;
-use std::fmt::Write as _;
-use std::path::Path;
+use super::{FileSection, inclusion};
+use crate::prelude::*;
+use frictionsim_physics::mesh::{FileElement, SurfaceFace};
 
 /// Densities below this are tonnes for each cubic millimetre: the lightest solid has 1 kg/m3, the heaviest 3e-8 t/mm3.
 const TONNES: f64 = 1e-6;

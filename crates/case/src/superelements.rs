@@ -1,11 +1,11 @@
 //! `[superelements.*]`: systems that other programs have reduced to matrices.
 
+use super::Findings;
 use super::cea::mode_selection;
-use super::{CaseErrors, Findings, ModeLimit, RawCase, Section};
+use crate::prelude::*;
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;
 use sha2::{Digest, Sha256};
-use std::path::Path;
 
 /// The matrices of a superelement, in the order of their keys.
 const MATRICES: [&str; 3] = ["mass", "damping", "stiffness"];

@@ -1,11 +1,8 @@
 //! `[sweep]`: any case key over several values.
 
 use super::value::range_count;
-use super::{
-    Analysis, Bound, Case, CaseErrors, Combination, Diagnostic, RawItem, RawValue, Section,
-    VariedKey, parameters,
-};
-use std::collections::BTreeSet;
+use super::{Combination, parameters};
+use crate::prelude::*;
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,10 +169,8 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
     let keys = case.sweep.iter().flat_map(|sweep| &sweep.keys);
     let most = (EFFORT / (each * keys.clone().count().max(1))).clamp(2, 1000);
     let swept = keys.map(|key| {
-        let last = key.values.len().saturating_sub(1);
-        let tried = key.values.len().min(most);
-        let tried = (0..tried).map(|i| &key.values[i * last / tried.max(2).saturating_sub(1)]);
-        ("swept", &key.varied, tried.cloned().collect::<Vec<_>>())
+        let tried = evenly(key.values.len(), most).map(|k| key.values[k].clone());
+        ("swept", &key.varied, tried.collect::<Vec<_>>())
     });
     let uncertain = case.uncertainty.iter().flat_map(|study| &study.parameters);
     let uncertain =
@@ -210,6 +205,12 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
         }
     }
     if errors.is_empty() { Ok(()) } else { Err(case.raw.errors(errors)) }
+}
+
+/// At most so many of the places in a list, evenly spaced.
+pub(super) fn evenly(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let (last, tried) = (count.saturating_sub(1), count.min(most));
+    (0..tried).map(move |i| i * last / tried.max(2).saturating_sub(1))
 }
 
 /// A number next to one, in TOML.

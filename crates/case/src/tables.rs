@@ -1,13 +1,11 @@
 //! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured
 //! surface.
 
-use super::{RawCase, Section, TableBytes};
+use super::TableBytes;
+use crate::prelude::*;
 use frictionsim_bounds::TABLE;
 use frictionsim_physics::contact::Topography;
-use frictionsim_physics::fem::ModulusTable;
 use frictionsim_signal::reader::{ModulusRow, read_gaps, read_moduli};
-use std::cell::RefCell;
-use std::sync::Arc;
 
 /// Softest material, Pa: with less the frequencies of a body spread over more decades than a table can follow.
 const SOFTEST: f64 = 100.0;

@@ -5,15 +5,11 @@
 //! one there. The same holds for a contact or a tie whose surfaces it names, and for a motion whose axis it gives.
 //! Elastic constants are taken together, and so are the two coefficients of Rayleigh's damping.
 
+use super::FileSection;
 use super::elastic::ORTHOTROPIC;
 use super::file_sections::sections;
-use super::value::table_of;
 use super::words::choice_of;
-use super::{
-    Diagnostic, FileSection, Location, RawCase, RawItem, RawTable, RawValue, UnitsWord, imported,
-};
-use frictionsim_physics::mesh::LeftOut;
-use std::fmt::Write as _;
+use crate::prelude::*;
 
 /// Entries that a warning names.
 const MOST_NAMED: usize = 8;
@@ -80,8 +76,8 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
 
 /// The texts of a key: one, or a list.
 fn texts(raw: &RawCase, key: &str) -> Vec<String> {
-    let items = raw.find(key).map_or(&[][..], RawItem::listed);
-    items.iter().filter_map(|item| item.value.text().map(str::to_owned)).collect()
+    let items = raw.find(key).map_or(&[][..], RawItem::listed).iter();
+    items.filter_map(|item| item.value.text().map(str::to_owned)).collect()
 }
 
 /// Adds to the case what it does not give itself; what was added.
@@ -89,14 +85,11 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
     let (group, name) = (section.path.0, section.path.1.as_str());
     if let Some(of_group) = table_of(root, group) {
         let own = if group == "material" { Some(of_group) } else { table_of(of_group, name) };
-        if group == "contacts" || group == "ties" {
-            let is_known = |entry: &RawItem| has_sides(entry, &section);
-            if own.is_none() && of_group.values().any(is_known) {
-                return None;
-            }
-        }
+        let is_known = |entry: &RawItem| has_sides(entry, &section);
         if let Some(own) = own {
             section.keys.retain(|(key, _)| !is_given(own, group, key));
+        } else if ["contacts", "ties"].contains(&group) && of_group.values().any(is_known) {
+            return None;
         }
     } else if group == "material" && !section.keys.iter().any(|key| key.0 == "density") {
         // A formulation alone makes no material.

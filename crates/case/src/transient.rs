@@ -1,11 +1,10 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::{Body, BodyKind, Case, CaseErrors, PlacedNode, Section};
-use frictionsim_physics::contact::SlidingContact;
-use frictionsim_physics::mesh::{Counterface, SolidContact};
+use super::PlacedNode;
+use crate::prelude::*;
 use frictionsim_physics::transient::{
-    InitialState, OperatorChoice, Perturbation, RecorderSettings, StandingWave, TimeStep,
-    TransientSettings, whole_intervals,
+    InitialState, Perturbation, RecorderSettings, StandingWave, TimeStep, TransientSettings,
+    whole_intervals,
 };
 
 /// Snapshots after the end of a run that are named one by one.

@@ -1,7 +1,7 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
 use super::parameters::{number, only, read_all};
-use super::{RawItem, RawValue, Section, VariedKey};
+use crate::prelude::*;
 use frictionsim_physics::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.

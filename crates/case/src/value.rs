@@ -1,8 +1,7 @@
 //! Values of a case as its TOML says them, each with its place.
 
-use super::{Diagnostic, Location};
+use crate::prelude::*;
 use frictionsim_bounds::shortened;
-use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 

@@ -1,18 +1,8 @@
 //! A body of revolution in three dimensions on its whole mesh: what it is where something breaks the symmetry that its
 //! harmonics are solved by.
 
-use super::modifications::{Misfit, Modification, reshaped};
-use super::{AssemblyBody, Body, BodyKind, Case, CaseErrors, Contact};
-use frictionsim_physics::contact::{
-    Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
-};
-use frictionsim_physics::fem::RegionMaterial;
-use frictionsim_physics::mesh::{
-    BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector, SolidSpecification,
-};
-use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
-use std::borrow::Cow;
-use std::sync::Arc;
+use super::modifications::{Modification, reshaped};
+use crate::prelude::*;
 
 impl Case {
     /// The case with a body of revolution on its whole mesh, as with `cea.method = "sparse"`.

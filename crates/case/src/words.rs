@@ -1,11 +1,9 @@
 //! The choices that a case names by a word, and their words.
 
-use frictionsim_physics::fem::{MassKind, PlaneFormulation, RotationFrame};
-use frictionsim_physics::frf::{Direction, FrfBoundary};
+use crate::prelude::*;
+use frictionsim_physics::frf::Direction;
 use frictionsim_physics::mesh::ElementKind;
-use frictionsim_physics::prestress::BaseChoice;
-use frictionsim_physics::transient::{InitialState, OperatorChoice};
-use frictionsim_signal::ResponseQuantity;
+use frictionsim_physics::transient::InitialState;
 
 /// A choice that a case names by a word.
 pub(super) trait Choice: Copy + 'static {

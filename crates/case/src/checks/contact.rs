@@ -4,10 +4,7 @@ use super::Limit;
 use super::material::modulus_key;
 use super::mesh::lengths;
 use crate::contact::{Springs, section_of};
-use crate::{BodyKind, Case, Diagnostic};
-use frictionsim_physics::mesh::{Counterface, SolidContact};
-use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
-use nalgebra::Vector3;
+use crate::prelude::*;
 
 /// Sliding speed of dry contacts, m/s: that of brakes of racing cars and trains lies below.
 const LARGEST_SPEED: f64 = 200.0;

@@ -1,8 +1,7 @@
 //! Materials that hardly any solid has.
 
 use super::Limit;
-use crate::{Case, Diagnostic, ModeLimit};
-use frictionsim_physics::fem::{ElasticMaterial, PlaneFormulation};
+use crate::prelude::*;
 use std::ops::RangeInclusive;
 
 /// Speeds of waves in a bar, m/s: soft rubber to ceramics.

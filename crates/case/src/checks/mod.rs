@@ -5,9 +5,8 @@ mod material;
 mod mesh;
 mod motion;
 
-use super::{Case, CaseKey, Diagnostic, KEYS};
-use frictionsim_physics::linalg::c64;
-use frictionsim_signal::{FrequencyResponse, ResponseQuantity};
+use crate::prelude::*;
+use frictionsim_signal::FrequencyResponse;
 pub(super) use material::material_key;
 
 /// A value beyond what is plausible.

@@ -1,17 +1,11 @@
 //! The size of a mesh, and the operation counts and memory behind the cost of each analysis.
 
 use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
-use crate::{
-    BodyKind, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeLimit, StabilityChoice, TimeStep,
-    Transient,
-};
+use crate::prelude::*;
+use crate::{Cea, CeaMethod, Cycle, Frf, FrfMethod, TimeStep, Transient};
 use frictionsim_physics::cycle::BasinRequest;
-use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RegionMaterial};
-use frictionsim_physics::frf::FrfBoundary;
 use frictionsim_physics::linalg::SparsityPattern;
-use frictionsim_physics::mesh::{AnnulusSpecification, Mesh, SolidSpecification};
-use frictionsim_physics::transient::{OperatorChoice, stable_step_limit};
-use std::f64::consts::TAU;
+use frictionsim_physics::transient::stable_step_limit;
 
 /// Operations for each eigenvalue of a harmonic: iterations, residual, its branch over friction.
 const HARMONIC_PAIR: f64 = 5e5;

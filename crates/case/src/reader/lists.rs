@@ -1,9 +1,8 @@
 //! Lists, ranges, and nodes by number or by place.
 
 use super::Section;
+use crate::prelude::*;
 use crate::words::Choice;
-use crate::{Bound, Kind, Location, RawItem, RawTable, RawValue, Spacing, keys};
-use frictionsim_output::rounded;
 
 /// Longest list that a range may stand for.
 const LONGEST_RANGE: usize = 100_000;
