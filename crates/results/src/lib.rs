@@ -32,10 +32,10 @@ pub mod uncertainty;
 mod universal;
 mod vtu;
 
-use distinct::{distinct, grouped};
+use distinct::distinct;
 use store::{folder, framed, manifest, record, reopening};
 
-pub use distinct::{number_ranges, plural, sorted};
+pub use distinct::{grouped, number_ranges, plural, sorted};
 pub use drawing::{DOTS_PER_INCH, Declaration, DrawingError, DrawingOptions, Format, declared};
 pub use extent::Extent;
 pub use report::{Finding, Page, write_page, write_table, write_tables};

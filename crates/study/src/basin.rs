@@ -1,14 +1,12 @@
 //! Search of a case for the basin boundary of two waves, or of two modes of a body without symmetry.
 //! `cargo run --example studies` runs one.
 
-use super::StudyError;
 use super::cycle::{Steady, disc_model, longest_step, operating_point};
 use super::transient::SteppedMesh;
 use crate::prelude::*;
 use frictionsim_physics::cycle::periodic::{GrowingMode, ModeContest, PeriodMap};
 use frictionsim_physics::cycle::{BasinBoundary, BasinRequest};
 use frictionsim_physics::transient::OperatorChoice;
-use frictionsim_results::Manifest;
 use frictionsim_results::basin::BasinSummary;
 
 /// Bisects for the amplitude ratio at saturation that decides between the two rivals of `[basin]`.

@@ -1,12 +1,11 @@
 //! Why a study has no result.
 
 use super::fit::FitError;
-use crate::prelude::*;
-use frictionsim_physics::fem::operator::SimdError;
-use frictionsim_physics::frf::FrfError;
-use frictionsim_physics::mesh::MeshError;
-use frictionsim_physics::prestress::PrestressError;
-use frictionsim_physics::transient::TransientError;
+use frictionsim_case::CaseErrors;
+use frictionsim_physics::{
+    cea::CeaError, cycle::CycleError, fem::operator::SimdError, frf::FrfError, mesh::MeshError,
+    prestress::PrestressError, transient::TransientError,
+};
 
 /// Why a study of a case has no result.
 #[derive(Debug, thiserror::Error)]
@@ -20,20 +19,9 @@ pub enum StudyError {
     /// The transient cannot start, or belongs to another case.
     #[error(transparent)]
     Transient(#[from] TransientError),
-    /// The transient became numerically unstable.
-    #[error("{error}: {remedy}")]
-    Unstable {
-        /// Where, and how it showed.
-        error: TransientError,
-        /// Which keys to change.
-        remedy: &'static str,
-    },
     /// There is no such limit cycle, or it cannot be looked for.
     #[error(transparent)]
     Cycle(#[from] CycleError),
-    /// No limit cycle was found, of any family: why, family by family.
-    #[error("no limit cycle found: {0}")]
-    NoCycle(String),
     /// An instruction set that this processor has not.
     #[error(transparent)]
     Simd(#[from] SimdError),
@@ -43,15 +31,12 @@ pub enum StudyError {
     /// A fit that cannot be made.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The first sample of a design, `key = value`, cannot be solved: why not.
-    #[error("{0}")]
-    Design(String),
-    /// The modes of a linear stage would take too long: nodes that a mesh may have for them.
-    #[error("more than {0} nodes")]
-    TooManyNodes(usize),
     /// There is no frequency response.
     #[error(transparent)]
     Response(#[from] FrfError),
+    /// The run has no result for another reason, in words.
+    #[error("{0}")]
+    Failed(String),
 }
 
 impl From<MeshError> for StudyError {

@@ -1,10 +1,9 @@
 //! The modes that a transient has in its linear stage.
 
 use super::eigenvalues::asked_modes;
+use super::modes_at_own_friction;
 use super::tangent::{MODES_IN_TIME, options_in_time};
-use super::{StudyError, modes_at_own_friction};
 use crate::prelude::*;
-use frictionsim_physics::prestress::DampingModel;
 use frictionsim_results::charts::ModeLine;
 use frictionsim_results::transient::LinearStage;
 
@@ -14,11 +13,11 @@ const MOST_NODES: usize = 30_000;
 /// Unstable modes of steady sliding at the case's own friction coefficient, as the time loop has it.
 ///
 /// # Errors
-/// [`StudyError::TooManyNodes`]; those of steady sliding, which would open, say, and of the solver.
+/// A mesh of too many nodes; those of steady sliding, which would open, say, and of the solver.
 pub fn linear_stage(case: &Case) -> Result<LinearStage, StudyError> {
     let imported = case.body.imported();
     if imported.is_some_and(|imported| imported.mesh.node_count() > MOST_NODES) {
-        return Err(StudyError::TooManyNodes(MOST_NODES));
+        return Err(StudyError::Failed(format!("more than {MOST_NODES} nodes")));
     }
     let modes = modes(case)?;
     let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());

@@ -1,12 +1,10 @@
 //! Modal assurance of measured shapes against the modes of a case.
 
-use super::StudyError;
 use super::eigenvalues::{SlidingModel, solve};
 use super::fit::least_cost;
 use crate::prelude::*;
 use frictionsim_results::mac::{MacMode, MacPair, MacShape, MacSummary};
 use frictionsim_signal::reader::MeasuredShape;
-use nalgebra::Vector3;
 
 /// Distance from the nearest node, as a share of half the body's size, beyond which a point lies off the body.
 const FAR: f64 = 0.05;
@@ -134,15 +132,14 @@ impl Placed {
         let own = nearest(scale);
         let off = own.iter().filter(|(_, away)| *away > reach).count();
         if 2 * off > own.len() {
-            return Err(off_body(case, shape, (off, &own), &|factor: f64| {
+            let fits = |(factor, _): &&(f64, &str)| {
                 let there = nearest(scale * factor);
                 let near = there.iter().filter(|(_, away)| *away <= reach).count();
                 // Points shrunk into one place are near to anything.
-                let nodes: std::collections::BTreeSet<usize> =
-                    there.iter().map(|(node, _)| *node).collect();
+                let nodes: BTreeSet<usize> = there.iter().map(|(node, _)| *node).collect();
                 10 * near >= 9 * there.len() && 2 * nodes.len() > there.len()
-            })
-            .into());
+            };
+            return Err(off_body(case, shape, (off, &own), UNITS.iter().find(fits)).into());
         }
         Ok(Self {
             nodes: own.iter().map(|(node, away)| (*away <= reach).then_some(*node)).collect(),
@@ -174,10 +171,10 @@ fn off_body(
     case: &Case,
     shape: &MeasuredShape,
     (off, own): (usize, &[(usize, f64)]),
-    fits: &dyn Fn(f64) -> bool,
-) -> frictionsim_case::CaseErrors {
+    unit: Option<&(f64, &str)>,
+) -> CaseErrors {
     let farthest = own.iter().fold(0.0_f64, |m, (_, away)| m.max(*away));
-    let help = match UNITS.iter().find(|(factor, _)| fits(*factor)) {
+    let help = match unit {
         Some((factor, unit)) => {
             format!("the points would lie on it in {unit}: add --scale {factor}")
         }
@@ -186,10 +183,7 @@ fn off_body(
                 .to_owned()
         }
     };
-    let key = match case.raw.find("mesh.file") {
-        Some(_) => "mesh.file",
-        None => "geometry",
-    };
+    let key = if case.raw.find("mesh.file").is_some() { "mesh.file" } else { "geometry" };
     refusal!(case, key,
         "shape {}: {off} of {} points lie off the body, up to {farthest:.3e} m from its nearest \
          node", shape.name, own.len(); "half its size is {:.3e} m", case.body.size(); "{help}")

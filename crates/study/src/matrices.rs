@@ -1,11 +1,10 @@
 //! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
 use super::eigenvalues::{BasePoint, Solver, WholeMesh};
-use super::{StudyError, tangent_options};
+use super::tangent_options;
 use crate::prelude::*;
 use frictionsim_physics::contact::Row;
 use frictionsim_physics::linalg::{MarketMatrix, MatrixPolynomial};
-use frictionsim_physics::order::range;
 use frictionsim_results::matrices::{
     ExportedContactPoint, ExportedMatrix, ExportedSystem, ExportedUnknown, FrictionPower,
     MatrixRole,
@@ -38,7 +37,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
     let body = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
     let tangent = &body.own_tangent(case)?;
     let friction = case.contact.sliding.friction_coefficient;
-    let [smallest, largest] = range(frictions.iter().copied().chain([friction]));
+    let [smallest, largest] = order::range(frictions.iter().copied().chain([friction]));
     // The polynomials are those of one set of pressed points, which changes at `changes`.
     let changes = || body.range.changes.iter().copied();
     let below = changes().filter(|change| *change <= friction);

@@ -1,8 +1,8 @@
 //! The points of a sweep, each a case of its own, and the shards they are dealt out to.
 
 use crate::prelude::*;
-use frictionsim_case::{Analysis, Sweep};
-use serde_json::{Map, Value};
+use frictionsim_case::Sweep;
+use serde_json::Map;
 use std::str::FromStr;
 
 /// Part `number` of `count` parts that a sweep is dealt out to.

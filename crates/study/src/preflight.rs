@@ -3,7 +3,7 @@
 use super::eigenvalues::Solver;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
-use super::{StudyError, SweepPlan, eigenvalues, improve};
+use super::{SweepPlan, eigenvalues, improve};
 use crate::prelude::*;
 use frictionsim_case::{Cost, Diagnostic, Location};
 

@@ -1,23 +1,34 @@
-//! What most studies name of other crates; what is of this one is named where it is used.
+//! What most studies name of other crates, and why they fail; what else is of this one is named where it is used.
 
+pub(crate) use crate::error::StudyError;
 pub(crate) use frictionsim_case::{
-    AssemblyBody, BodyKind, Case, CaseErrors, Cea, CeaMethod, refusal,
+    Analysis, AssemblyBody, BodyKind, Case, CaseErrors, Cea, CeaMethod, ModificationKind,
+    StabilityChoice, refusal,
 };
+pub(crate) use frictionsim_output::rounded;
 pub(crate) use frictionsim_physics::{
     cea::{
-        CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest, UnstableInterval,
-        Unwatched, cyclic::WaveSweep,
+        CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, PartWatch, SweepRequest,
+        SweepWatch, UnstableInterval, Unwatched, cyclic::WaveSweep,
     },
-    cycle::{CycleError, Family},
+    contact::{ContactInterface, ContactSurface},
+    cycle::{CycleError, Family, Parameter},
     fem::{MassKind, Triplets, operator::SimdLevel},
     linalg::{Mat, c64},
-    mesh::{Mesh, SolidSector},
-    prestress::{Assembly, SlidingTangent, TangentOptions},
+    mesh::{AnnulusMesh, Mesh, SolidSector, Strip},
+    order, parallel,
+    prestress::{
+        Assembly, BaseChoice, DampingModel, SlidingSurfaces, SlidingTangent, TangentOptions,
+        WaveTangent,
+    },
+    transient::TransientModel,
 };
-pub(crate) use frictionsim_results::{ShownBody, sorted};
-pub(crate) use nalgebra::DMatrix;
+pub(crate) use frictionsim_results::{Manifest, ShownBody, sorted};
+pub(crate) use nalgebra::{DMatrix, Matrix3, Vector3};
+pub(crate) use serde_json::Value;
 pub(crate) use std::{
     collections::{BTreeMap, BTreeSet},
     f64::consts::TAU,
     sync::Arc,
+    time::Instant,
 };

@@ -12,7 +12,7 @@
 //! ```
 
 use super::eigenvalues::{WholeMesh, wave_tangent};
-use super::{StudyError, tangent_options};
+use super::tangent_options;
 use crate::prelude::*;
 use frictionsim_case::{Frf, FrfMethod};
 use frictionsim_physics::frf::{
@@ -20,8 +20,7 @@ use frictionsim_physics::frf::{
     direct_response, reduced_response,
 };
 use frictionsim_physics::linalg::GaussianNoise;
-use frictionsim_physics::mesh::{BoundaryCondition, Strip};
-use frictionsim_physics::prestress::{BaseChoice, WaveTangent};
+use frictionsim_physics::mesh::BoundaryCondition;
 use frictionsim_results::ResponseSummary;
 
 /// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are

@@ -1,16 +1,13 @@
 //! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep
 //! holds.
 
+use super::basin;
 use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use super::eigenvalues::{self, Solved};
 use super::transient::TransientStudy;
-use super::{StudyError, basin};
 use crate::prelude::*;
-use frictionsim_case::Analysis;
 use frictionsim_results::cycle::CycleSummary;
-use frictionsim_results::{self, Head, Manifest, object};
-use serde_json::Value;
-use std::time::Instant;
+use frictionsim_results::{self, Head, object};
 
 /// Runs an analysis of a case and gives its summary; nothing is kept that would only go to files.
 ///

@@ -1,6 +1,5 @@
 //! The eigenvalues of a superelement that stands free.
 
-use super::StudyError;
 use crate::prelude::*;
 use frictionsim_case::FreeSystem;
 use frictionsim_physics::cea::quadratic_modes;

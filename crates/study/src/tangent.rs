@@ -1,7 +1,14 @@
-//! How a case takes the tangent of its steady sliding.
+//! How a case takes the tangent of its steady sliding, and what its forces are of.
 
 use crate::prelude::*;
-use frictionsim_physics::prestress::DampingModel;
+use frictionsim_results::Extent;
+
+/// Whether forces, torques, powers and energies of a case are of its whole body, or for each metre of a plane body's
+/// thickness, which the case does not give.
+pub fn extent_of(case: &Case) -> Extent {
+    let is_whole = case.body.dimension() == 3 || case.raw.find("geometry.thickness").is_some();
+    if is_whole { Extent::WholeBody } else { Extent::MetreOfThickness }
+}
 
 /// How a case takes the tangent of steady sliding: geometric stiffness as its `[cea]` or its body says, damping of body
 /// or of body and contact, contact stiffness and dashpots.

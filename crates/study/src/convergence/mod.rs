@@ -17,13 +17,10 @@
 mod quantities;
 
 use super::transient::TransientStudy;
-use super::{StudyError, eigenvalues, summarize, summary};
+use super::{eigenvalues, summarize, summary};
 use crate::prelude::*;
-use frictionsim_case::{Analysis, StabilityChoice, TimeStep};
-use frictionsim_results::Manifest;
+use frictionsim_case::TimeStep;
 use frictionsim_results::convergence::{Quantity, Refinement, Series};
-use serde_json::Value;
-use std::time::Instant;
 
 /// Levels of one series: the same case refined.
 pub struct Levels {
@@ -35,14 +32,8 @@ pub struct Levels {
     pub cases: Vec<Case>,
 }
 
-/// What one level gave.
-enum Outcome {
-    Cea(FrictionSweep),
-    Summary(Value),
-}
-
-/// A level done, and its wall time, s.
-type Timed = (Outcome, f64);
+/// A level done: the modes of `cea`, the summary of any other analysis, and the wall time, s.
+type Done = (FrictionSweep, (Value, f64));
 
 /// The levels that a case asks for.
 ///
@@ -50,9 +41,8 @@ type Timed = (Outcome, f64);
 /// [`StudyError::Case`] for a case without `[convergence]`, or that makes no valid case when refined.
 pub fn levels(case: &Case, simd: SimdLevel) -> Result<Vec<Levels>, StudyError> {
     let convergence = case.require_convergence()?;
-    let factors = convergence.factors.iter();
-    let meshes: Result<Vec<Case>, CaseErrors> = factors.map(|&f| case.refined(f)).collect();
-    let meshes = meshes?;
+    let meshes = convergence.factors.iter().map(|&factor| case.refined(factor));
+    let meshes = meshes.collect::<Result<Vec<Case>, _>>()?;
     let over_meshes = convergence.analyses.iter().map(|&analysis| Levels {
         analysis,
         refinement: Refinement::Mesh,
@@ -89,22 +79,21 @@ pub fn solve(
         levels.iter().flat_map(|study| study.cases.iter().map(|case| (study.analysis, case)));
     // Finest meshes and shortest steps stand last in each study.
     let jobs: Vec<(Analysis, &Case)> = jobs.collect();
-    let solved: Vec<Result<Timed, StudyError>> =
-        frictionsim_physics::parallel::map(jobs.iter().rev(), |(analysis, case)| {
+    let solved: Vec<Result<Done, StudyError>> =
+        parallel::map(jobs.iter().rev(), |(analysis, case)| {
             let start = Instant::now();
-            let outcome = match analysis {
-                Analysis::Cea => Outcome::Cea(eigenvalues::modes_and_onsets(case)?),
+            let (mut sweep, mut summary) = (FrictionSweep::default(), Value::Null);
+            match analysis {
+                Analysis::Cea => sweep = eigenvalues::modes_and_onsets(case)?,
                 // That a level has no cycle is said beside the others.
-                Analysis::Cycle => Outcome::Summary(summary::cycle(case, manifest, |_| Ok(()))?),
-                Analysis::Transient | Analysis::Basin => {
-                    Outcome::Summary(summarize(case, *analysis, manifest)?)
-                }
-            };
+                Analysis::Cycle => summary = summary::cycle(case, manifest, |_| Ok(()))?,
+                other => summary = summarize(case, *other, manifest)?,
+            }
             done();
-            Ok((outcome, start.elapsed().as_secs_f64()))
+            Ok((sweep, (summary, start.elapsed().as_secs_f64())))
         });
     // The first level that failed speaks, whichever thread was first.
-    let mut solved = solved.into_iter().rev().collect::<Result<Vec<Timed>, _>>()?.into_iter();
+    let mut solved = solved.into_iter().rev().collect::<Result<Vec<Done>, _>>()?.into_iter();
     let of_each = levels.iter().map(|study| {
         let outcomes = solved.by_ref().take(study.cases.len()).collect();
         series(case, study, outcomes)
@@ -131,16 +120,9 @@ fn own_cycles(case: &Case) -> Case {
 }
 
 /// The series of a study: one, or for limit cycles one for each family.
-fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Series>, StudyError> {
-    let (outcomes, wall_s): (Vec<Outcome>, Vec<f64>) = outcomes.into_iter().unzip();
-    let (mut sweeps, mut summaries) = (Vec::new(), Vec::new());
-    for outcome in outcomes {
-        match outcome {
-            Outcome::Cea(sweep) => sweeps.push(sweep),
-            Outcome::Summary(summary) => summaries.push(summary),
-        }
-    }
-    let steps = summaries.iter().filter_map(|s: &Value| s["time_step_s"].as_f64());
+fn series(case: &Case, study: &Levels, done: Vec<Done>) -> Result<Vec<Series>, StudyError> {
+    let (sweeps, (summaries, wall_s)): (Vec<_>, (Vec<Value>, Vec<f64>)) = done.into_iter().unzip();
+    let steps = summaries.iter().filter_map(|summary| summary["time_step_s"].as_f64());
     let steps: Vec<f64> = steps.collect();
     let (sizes, levels): (Vec<f64>, Vec<String>) = match study.refinement {
         Refinement::Mesh => study.cases.iter().map(mesh_level).unzip(),

@@ -1,11 +1,9 @@
 //! Quantities compared between the levels of a convergence study.
 
-use crate::StudyError;
 use crate::prelude::*;
 use frictionsim_physics::mesh::coincident_nodes;
 use frictionsim_results::cea::{Branch, branch_of, branch_of_mode, mode_name};
 use frictionsim_results::convergence::Quantity;
-use serde_json::Value;
 
 /// A part of an eigenvalue, Hz.
 type PartOf = fn(&ComplexMode) -> f64;
@@ -89,7 +87,7 @@ fn name_by_rank(
         }
         // Likest pairs first, each mode once.
         pairs.retain(|pair| pair.0 < -SAME_MODE);
-        rank_of.extend(frictionsim_physics::order::each_once(pairs));
+        rank_of.extend(order::each_once(pairs));
         let rename = |branch: &mut usize| {
             *branch = rank_of.get(branch).map_or(FOREIGN + *branch, |rank| *rank);
         };

@@ -2,13 +2,10 @@
 //! loses its stability.
 
 use super::operating_point;
-use crate::StudyError;
 use crate::eigenvalues::asked_modes;
 use crate::prelude::*;
 use frictionsim_case::{Cycle, OnsetChoice};
-use frictionsim_physics::cycle::{
-    CycleSolver, DiscModel, LARGEST_FRICTION, MODES, Onset, Parameter,
-};
+use frictionsim_physics::cycle::{CycleSolver, DiscModel, LARGEST_FRICTION, MODES, Onset};
 use frictionsim_physics::linalg::Bracket;
 
 /// The solver of a family, or why it has none.

@@ -10,23 +10,21 @@ pub use periodic::PeriodicStudy;
 pub(crate) use periodic::{Steady, longest_step};
 
 use crate::eigenvalues::asked_modes;
+use crate::extent_of;
 use crate::prelude::*;
-use crate::{StudyError, extent_of};
 use families::{Sought, continuation, critical_value, next_onset, solvers};
-use frictionsim_case::{Cycle, StabilityChoice};
+use frictionsim_case::Cycle;
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
-    CycleSolver, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint, Parameter,
-    StabilityChange, SteppedCycle, Verdict, differing,
+    CycleSolver, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint, StabilityChange,
+    SteppedCycle, Verdict, differing,
 };
 use frictionsim_physics::fem::lumped_masses;
-use frictionsim_physics::mesh::AnnulusMesh;
 use frictionsim_results::cycle::{
     Absence, CycleResult, CycleSummary, FoundWave, OnsetSummary, Origin, SoughtCycle,
     TwoWaveSummary, WaveOfCycle, known,
 };
 use frictionsim_results::summary::CriticalValue;
-use std::time::Instant;
 
 /// What a case asks for: cycles of which harmonics, where, and followed over what.
 pub struct CycleStudy<'a> {
@@ -64,7 +62,7 @@ impl<'a> CycleStudy<'a> {
             });
             onsets = solvers.iter().flatten().map(|s| s.onset).collect();
             onsets.extend(next_onset(case, friction));
-            frictionsim_physics::order::sort_by_number(&mut onsets, |a| a.friction_coefficient);
+            order::sort_by_number(&mut onsets, |a| a.friction_coefficient);
         }
         Ok(Self {
             case,
@@ -80,7 +78,7 @@ impl<'a> CycleStudy<'a> {
 
     /// The cycles, with the whole field at so many times over one period; `done` hears of every family.
     pub fn run(&self, frames: usize, done: &(dyn Fn() + Sync)) -> Vec<CycleResult> {
-        frictionsim_physics::parallel::map(&self.solvers, |solver| {
+        parallel::map(&self.solvers, |solver| {
             let start = Instant::now();
             let (family, phases, outcome) = match solver {
                 Ok(own) => (own.family, own.grid.points, self.solve(own, frames)),
@@ -103,14 +101,13 @@ impl<'a> CycleStudy<'a> {
     fn velocity(&self, field: &[f64]) -> f64 {
         let mesh = &self.annulus.mesh;
         let masses = lumped_masses(mesh, self.case.materials());
-        let mut moves = vec![true; field.len()];
-        mesh.held_dofs().for_each(|dof| moves[dof] = false);
-        let sums =
-            (0..field.len()).filter(|&dof| moves[dof]).fold([0.0; 2], |[energy, mass], dof| {
-                let own = masses[dof / 2];
-                [energy + own * field[dof].powi(2), mass + 0.5 * own]
-            });
-        (sums[0] / sums[1]).sqrt()
+        let held: BTreeSet<usize> = mesh.held_dofs().collect();
+        let moving = (0..field.len()).filter(|dof| !held.contains(dof));
+        let [energy, mass] = moving.fold([0.0; 2], |[energy, mass], dof| {
+            let own = masses[dof / 2];
+            [energy + own * field[dof].powi(2), mass + 0.5 * own]
+        });
+        (energy / mass).sqrt()
     }
 
     /// The body as results show it.
@@ -222,7 +219,7 @@ pub fn refuse_nothing(found: &CycleSummary) -> Result<(), StudyError> {
         Some(format!("{}: {reason}", own.name))
     };
     let reasons: Vec<String> = cycles.iter().filter_map(reason).collect();
-    Err(StudyError::NoCycle(reasons.join("; ")))
+    Err(StudyError::Failed(format!("no limit cycle found: {}", reasons.join("; "))))
 }
 
 /// Where a case stands among the limit cycles of its disc.
@@ -248,10 +245,9 @@ fn along(stepping: &MeshStepping<'_>, cycles: &[LimitCycle]) -> Vec<Result<Stepp
         a.state.contact == b.state.contact && drift.abs() < 1e-9
     };
     let settled: Vec<Vec<Result<SteppedCycle, String>>> =
-        frictionsim_physics::parallel::map(cycles.chunks(GROUP), |group| {
-            let mut done: Vec<Result<SteppedCycle, String>> = Vec::new();
+        parallel::map(cycles.chunks(GROUP), |group| {
             let mut before: Option<(&LimitCycle, SteppedCycle)> = None;
-            for cycle in group {
+            let settle = |cycle| {
                 let found = match &before {
                     Some((own, settled)) if is_scaled(own, cycle) => Ok(settled.scaled_to(cycle)),
                     _ => {
@@ -262,9 +258,9 @@ fn along(stepping: &MeshStepping<'_>, cycles: &[LimitCycle]) -> Vec<Result<Stepp
                 if let Ok(settled) = &found {
                     before = Some((cycle, settled.clone()));
                 }
-                done.push(found);
-            }
-            done
+                found
+            };
+            group.iter().map(settle).collect()
         });
     settled.into_iter().flatten().collect()
 }
@@ -277,7 +273,7 @@ fn changes(
 ) -> Vec<StabilityChange> {
     let known = settled.iter().flatten();
     let pairs = differing(known.map(|own| (own.stability.verdict().is_stable(), own)));
-    let found: Vec<_> = frictionsim_physics::parallel::map(pairs, |[first, second]| {
+    let found: Vec<_> = parallel::map(pairs, |[first, second]| {
         let is_first = first.stability.verdict() == Verdict::Stable;
         let (stable, unstable) = if is_first { (first, second) } else { (second, first) };
         stepping.stability_change(parameter, stable, unstable).ok()

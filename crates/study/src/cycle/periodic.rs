@@ -6,22 +6,20 @@ mod steady;
 use super::super::transient::SteppedMesh;
 use super::families::{candidates, continuation, critical};
 use super::operating_point;
+use crate::extent_of;
 use crate::prelude::*;
-use crate::{StudyError, extent_of};
-use frictionsim_case::{Cycle, OnsetChoice, StabilityChoice, TimeStep};
-use frictionsim_physics::cea::{PartWatch, SweepWatch};
+use frictionsim_case::{Cycle, OnsetChoice, TimeStep};
 use frictionsim_physics::cycle::periodic::{
     BranchRequest, Found, MotionRequest, PeriodMap, PeriodicBranch, PeriodicMotion, Point,
     REMAINDER, Sound, find_from,
 };
-use frictionsim_physics::cycle::{Confirmation, FloquetMultipliers, Parameter};
+use frictionsim_physics::cycle::{Confirmation, FloquetMultipliers};
 use frictionsim_physics::fem::operator::StiffnessOperator;
-use frictionsim_physics::transient::{OperatorChoice, TransientError, TransientModel};
+use frictionsim_physics::transient::{OperatorChoice, TransientError};
 use frictionsim_results::cycle::{
     CycleSummary, FoundCycle, ModeOfCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
 };
 use frictionsim_results::summary::CriticalValue;
-use std::time::Instant;
 
 pub(crate) use steady::Steady;
 
@@ -159,19 +157,14 @@ impl<'a> PeriodicStudy<'a> {
             tune: &tune,
         };
         let start = self.start.map_or(own, |start| start.1);
-        let branch = request.follow(start, found);
-        Some(branch.map(|branch| self.with_onsets(branch, start)))
-    }
-
-    /// A branch with the values at which steady sliding loses its stability, between a value at which it has lost it
-    /// and the farthest cycles on both sides.
-    fn with_onsets(&self, mut branch: PeriodicBranch, growing: f64) -> PeriodicBranch {
-        let parameter = branch.parameter;
-        let onsets = branch.beyond(growing).into_iter().flatten();
-        branch.onsets = onsets
-            .filter_map(|stable| onset((self.case, &self.stepped), parameter, [stable, growing]))
-            .collect();
-        branch
+        Some(request.follow(start, found).map(|mut branch| {
+            // Where steady sliding loses its stability, between where it has lost it and the farthest cycles.
+            let ends = branch.beyond(start).into_iter().flatten();
+            let of = (self.case, &self.stepped);
+            branch.onsets =
+                ends.filter_map(|stable| onset(of, *parameter, [stable, start])).collect();
+            branch
+        }))
     }
 
     /// The cycles, with the whole field at so many times over a period; `watch` keeps what is done for a search that
@@ -201,8 +194,7 @@ impl<'a> PeriodicStudy<'a> {
             done(&result);
             result
         };
-        let mut results: Vec<PeriodicResult> =
-            frictionsim_physics::parallel::map(&self.sought, solve);
+        let mut results: Vec<PeriodicResult> = parallel::map(&self.sought, solve);
         name_repeated(&mut results);
         Ok(results)
     }

@@ -1,11 +1,9 @@
 //! Steady sliding of a body, and the contact in it place by place.
 
-use super::StudyError;
 use crate::prelude::*;
-use frictionsim_physics::contact::{ContactInterface, ContactSurface, Point, SteadyFriction};
-use frictionsim_physics::mesh::{ContactRing, SolidSpecification};
-use frictionsim_physics::order::range;
-use frictionsim_physics::prestress::{PressedState, SlidingSurfaces, SolidSliding};
+use frictionsim_physics::contact::{Point, SteadyFriction};
+use frictionsim_physics::mesh::ContactRing;
+use frictionsim_physics::prestress::{PressedState, SolidSliding};
 use frictionsim_results::cea::{ContactPlace, ContactState};
 
 /// Name of the only contact of a body that slides on a rigid counterface.
@@ -110,21 +108,6 @@ impl SolidState {
     }
 }
 
-/// Generates the body and solves its base state.
-///
-/// # Errors
-/// A mesh that cannot be built, no state of sliding.
-pub(super) fn solved_solid(
-    case: &Case,
-    specification: &SolidSpecification,
-) -> Result<SolidState, StudyError> {
-    let sector = SolidSector::generate(specification)?;
-    let elastic = sector.strip.stiffness_alike(case.materials());
-    let (sliding, stiffness) = (&case.contact.sliding, &case.contact.stiffness);
-    let base = SolidSliding::solve(&sector, &elastic, sliding, stiffness, case.mass())?;
-    Ok(SolidState { sector, base })
-}
-
 /// Sliding speed (m/s) and friction at the mean radius of the contact, and the mean pressure there, Pa.
 pub(super) fn mean_friction(solid: &SolidState) -> (f64, SteadyFriction, f64) {
     let rings = || solid.sector.rings.iter();
@@ -153,7 +136,7 @@ pub(super) fn open_note(solid: &SolidState) -> Option<String> {
             only.area * sector.sector_count() as f64,
         )),
         _ => {
-            let [low, high] = range(pressed.iter().map(place));
+            let [low, high] = order::range(pressed.iter().map(place));
             Some(format!(
                 "{open} of {} rings of contact nodes are open; the others lie between {word} {low:.6} and {high:.6} m",
                 sector.rings.len(),

@@ -36,19 +36,14 @@ pub use spectrum::{
 pub(crate) use whole::BasePoint;
 pub use whole::WholeMesh;
 
-use super::StudyError;
 use crate::prelude::*;
-use frictionsim_case::{Diagnostic, ModeLimit};
-use frictionsim_physics::cea::SweepWatch;
+use frictionsim_case::Diagnostic;
 use frictionsim_physics::cea::sparse::FrictionlessModes;
 use frictionsim_physics::linalg::banded::BandedFactor;
 use frictionsim_physics::linalg::{LuAnalysis, SparseLu};
 use frictionsim_results::cea::CeaReport;
 pub use frictionsim_results::cea::Solution;
 use solve::at_key;
-
-/// Hears of every friction value that is solved, and may keep what took long to find.
-pub type Progress<'a> = dyn SweepWatch + 'a;
 
 /// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes only of a body without
 /// symmetry, whose modes are recognised by nothing else.

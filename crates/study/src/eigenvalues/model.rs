@@ -1,12 +1,10 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
+use super::Solution;
 use super::whole::WholeMesh;
-use super::{Progress, Solution, StudyError};
 use crate::prelude::*;
 use crate::tangent_options;
-use frictionsim_physics::cea::{ModeLimit, cyclic};
-use frictionsim_physics::mesh::Strip;
-use frictionsim_physics::prestress::WaveTangent;
+use frictionsim_physics::cea::cyclic;
 
 /// The eigenvalue solver that a body gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +123,7 @@ impl Model {
         &self,
         case: &Case,
         (request, waves_at): (&SweepRequest<'_>, &[f64]),
-        progress: &Progress<'_>,
+        progress: &dyn SweepWatch,
     ) -> Result<(Solution, Option<WaveSweep>), CeaError> {
         match self {
             Self::Waves(options) => {

@@ -3,10 +3,8 @@
 use super::SlidingModel;
 use super::contact::{SteadyState, mean_friction};
 use crate::prelude::*;
-use frictionsim_output::rounded;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
-use frictionsim_physics::contact::ContactInterface;
 use frictionsim_results::{number_ranges, plural};
 
 /// What the counts of modes say.

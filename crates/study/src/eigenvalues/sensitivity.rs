@@ -3,7 +3,6 @@
 pub(super) mod rates;
 
 use self::rates::{Linearized, Rates, rates_of, step_of};
-use super::StudyError;
 use crate::prelude::*;
 use frictionsim_physics::cea::ModeBranch;
 use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};
@@ -79,30 +78,28 @@ pub fn body_sensitivities(
     // One parameter after the other, coefficients of damping of zero among them.
     let mut parameters = case.model_numbers();
     parameters.retain(|(key, value)| *value != 0.0 || step_of(key, 0.0) > 0.0);
-    let rates: Vec<Rates> = frictionsim_physics::parallel::map(&parameters, |(key, value)| {
-        rates_of(case, cea, &pairs, (key, *value))
-    });
+    let rates: Vec<Rates> =
+        parallel::map(&parameters, |(key, value)| rates_of(case, cea, &pairs, (key, *value)));
     let lost = targets.iter().zip(&found).filter(|(_, pair)| pair.is_none());
     let mut missing: Vec<String> = lost.map(|(target, _)| lost_note(target)).collect();
     missing.extend(rates.iter().filter_map(|(_, reason)| reason.clone()));
     let columns: Vec<_> = rates.into_iter().map(|(columns, _)| columns).collect();
 
     // Rows of the modes, with the onset of each branch.
-    let mut next_onset = modes.len();
-    let mut rows = Vec::new();
-    for (j, mode) in modes.iter().enumerate() {
-        let at = next_onset;
-        next_onset += usize::from(mode.onset.is_some());
-        let Some((eigenvalue, by_friction)) = found[j] else { continue };
-        let onset = mode.onset.and_then(|onset| {
-            let by = |column: &Vec<Option<c64>>| Some(-column[at]?.re / found[at]?.1.re);
-            found[at].map(|_| OnsetRates {
+    let mut of_onsets = modes.len()..;
+    let rows = modes.iter().enumerate().filter_map(|(j, mode)| {
+        let onset = mode.onset.and_then(|onset| Some((onset, of_onsets.next()?)));
+        let (eigenvalue, by_friction) = found[j]?;
+        let onset = onset.and_then(|(onset, at)| {
+            let (_, rate) = found[at]?;
+            let by = |column: &Vec<Option<c64>>| Some(-column[at]?.re / rate.re);
+            Some(OnsetRates {
                 critical_friction: onset.friction,
                 derivatives: std::iter::once(None).chain(columns.iter().map(by)).collect(),
             })
         });
         let by_keys = columns.iter().map(|column| column[j]);
-        rows.push(SensitivityRow {
+        Some(SensitivityRow {
             friction_coefficient: friction,
             harmonic: mode.diameters,
             branch: mode.branch,
@@ -110,8 +107,9 @@ pub fn body_sensitivities(
             eigenvalue,
             derivatives: std::iter::once(Some(by_friction)).chain(by_keys).collect(),
             onset,
-        });
-    }
+        })
+    });
+    let rows = rows.collect();
     let own = ("friction_coefficient".to_owned(), friction);
     // Two losses, of body and contact, keep their sections.
     let is_twice = |key: &str| {

@@ -1,16 +1,13 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
-use super::StudyError;
-use super::contact::{SolidState, SteadyState, solved_solid};
+use super::contact::{SolidState, SteadyState};
 use super::model::Model;
 use crate::extent_of;
 use crate::prelude::*;
 use frictionsim_chart::literal;
-use frictionsim_physics::contact::{ContactInterface, ContactSurface};
-use frictionsim_physics::mesh::{AnnulusMesh, Strip};
-use frictionsim_physics::order::range;
-use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SlidingSurfaces};
+use frictionsim_physics::prestress::{SectorSliding, SolidSliding};
 use frictionsim_results::cea::{BaseField, BaseState, ContactState, NamedDamping};
+use frictionsim_results::grouped;
 
 /// Share of the modulus below which a contact pressure is round-off.
 const NO_PRESSURE: f64 = 1e-13;
@@ -44,10 +41,13 @@ fn sliding_sector(
             (Arc::new(mesh), SteadyState::Mesh { contacts, state: base.repeated(sector.count) })
         }
         BodyKind::Revolution(specification) => {
-            let solid = solved_solid(case, specification)?;
+            let sector = SolidSector::generate(specification)?;
+            let elastic = sector.strip.stiffness_alike(case.materials());
+            let stiffness = &case.contact.stiffness;
+            let base = SolidSliding::solve(&sector, &elastic, sliding, stiffness, case.mass())?;
             let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
             mesh.regions = specification.region_names();
-            (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
+            (Arc::new(mesh), SteadyState::Solid(Box::new(SolidState { sector, base })))
         }
         BodyKind::Imported(_) | BodyKind::Assembly(_) => {
             unreachable!("a body of equal sectors has waves")
@@ -148,8 +148,8 @@ impl SlidingModel {
             slipping: count(true),
             sticking: 0,
             open: count(false),
-            pressure_pa: range(contact().map(|own| own.pressure)),
-            shear_pa: range(contact().map(|own| own.shear)),
+            pressure_pa: order::range(contact().map(|own| own.pressure)),
+            shear_pa: order::range(contact().map(|own| own.shear)),
             torque_n_m: (!is_straight).then_some(drive),
             drag_n: is_straight.then_some(drive),
             power_w,
@@ -184,17 +184,10 @@ impl SlidingModel {
 /// The different Rayleigh dampings that regions of the body have, each with the mark-up that names it.
 pub fn dampings(case: &Case, model: &SlidingModel) -> Vec<NamedDamping> {
     let (materials, regions) = (case.materials(), &model.mesh.regions);
-    let count = regions.len().max(1);
-    let mut found: Vec<(Vec<usize>, _)> = Vec::new();
-    for region in 0..count {
-        let damping = materials.own_damping(region).unwrap_or(case.damping.rayleigh);
-        match found.iter_mut().find(|(_, known)| *known == damping) {
-            Some((regions, _)) => regions.push(region),
-            None => found.push((vec![region], damping)),
-        }
-    }
+    let damping = |region: usize| materials.own_damping(region).unwrap_or(case.damping.rayleigh);
+    let found = grouped((0..regions.len().max(1)).map(|region| (damping(region), region)));
     let is_one = found.len() == 1;
-    let named = found.into_iter().map(|(own, damping)| {
+    let named = found.into_iter().map(|(damping, own)| {
         let formula = "damping *ζ* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2";
         let names = own.iter().filter_map(|&region| regions.get(region));
         let names: Vec<String> = names.map(|name| literal(name)).collect();

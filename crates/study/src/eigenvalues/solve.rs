@@ -8,7 +8,7 @@ use super::notes::{
 };
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
-use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
+use super::{SlidingModel, Solution, no_modes};
 use crate::prelude::*;
 use frictionsim_physics::prestress::PrestressError;
 use frictionsim_results::cea::SensitivityReport;
@@ -20,7 +20,7 @@ pub fn solve(
     case: &Case,
     cea: &Cea,
     model: &SlidingModel,
-    progress: Option<&Progress<'_>>,
+    progress: Option<&dyn SweepWatch>,
 ) -> Result<Solution, StudyError> {
     let with_reading = progress.is_some();
     // Branches are known up to the largest friction coefficient of the sweep.
@@ -137,7 +137,7 @@ pub struct Solved<'a> {
 pub fn solved<'a>(
     case: &'a Case,
     cea: &Cea,
-    progress: Option<&Progress<'_>>,
+    progress: Option<&dyn SweepWatch>,
 ) -> Result<Solved<'a>, StudyError> {
     let model = SlidingModel::new(case, cea)?;
     let has_whole = cea.method == CeaMethod::Auto && matches!(model.model, Model::Waves(_));
@@ -153,7 +153,7 @@ fn on_whole_mesh<'a>(
     case: &'a Case,
     cea: &Cea,
     error: CeaError,
-    progress: Option<&Progress<'_>>,
+    progress: Option<&dyn SweepWatch>,
 ) -> Result<Solved<'a>, StudyError> {
     let Ok(case) = case.on_whole_mesh() else { return Err(error.into()) };
     let (mut case, whole) = (case.into_owned(), Cea { method: CeaMethod::Sparse, ..cea.clone() });

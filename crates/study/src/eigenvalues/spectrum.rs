@@ -1,10 +1,9 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
-use super::StudyError;
 use super::model::{Model, Solver, wave_tangent};
 use crate::prelude::*;
 use crate::tangent_options;
-use frictionsim_physics::cea::{ModeLimit, cyclic};
+use frictionsim_physics::cea::cyclic;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
 pub(crate) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {

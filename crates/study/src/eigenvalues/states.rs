@@ -2,10 +2,9 @@
 
 mod joining;
 
+use super::Solution;
 use super::whole::{WholeMesh, notes};
-use super::{Progress, Solution};
 use crate::prelude::*;
-use frictionsim_physics::cea::PartWatch;
 use frictionsim_physics::cea::sparse::{self, CyclicTangent};
 use frictionsim_physics::prestress::{PressedRange, PressedState};
 use joining::{Part, Undecided, joined, jumps, label, undecided};
@@ -14,7 +13,7 @@ use joining::{Part, Undecided, joined, jumps, label, undecided};
 struct Common<'a> {
     case: &'a Case,
     request: &'a SweepRequest<'a>,
-    progress: &'a Progress<'a>,
+    progress: &'a dyn SweepWatch,
     /// Unknowns of the whole mesh.
     dofs: usize,
     /// What keeps a mesh of equal sectors from being solved by waves around it.
@@ -39,22 +38,20 @@ impl WholeMesh {
         &self,
         case: &Case,
         request: &SweepRequest<'_>,
-        progress: &Progress<'_>,
+        progress: &dyn SweepWatch,
     ) -> Result<Solution, CeaError> {
-        let mut frictions = request.friction_coefficients.to_vec();
-        // The base states of this round and of the last one.
-        let (mut refined, mut earlier): (Option<PressedRange>, Option<PressedRange>) = (None, None);
+        // The base states of each round beyond those of the model, and their friction coefficients.
+        let (mut finer, mut unsolved): (Vec<(PressedRange, Vec<f64>)>, bool) = (Vec::new(), false);
         let (dofs, asymmetry, solved) = (0, None, Vec::new());
         let mut common = Common { case, request, progress, dofs, asymmetry, solved };
-        let (mut known, mut unsolved) = (frictions.len(), false);
         for round in 0.. {
-            let range = refined.as_ref().unwrap_or(&self.range);
-            let mut parts = match self.parts(range, (round, &frictions), &mut common) {
+            let first = (&self.range, request.friction_coefficients);
+            let (range, frictions) = finer.last().map_or(first, |(range, at)| (range, &at[..]));
+            let mut parts = match self.parts(range, (round, frictions), &mut common) {
                 Ok(parts) => parts,
                 // What is known without the states between is kept, and the rest said.
-                Err(_) if frictions.len() > known => {
-                    frictions.truncate(known);
-                    (refined, unsolved) = (earlier.take(), true);
+                Err(_) if finer.pop().is_some() => {
+                    unsolved = true;
                     continue;
                 }
                 Err(error) => return Err(error),
@@ -79,13 +76,9 @@ impl WholeMesh {
                     ..Solution::default()
                 });
             }
-            let more = [frictions.as_slice(), &open].concat();
+            let more = [frictions, &open].concat();
             match self.states_at(case, &more) {
-                Ok(range) => {
-                    earlier = refined.replace(range);
-                    known = frictions.len();
-                    frictions = more;
-                }
+                Ok(range) => finer.push((range, more)),
                 // There may be no state between.
                 Err(_) => unsolved = true,
             }

@@ -2,11 +2,9 @@
 
 use super::contact::places;
 use crate::prelude::*;
-use frictionsim_physics::contact::{ContactStiffness, ContactSurface, Point, Turning};
+use frictionsim_physics::contact::{ContactStiffness, Point, Turning};
 use frictionsim_physics::mesh::CyclicSymmetry;
-use frictionsim_physics::prestress::{
-    BaseChoice, Joined, PressedRange, PressedState, SlidingSurfaces,
-};
+use frictionsim_physics::prestress::{Joined, PressedRange, PressedState};
 use frictionsim_results::cea::ContactPlace;
 
 /// A whole mesh and its base states.

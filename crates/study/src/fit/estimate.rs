@@ -40,14 +40,12 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
             "the model has no modes to compare at any of {points} points within the bounds: {reason}"
         ))
     };
-    let looked: Vec<Result<Trial, String>> =
-        frictionsim_physics::parallel::map(&points, |places| squares.trial(places, false));
     let mut reason = String::new();
+    let looked = parallel::map(&points, |places| squares.trial(places, false));
     let mut starts = by_squares(looked, &mut reason);
     starts.truncate(DESCENTS);
     let searched = starts.len();
-    let found: Vec<Result<Trial, String>> =
-        frictionsim_physics::parallel::map(starts, |start| squares.descend(start));
+    let found = parallel::map(starts, |start| squares.descend(start));
     let minima = by_squares(found, &mut reason);
     let Some(first) = minima.first() else { return Err(failed(reason)) };
     let (best, degrees) = reweighted(&mut squares, first.clone()).map_err(failed)?;
@@ -81,7 +79,7 @@ fn by_squares(trials: Vec<Result<Trial, String>>, reason: &mut String) -> Vec<Tr
             Err(error) => *reason = error,
         }
     }
-    frictionsim_physics::order::sort_by_number(&mut solved, |a| a.chi_square);
+    order::sort_by_number(&mut solved, |a| a.chi_square);
     solved
 }
 

@@ -75,14 +75,13 @@ impl Squares<'_> {
                 let sides = around.as_ref().and_then(|(low, high, width)| {
                     Some(([same(mode, &weights, low)?, same(mode, &weights, high)?], *width))
                 });
-                let rate = match (&around, sides) {
-                    (None, _) => mode.rates[column].map(|rate| rate * slope),
-                    (_, Some(([low, high], width))) => {
-                        Some((high.eigenvalue - low.eigenvalue) / width)
+                let rate = match given {
+                    true => mode.rates[column].map(|rate| rate * slope),
+                    false => {
+                        sides.map(|([low, high], width)| (high.eigenvalue - low.eigenvalue) / width)
                     }
-                    _ => None,
                 };
-                let rate = rate.unwrap_or(c64::new(0.0, 0.0));
+                let rate = rate.unwrap_or(c64::ZERO);
                 jacobian[(KINDS * row, column)] = -weights.frequency * rate.im / TAU;
                 if line.real_hz.is_some() {
                     jacobian[(KINDS * row + 1, column)] = -weights.real * rate.re / TAU;

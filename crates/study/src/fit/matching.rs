@@ -2,7 +2,6 @@
 //! frequencies, with both.
 
 use super::{FitError, MeasuredMode, ModelMode, least_cost};
-use crate::StudyError;
 use crate::mac::{MeasuredShapes, refuse_revolution};
 use crate::prelude::*;
 use frictionsim_signal::reader::MeasuredShape;
@@ -111,7 +110,7 @@ impl MeasuredShapes {
             pairs.extend(near.map(|(place, line)| (away(line), index, place)));
         }
         let mut shape_of = vec![None; lines.len()];
-        for (shape, line) in frictionsim_physics::order::each_once(pairs) {
+        for (shape, line) in order::each_once(pairs) {
             shape_of[line] = Some(shape);
         }
         let mut shapes = self.shapes.iter().enumerate();

@@ -28,19 +28,11 @@ const MOST_MODES: usize = 16;
 /// Part of its length that a response must keep beside the others.
 const LEAST_PART: f64 = 1e-8;
 
-/// The projected problem with what is attached.
-pub(super) struct Attached {
-    /// `[M, C, K]`.
-    matrices: [DMatrix<f64>; 3],
-    /// Frequencies within which it is to be believed, rad/s.
-    pub range: [f64; 2],
-}
-
 /// The modes about the targets, and what the projection has of them alone.
 pub(super) struct NearModes<'a> {
     base: &'a Base<'a>,
     modes: Vec<&'a PairedMode>,
-    /// Frequencies of the modes, rad/s.
+    /// Frequencies within which the projected problem is to be believed, rad/s.
     pub range: [f64; 2],
 }
 
@@ -67,14 +59,14 @@ impl<'a> NearModes<'a> {
         self.modes.len() == self.base.modes.len()
     }
 
-    /// The problem with `[M, C, K]` attached at some dofs, all of them unknowns that no contact touches. `dynamic`
-    /// holds frequencies and the factors of the whole problem there.
+    /// Eigenvalues with `Im > 0` within the range, with `[M, C, K]` attached at some dofs, all of them unknowns that no
+    /// contact touches. `dynamic` holds frequencies and the factors of the whole problem there.
     pub fn attached(
         &self,
         dofs: &[usize],
         attached: [&DMatrix<f64>; 3],
         dynamic: &[(f64, ComplexSparseLu)],
-    ) -> Attached {
+    ) -> Result<Vec<c64>, LinalgError> {
         let unknown_of = &self.base.tangent.unknowns.unknown_of;
         let free = self.base.free(dofs);
         let rows: Vec<usize> = free.iter().filter_map(|&i| unknown_of[dofs[i]]).collect();
@@ -87,7 +79,7 @@ impl<'a> NearModes<'a> {
             DMatrix::from_fn(rows.len(), basis.ncols(), |i, j| basis[(rows[i], j)])
         };
         let (right_there, left_there) = (at(&right), at(&left));
-        let matrices = [0, 1, 2].map(|i| {
+        let [mass, damping, stiffness] = [0, 1, 2].map(|i| {
             let values = whole[i].evaluate(self.base.friction);
             let image = tangent.stiffness.pattern().multiply(&values, right.as_ref());
             let form = transpose_product(left.as_ref(), image.as_ref());
@@ -95,7 +87,22 @@ impl<'a> NearModes<'a> {
             DMatrix::from_fn(form.nrows(), form.ncols(), |i, j| form[(i, j)])
                 + left_there.transpose() * own * &right_there
         });
-        Attached { matrices, range: self.range }
+        let n = mass.nrows();
+        let lu = mass.lu();
+        let (Some(c), Some(k)) = (lu.solve(&damping), lu.solve(&stiffness)) else {
+            return Ok(Vec::new());
+        };
+        // Unknowns (q, s q / omega): rows of one size.
+        let [low, high] = self.range;
+        let companion = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => 0.0,
+            (true, false) => high * f64::from(u8::from(i + n == j)),
+            (false, true) => -k[(i - n, j)] / high,
+            (false, false) => -c[(i - n, j - n)],
+        });
+        let found = real_eigenvalues(companion.as_ref())?.into_iter();
+        let within = found.filter(|own| own.im > 0.0 && (low..=high).contains(&own.im));
+        Ok(sorted(within, |own| own.im))
     }
 
     /// Right and left bases: modes and residual responses, real and imaginary parts, as many on either side.
@@ -153,30 +160,5 @@ fn add_column(
     if parts.iter().all(|part| *part > LEAST_PART) {
         right.push(x);
         left.push(y);
-    }
-}
-
-impl Attached {
-    /// Eigenvalues with `Im > 0` within the range.
-    pub fn spectrum(&self) -> Result<Vec<c64>, LinalgError> {
-        let [mass, damping, stiffness] = &self.matrices;
-        let n = mass.nrows();
-        let lu = mass.clone().lu();
-        let (Some(c), Some(k)) = (lu.solve(damping), lu.solve(stiffness)) else {
-            return Ok(Vec::new());
-        };
-        // Unknowns (q, s q / omega): rows of one size.
-        let scale = self.range[1];
-        let companion = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
-            (true, true) => 0.0,
-            (true, false) => scale * f64::from(u8::from(i + n == j)),
-            (false, true) => -k[(i - n, j)] / scale,
-            (false, false) => -c[(i - n, j - n)],
-        });
-        let mut found = real_eigenvalues(companion.as_ref())?;
-        let [low, high] = self.range;
-        found.retain(|value| value.im > 0.0 && (low..=high).contains(&value.im));
-        frictionsim_physics::order::sort_by_number(&mut found, |a| a.im);
-        Ok(found)
     }
 }

@@ -2,8 +2,7 @@
 
 use crate::eigenvalues::WholeMesh;
 use crate::prelude::*;
-use crate::{StudyError, tangent_options};
-use frictionsim_physics::cea::ModeLimit;
+use crate::tangent_options;
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
 use frictionsim_physics::fem::element_supports;
 use frictionsim_results::improve::{State, TargetMode};

@@ -4,10 +4,7 @@ use super::base::{Base, STEPS, lowest_onset, spectrum_of};
 use super::trial::{Search, Target, Trial};
 use crate::eigenvalues::WholeMesh;
 use crate::prelude::*;
-use frictionsim_case::ModificationKind;
-use frictionsim_output::rounded;
 use frictionsim_results::improve::State;
-use nalgebra::{Matrix3, Vector3};
 
 /// Name of the section that makes a candidate.
 const NAME: &str = "improve";

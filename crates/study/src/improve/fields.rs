@@ -13,8 +13,6 @@ use super::base::{Base, PairedMode};
 use crate::prelude::*;
 use frictionsim_physics::fem::element::{ElementGeometry, nodal_values};
 use frictionsim_physics::fem::element_matrices;
-use frictionsim_physics::prestress::DampingModel;
-use nalgebra::Matrix3;
 
 /// `w_a x_b` at a node over the global axes.
 pub(super) type Product = [[c64; 3]; 3];
@@ -36,7 +34,7 @@ impl Derivatives {
     pub fn of(base: &Base<'_>, mode: &PairedMode) -> Self {
         let nodes = 0..base.mesh.node_count();
         let elements = 0..base.mesh.element_count();
-        let each: Vec<[c64; 2]> = frictionsim_physics::parallel::map(elements, |element| {
+        let each: Vec<[c64; 2]> = parallel::map(elements, |element| {
             let [mass, damping, stiffness] = element_terms(base, element);
             let dofs: Vec<usize> = base.mesh.element_dofs(element).collect();
             let [m, c, k] = [&mass, &damping, &stiffness].map(|p| form(mode, &dofs, p));
@@ -60,18 +58,13 @@ impl Derivatives {
         -(lambda * (lambda + alpha)) * (own[0][0] + own[1][1] + own[2][2])
     }
 
-    /// The symmetric matrix `S` with `d lambda = d^T S d` by a spring along a unit vector `d`, real parts.
-    pub fn by_spring(&self, node: usize) -> Matrix3<f64> {
-        self.symmetric(node, c64::new(-1.0, 0.0))
-    }
-
-    /// The same by a dashpot.
-    pub fn by_dashpot(&self, node: usize) -> Matrix3<f64> {
-        self.symmetric(node, -self.eigenvalue)
-    }
-
-    fn symmetric(&self, node: usize, factor: c64) -> Matrix3<f64> {
+    /// The symmetric matrix `S` with `d lambda = d^T S d` by a spring or a dashpot along a unit vector `d`, real parts.
+    pub fn by_link(&self, kind: ModificationKind, node: usize) -> Matrix3<f64> {
         let own = &self.nodes[node];
+        let factor = match kind {
+            ModificationKind::Spring => c64::new(-1.0, 0.0),
+            _ => -self.eigenvalue,
+        };
         let entry = |i: usize, j: usize| (factor * own[i][j]).re;
         Matrix3::from_fn(|i, j| 0.5 * (entry(i, j) + entry(j, i)))
     }

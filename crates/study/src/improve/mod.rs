@@ -19,16 +19,14 @@ mod fields;
 mod modal;
 mod trial;
 
+use super::extent_of;
 use super::mac::whole_mesh_note;
-use super::{StudyError, extent_of};
 use crate::prelude::*;
 pub(super) use base::refuse_bodies;
 use base::{Base, target_modes};
 use confirm::{keys_of, run_again, verdict};
 use fields::{Derivatives, element_terms, matrices};
-use frictionsim_case::ModificationKind;
-use frictionsim_output::rounded;
-use frictionsim_physics::{fem::lumped_masses, parallel};
+use frictionsim_physics::fem::lumped_masses;
 use frictionsim_results::improve::{Candidate, ImproveSummary, Improvement, Sizes, State};
 use modal::{Change, ModalModel};
 use trial::{Places, Search, Target, Trial, added_mass, target_fields};
@@ -69,7 +67,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         }
         listed.extend(predicted.into_iter().enumerate());
     }
-    frictionsim_physics::order::sort_by_number(&mut listed, |(_, own)| predicted_growth(own));
+    order::sort_by_number(&mut listed, |(_, own)| predicted_growth(own));
 
     // The best of each kind before the second best of any.
     let mut order: Vec<usize> = (0..listed.len()).collect();

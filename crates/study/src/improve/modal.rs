@@ -15,7 +15,7 @@
 //! modes and conjugates. With it a change `D(s)` of these dofs is one of `D (1 + R D)^-1` in the
 //! space of the modes. It is a spring in series with what it stands on.
 
-use super::attached::{Attached, NearModes, unit_loads};
+use super::attached::{NearModes, unit_loads};
 use super::base::{Base, PairedMode};
 use crate::eigenvalues::is_like;
 use crate::prelude::*;
@@ -34,8 +34,8 @@ type Projected = [Mat<c64>; 3];
 /// A change of the matrices in the space of the modes.
 pub(super) struct Change {
     projected: Projected,
-    /// A closer model of something attached to a node, for the modes in its range.
-    attached: Option<Attached>,
+    /// Of something attached to a node the eigenvalues of a closer model, in its range.
+    attached: Option<Result<Vec<c64>, LinalgError>>,
 }
 
 /// The modes of a base as a reduced problem.
@@ -229,12 +229,11 @@ impl<'a> ModalModel<'a> {
     fn spectrum(&self, change: &Change) -> Result<Vec<c64>, LinalgError> {
         let Some(attached) = &change.attached else { return self.of_listed(change) };
         // Modes beyond its range by the listed ones alone.
-        let [low, high] = attached.range;
+        let [low, high] = self.near.range;
         let mut found = if self.near.holds_all() { Vec::new() } else { self.of_listed(change)? };
         found.retain(|value| !(low..=high).contains(&value.im));
-        found.extend(attached.spectrum()?);
-        frictionsim_physics::order::sort_by_number(&mut found, |a| a.im);
-        Ok(found)
+        found.extend(attached.clone()?);
+        Ok(sorted(found, |own| own.im))
     }
 
     /// Eigenvalues in the space of the listed modes.
@@ -250,10 +249,8 @@ impl<'a> ModalModel<'a> {
             lambda[i] * unit(i, j) - k[(i, j)] + lambda[i] * lambda[j] * m[(i, j)]
         });
         ComplexDenseLu::factorize(left).solve_in_place(operator.as_mut());
-        let mut found = complex_eigenvalues(operator.as_ref())?;
-        found.retain(|value| value.im > 0.0);
-        frictionsim_physics::order::sort_by_number(&mut found, |a| a.im);
-        Ok(found)
+        let found = complex_eigenvalues(operator.as_ref())?.into_iter();
+        Ok(sorted(found.filter(|own| own.im > 0.0), |own| own.im))
     }
 
     /// What the modes come to after a change.

@@ -5,11 +5,10 @@
 use super::base::{Base, target_modes};
 use super::fields::Derivatives;
 use crate::prelude::*;
-use frictionsim_case::ModificationKind;
 use frictionsim_physics::fem::element::ElementGeometry;
 use frictionsim_physics::mesh::Counterface;
 use frictionsim_results::improve::{Sizes, TargetFields, TargetMode};
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use nalgebra::SymmetricEigen;
 
 /// Nodes and patches that may be modified.
 pub(super) struct Places {
@@ -117,9 +116,6 @@ fn refuse_unknown(base: &Base<'_>, forbidden: &[String]) -> Result<(), CaseError
         "no such region or boundary"; "it has {}", names.join(", ")))
 }
 
-/// Blocks of a derivative at a node.
-type Blocks = fn(&Derivatives, usize) -> Matrix3<f64>;
-
 /// Places of each kind that are kept for a closer look, for each one that is listed.
 const KEPT: usize = 6;
 
@@ -164,7 +160,7 @@ impl Search<'_> {
         let before = self.growth(&|_| c64::ZERO);
         found.retain(|trial| trial.first_order.is_some_and(|growth| growth < before));
         let growth = |own: &Trial| own.first_order.unwrap_or(f64::INFINITY);
-        frictionsim_physics::order::sort_by_number(&mut found, growth);
+        order::sort_by_number(&mut found, growth);
         self.apart(found, KEPT * self.base.case.improve.candidates)
     }
 
@@ -194,19 +190,16 @@ impl Search<'_> {
     fn at_nodes(&self, kind: ModificationKind) -> Vec<Trial> {
         let alpha = self.base.options.damping.mass_coefficient;
         let amount = self.attached(kind).1 / self.base.case.depth();
-        let of: Blocks = match kind {
-            ModificationKind::Spring => Derivatives::by_spring,
-            _ => Derivatives::by_dashpot,
-        };
         let trial = |&node: &usize| {
             let (direction, first_order) = match kind {
                 ModificationKind::Mass => {
                     (None, self.growth(&|own| own.by_mass(node, alpha) * amount))
                 }
                 _ => {
-                    let along = steepest(&of(self.fastest(), node), self.base.mesh.dimension);
+                    let along =
+                        steepest(&self.fastest().by_link(kind, node), self.base.mesh.dimension);
                     let change = |own: &Derivatives| {
-                        let rate = along.dot(&(of(own, node) * along));
+                        let rate = along.dot(&(own.by_link(kind, node) * along));
                         c64::new(rate * amount, 0.0)
                     };
                     (Some([along.x, along.y, along.z]), self.growth(&change))
@@ -214,7 +207,7 @@ impl Search<'_> {
             };
             Trial { kind, target: Target::Node(node, direction), first_order: Some(first_order) }
         };
-        frictionsim_physics::parallel::map(&self.places.nodes, trial)
+        parallel::map(&self.places.nodes, trial)
     }
 
     fn in_patches(&self, kind: ModificationKind) -> Vec<Trial> {
@@ -233,7 +226,7 @@ impl Search<'_> {
                 target: Target::Patch(*element, patch.clone()),
             }
         };
-        frictionsim_physics::parallel::map(&self.places.patches, trial)
+        parallel::map(&self.places.patches, trial)
     }
 
     /// Half and whole ways along the axes; a disc whose sectors are alike has no preferred one.
@@ -255,17 +248,16 @@ impl Search<'_> {
 
     /// The first of some trials that lie at least a patch's width from each other.
     fn apart(&self, trials: Vec<Trial>, count: usize) -> Vec<Trial> {
-        let mut kept: Vec<(Trial, Vector3<f64>)> = Vec::new();
+        let mut kept: Vec<Trial> = Vec::new();
         for trial in trials {
-            let place = Vector3::from(self.place(&trial));
-            let is_near = |(_, other): &(Trial, Vector3<f64>)| {
-                (place - other).norm() < 2.0 * self.sizes.patch_radius_m
-            };
+            let place = |own: &Trial| Vector3::from(self.place(own));
+            let away = |other: &Trial| (place(&trial) - place(other)).norm();
+            let is_near = |other: &Trial| away(other) < 2.0 * self.sizes.patch_radius_m;
             if kept.len() < count && !kept.iter().any(is_near) {
-                kept.push((trial, place));
+                kept.push(trial);
             }
         }
-        kept.into_iter().map(|(trial, _)| trial).collect()
+        kept
     }
 
     /// Where a trial is, m.
@@ -327,11 +319,12 @@ pub(super) fn target_fields(search: &Search<'_>) -> Vec<TargetFields> {
             }
             _ => SymmetricEigen::new(form).eigenvalues.min(),
         };
+        let of_links = |kind| nodes().map(|n| least(own.by_link(kind, n))).collect();
         TargetFields {
             mode,
             mass: nodes().map(|n| own.by_mass(n, alpha).re / extent).collect(),
-            spring: nodes().map(|n| least(own.by_spring(n))).collect(),
-            dashpot: nodes().map(|n| least(own.by_dashpot(n))).collect(),
+            spring: of_links(ModificationKind::Spring),
+            dashpot: of_links(ModificationKind::Dashpot),
             removal: own.removal.iter().zip(&sizes).map(|(d, v)| d.re / v).collect(),
             damping: own.damping.iter().zip(&sizes).map(|(d, v)| d.re / v).collect(),
         }

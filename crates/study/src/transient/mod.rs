@@ -22,18 +22,17 @@ mod notes;
 mod stepped;
 
 use crate::cycle::limit_cycle;
+use crate::extent_of;
 use crate::prelude::*;
-use crate::{StudyError, extent_of};
 use frictionsim_case::Transient;
 use frictionsim_physics::fem::operator::StiffnessOperator;
 use frictionsim_physics::linalg::interruption;
 use frictionsim_physics::transient::{
     Breakdown, CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan,
-    TransientAnalysis, TransientError, TransientModel, TransientSettings,
+    TransientAnalysis, TransientError, TransientSettings,
 };
 use frictionsim_results::Head;
 use frictionsim_results::transient::{LinearStage, RecordedRun, SolvedTransient};
-use std::time::Instant;
 pub use stepped::SteppedMesh;
 
 /// A case made ready for the time loop.
@@ -200,24 +199,24 @@ impl<'a> TransientStudy<'a> {
         outcome.map_err(|error| study_error(self.case, error))
     }
 
-    /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
+    /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle
+    /// one, of an assembly the mean over its contacts.
     pub fn shown_speed(&self) -> f64 {
         let speed = self.case.contact.sliding.rotation_speed;
         match &self.stepped.sector {
             Some(sector) => speed * sector.rings[sector.rings.len() / 2].radius,
-            None if self.stepped.assembly.is_some() => self.sliding_speed(),
-            None => self.body().interface().surface_speed(speed),
+            None => match &self.stepped.assembly {
+                Some(assembly) => {
+                    let surfaces = assembly.contacts().iter();
+                    let points = surfaces.flat_map(|(_, surface)| &surface.points);
+                    let [speed, area] = points.fold([0.0; 2], |[speed, area], point| {
+                        [speed + point.weight * point.speed, area + point.weight]
+                    });
+                    speed / area.max(f64::MIN_POSITIVE)
+                }
+                None => self.body().interface().surface_speed(speed),
+            },
         }
-    }
-
-    /// Mean speed at which the contacts of an assembly slide, m/s.
-    fn sliding_speed(&self) -> f64 {
-        let contacts = self.stepped.assembly.iter();
-        let points = contacts.flat_map(Assembly::contacts).flat_map(|(_, surface)| &surface.points);
-        let [speed, area] = points.fold([0.0; 2], |[speed, area], point| {
-            [speed + point.weight * point.speed, area + point.weight]
-        });
-        speed / area.max(f64::MIN_POSITIVE)
     }
 }
 
@@ -237,8 +236,7 @@ fn study_error(case: &Case, error: TransientError) -> StudyError {
             ("transient.operator".to_owned(), error.to_string(), label)
         }
         TransientError::Unstable { cause, .. } => {
-            let remedy = remedy(*cause);
-            return StudyError::Unstable { error, remedy };
+            return StudyError::Failed(format!("{error}: {}", remedy(*cause)));
         }
         _ => return StudyError::Transient(error),
     };

@@ -1,8 +1,8 @@
 //! What to know of a run before its numbers are used.
 
 use super::TransientStudy;
-use frictionsim_case::ModeLimit;
-use frictionsim_physics::prestress::{Assembly, PrestressError};
+use crate::prelude::*;
+use frictionsim_physics::prestress::PrestressError;
 use frictionsim_physics::transient::{InitialState, Recorder, TransientAnalysis};
 
 /// Largest displacement of the contact relative to the size of the body that is small.
@@ -80,8 +80,7 @@ impl TransientStudy<'_> {
     fn large_motion(&self, record: &Recorder) -> Option<String> {
         let mesh = &self.stepped.mesh;
         let extent = |axis: usize| {
-            let [low, high] =
-                frictionsim_physics::order::range(mesh.nodes.iter().map(|node| node[axis]));
+            let [low, high] = order::range(mesh.nodes.iter().map(|node| node[axis]));
             high - low
         };
         let size = extent(0).hypot(extent(1));

@@ -1,11 +1,9 @@
 //! The body of a case as the time loop takes it.
 
-use crate::StudyError;
 use crate::cycle::operating_point;
 use crate::prelude::*;
 use frictionsim_physics::cycle::OperatingPoint;
-use frictionsim_physics::mesh::AnnulusMesh;
-use frictionsim_physics::transient::{SteppedBody, TransientModel};
+use frictionsim_physics::transient::SteppedBody;
 
 /// The mesh of a case and what belongs to it: a transient and the limit cycles that it may end on step the same body.
 #[derive(Debug)]

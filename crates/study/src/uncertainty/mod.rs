@@ -6,7 +6,7 @@ mod summary;
 
 use crate::eigenvalues::{OnsetSearch, Solver};
 use crate::prelude::*;
-use crate::{ScrambledSobol, StudyError, eigenvalues, one_line};
+use crate::{ScrambledSobol, eigenvalues, one_line};
 use frictionsim_case::Uncertainty;
 use frictionsim_results::uncertainty::{Onset, Sample};
 pub use robust::{Design, curves};
@@ -135,7 +135,7 @@ impl<'a> Sampler<'a> {
         let (leading, followed) = self.sample(self.case, first, None);
         let harmonics = self.harmonics(&followed);
         let sample = |index| self.sample(self.case, index, harmonics.as_deref()).0;
-        let others: Vec<Sample> = frictionsim_physics::parallel::map(first + 1..last, sample);
+        let others: Vec<Sample> = parallel::map(first + 1..last, sample);
         let mut samples = vec![leading];
         samples.extend(others);
         self.mix(&mut samples);
@@ -156,7 +156,7 @@ impl<'a> Sampler<'a> {
             Ok::<_, String>((lowest <= most).then_some(lowest))
         };
         let solved = samples.iter_mut().filter(|sample| sample.error.is_none());
-        frictionsim_physics::parallel::map::<_, _, ()>(solved, |sample| {
+        parallel::map::<_, _, ()>(solved, |sample| {
             let points = self.mixed(sample.number - 1);
             // A sample whose points cannot all be solved is none that the indices rest on.
             sample.mixed = points.iter().map(lowest).collect::<Result<_, _>>().unwrap_or_default();

@@ -1,7 +1,6 @@
 //! The probability of squeal over design parameters.
 
 use super::{Sampler, wilson};
-use crate::StudyError;
 use crate::prelude::*;
 use frictionsim_results::uncertainty::{DesignCurve, Onset, RobustSummary};
 use std::str::FromStr;
@@ -117,10 +116,10 @@ fn probability(
     let designed = design.case(case, value)?;
     let (leading, followed) = sampler.sample(&designed, 0, None);
     if let Some(error) = leading.error {
-        return Err(StudyError::Design(format!("{} = {value}: {error}", design.key)));
+        return Err(StudyError::Failed(format!("{} = {value}: {error}", design.key)));
     }
     let harmonics = sampler.harmonics(&followed);
-    let outcomes: Vec<Option<bool>> = frictionsim_physics::parallel::map(0..samples, |index| {
+    let outcomes: Vec<Option<bool>> = parallel::map(0..samples, |index| {
         let (sample, _) = sampler.sample(&designed, index, harmonics.as_deref());
         let is_unstable = sample.is_unstable(sample.friction_coefficient);
         sample.error.is_none().then_some(is_unstable)

@@ -188,8 +188,7 @@ fn critical_friction(solved: &[&Sample], most: f64) -> CriticalFriction {
         student_95(n - 1.0) * (variance / n).sqrt()
     });
     let beyond = all.iter().filter(|value| value.is_infinite()).count();
-    let mut sorted = all.clone();
-    sorted.sort_by(f64::total_cmp);
+    let sorted = sorted(all.iter().copied(), |own| *own);
     CriticalFriction {
         mean: middle,
         mean_low: middle.zip(half).map(|(m, half)| m - half),
@@ -219,43 +218,35 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
     let within = solved.iter().flat_map(|sample| &sample.onsets);
     let within = within.filter(|onset| onset.critical_friction <= most);
     let names: BTreeSet<(Option<usize>, usize, i8)> = within.map(name_of).collect();
-    let count = solved.len().max(1) as f64;
-    let mut found: Vec<FamilySummary> = names
-        .into_iter()
-        .map(|name| {
-            let (harmonic, branch, direction) = name;
-            let is_hit = |sample: &&&Sample| {
-                let mut onsets = sample.onsets.iter().filter(|onset| name_of(onset) == name);
-                onsets.any(|onset| onset.holds(sample.friction_coefficient))
-            };
-            let hits = solved.iter().filter(is_hit).count();
-            let first = |sample: &&Sample| {
-                let mut onsets = sample.onsets.iter().filter(|onset| name_of(onset) == name);
-                let first = onsets.next().filter(|onset| onset.critical_friction <= most);
-                first.map_or((f64::INFINITY, f64::NAN), |o| (o.critical_friction, o.frequency_hz))
-            };
-            let firsts: Vec<(f64, f64)> = solved.iter().map(first).collect();
-            let mut sorted: Vec<f64> = firsts.iter().map(|f| f.0).collect();
-            sorted.sort_by(f64::total_cmp);
-            let within = sorted.partition_point(|value| value.is_finite());
-            let is_beyond = |sample: &&&Sample| sample.is_beyond(harmonic, branch);
-            let beyond = solved.iter().filter(is_beyond).count();
-            let frequencies = firsts.iter().map(|f| f.1).filter(|f| f.is_finite());
-            FamilySummary {
-                harmonic,
-                branch,
-                direction,
-                probability: hits as f64 / count,
-                probability_in_range: within as f64 / count,
-                beyond_limit: beyond as f64 / count,
-                critical_friction_median: quantile(&sorted[..within], 0.5).unwrap_or(most),
-                frequency_hz: frequencies.sum::<f64>() / within.max(1) as f64,
-                critical_friction_percentiles: (1..100)
-                    .map(|k| quantile(&sorted, 0.01 * f64::from(k)))
-                    .collect(),
-            }
-        })
-        .collect();
+    let share = |count: usize| count as f64 / solved.len().max(1) as f64;
+    let family = |name @ (harmonic, branch, direction)| {
+        let is_own = |onset: &&Onset| name_of(onset) == name;
+        let is_hit = |sample: &&&Sample| {
+            let mut own = sample.onsets.iter().filter(is_own);
+            own.any(|onset| onset.holds(sample.friction_coefficient))
+        };
+        let firsts = solved.iter().filter_map(|sample| sample.onsets.iter().find(is_own));
+        let firsts: Vec<&Onset> = firsts.filter(|own| own.critical_friction <= most).collect();
+        let frequencies = firsts.iter().map(|onset| onset.frequency_hz).sum::<f64>();
+        // Samples without one turn unstable beyond all friction.
+        let mut critical = sorted(firsts.iter().map(|own| own.critical_friction), |own| *own);
+        critical.resize(solved.len(), f64::INFINITY);
+        let is_beyond = |sample: &&&Sample| sample.is_beyond(harmonic, branch);
+        FamilySummary {
+            harmonic,
+            branch,
+            direction,
+            probability: share(solved.iter().filter(is_hit).count()),
+            probability_in_range: share(firsts.len()),
+            beyond_limit: share(solved.iter().filter(is_beyond).count()),
+            critical_friction_median: quantile(&critical[..firsts.len()], 0.5).unwrap_or(most),
+            frequency_hz: frequencies / firsts.len().max(1) as f64,
+            critical_friction_percentiles: (1..100)
+                .map(|k| quantile(&critical, 0.01 * f64::from(k)))
+                .collect(),
+        }
+    };
+    let mut found: Vec<FamilySummary> = names.into_iter().map(family).collect();
     // Equal ones stay in the order of their names.
     found.sort_by(|a, b| {
         let by_range = b.probability_in_range.total_cmp(&a.probability_in_range);

@@ -1,13 +1,11 @@
 //! Steady sliding at one operating point.
 
 use super::super::operating_point;
-use crate::StudyError;
 use crate::eigenvalues::{Model, Solver, asked_modes};
 use crate::prelude::*;
 use crate::tangent::{MODES_IN_TIME, options_in_time};
 use crate::transient::SteppedMesh;
 use frictionsim_physics::cea::sparse;
-use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::cycle::periodic::GrowingMode;
 
 /// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.

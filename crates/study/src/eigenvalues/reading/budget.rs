@@ -103,7 +103,8 @@ impl Parts<'_> {
         Row { name: name.clone(), source, forms: forms.collect() }
     }
 
-    /// What each contact feeds of their sum `fed`.
+    /// What each contact feeds of their sum `fed`: `Im(phi^H f) / (2 omega m)` of the forces on its surfaces. What
+    /// forces on nodes of two contacts leave of the sum is shared out evenly.
     fn contact_rates(
         &self,
         shapes: &Shapes<'_>,
@@ -111,28 +112,15 @@ impl Parts<'_> {
         sums: &Sums,
         fed: f64,
     ) -> Vec<(String, f64)> {
-        let shares = match &sums.balance {
-            None => vec![fed],
-            Some(balance) => self.feeds(shapes, (i, mode), (&balance[i], sums.kinetic[i], fed)),
-        };
-        self.contacts.iter().map(|(name, _)| name.clone()).zip(shares).collect()
-    }
-
-    /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact; what forces on nodes of two contacts
-    /// leave of the sum `fed` is shared out evenly.
-    fn feeds(
-        &self,
-        shapes: &Shapes<'_>,
-        (i, mode): (usize, &ComplexMode),
-        (balance, kinetic, fed): (&[c64], f64, f64),
-    ) -> Vec<f64> {
+        let names = self.contacts.iter().map(|(name, _)| name.clone());
+        let Some(balance) = &sums.balance else { return names.zip([fed]).collect() };
         let (re, im) = (shapes.columns.col_as_slice(2 * i), shapes.columns.col_as_slice(2 * i + 1));
-        let work = |dof: &usize| (c64::new(re[*dof], -im[*dof]) * balance[*dof]).im;
+        let work = |dof: &usize| (c64::new(re[*dof], -im[*dof]) * balance[i][*dof]).im;
         let works = self.contacts.iter().map(|(_, dofs)| dofs.iter().map(work).sum::<f64>());
         let rates: Vec<f64> =
-            works.map(|work| work / (2.0 * mode.eigenvalue.im * kinetic)).collect();
+            works.map(|work| work / (2.0 * mode.eigenvalue.im * sums.kinetic[i])).collect();
         let left = (fed - rates.iter().sum::<f64>()) / rates.len() as f64;
-        rates.into_iter().map(|rate| rate + left).collect()
+        names.zip(rates.into_iter().map(|rate| rate + left)).collect()
     }
 }
 

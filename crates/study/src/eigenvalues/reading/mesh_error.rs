@@ -29,7 +29,7 @@ fn is_made(case: &Case, mass: MassKind) -> bool {
 /// least and the largest one and the case's own. Between them the error of a mode moves by a fortieth to a quarter of
 /// itself (medians of three bodies; 0.8 the most), less than the estimate may be wrong by.
 pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64]) -> Vec<f64> {
-    let [least, most] = frictionsim_physics::order::range(shown.iter().copied());
+    let [least, most] = order::range(shown.iter().copied());
     let own = case.contact.sliding.friction_coefficient;
     let is_wanted = |mu: &f64| is_made(case, mass) && [least, most, own].contains(mu);
     shown.iter().copied().filter(is_wanted).collect()

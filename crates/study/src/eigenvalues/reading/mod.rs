@@ -15,7 +15,6 @@
 
 mod budget;
 mod feed;
-mod harmonic;
 mod mesh_error;
 mod parts;
 mod shapes;
@@ -24,8 +23,6 @@ mod waves;
 use super::model::Model;
 use super::sliding::SlidingModel;
 use crate::prelude::*;
-use frictionsim_physics::parallel;
-use frictionsim_physics::prestress::WaveTangent;
 use frictionsim_results::cea::Reading;
 pub(super) use mesh_error::lefts_needed;
 use parts::Parts;

@@ -94,22 +94,19 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
         };
         nodes(contacts[contact].1[0]).map(away).fold(f64::INFINITY, f64::min)
     };
-    let mut touched: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut touched: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (contact, (_, surfaces)) in contacts.iter().enumerate() {
         for node in surfaces.iter().flat_map(|&surface| nodes(surface)) {
-            let known = touched.entry(node).or_default();
-            if !known.contains(&contact) {
-                known.push(contact);
-            }
+            touched.entry(node).or_default().insert(contact);
         }
     }
     let mut dofs = vec![Vec::new(); contacts.len()];
     for (node, all) in touched {
-        let nearest = all.iter().copied();
-        let nearest = nearest.min_by(|a, b| distance(node, *a).total_cmp(&distance(node, *b)));
-        let owner = nearest.unwrap_or(all[0]);
-        let d = mesh.dimension;
-        dofs[owner].extend((0..d).map(|k| d * node + k));
+        let by_distance = |a: &usize, b: &usize| distance(node, *a).total_cmp(&distance(node, *b));
+        if let Some(owner) = all.into_iter().min_by(by_distance) {
+            let d = mesh.dimension;
+            dofs[owner].extend((0..d).map(|k| d * node + k));
+        }
     }
     contacts.iter().map(|(name, _)| name.clone()).zip(dofs).collect()
 }

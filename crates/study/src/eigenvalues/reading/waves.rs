@@ -1,27 +1,39 @@
 //! The same of a body solved harmonic by harmonic, from the matrices of one sector: every sector has an equal share.
+//!
+//! Everything is in the unknowns of the harmonic. A term that comes with friction is `i mu` times its matrix, Hermitian
+//! as a whole.
 
 use super::budget::write;
-use super::harmonic::Harmonic;
 use super::shapes::{couplings, name_of};
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
 use crate::prelude::*;
 use frictionsim_physics::cea::ModeWave;
-use frictionsim_physics::prestress::WaveTangent;
+use frictionsim_physics::linalg::banded::CompactRows;
+use frictionsim_physics::prestress::{Kind, Part, PartForms, Term};
 use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Reading, Source};
 
-/// A body taken apart, and its harmonics as far as they were needed.
+/// A body taken apart.
 struct Apart<'a> {
+    tangent: &'a WaveTangent,
     /// Regions, then supports.
     parts: Vec<(String, Source)>,
-    harmonics: BTreeMap<usize, Harmonic<'a>>,
+    /// Their matrices in the harmonics that are needed.
+    harmonics: BTreeMap<usize, Vec<Term<CompactRows>>>,
+    /// Unknowns of each contact node, or ring of them.
+    contact: Vec<Vec<usize>>,
 }
 
-/// A mode with its wave, and `M x` of it.
+/// A mode with its wave.
 struct Waving<'a> {
     name: ModeName,
     mode: &'a ComplexMode,
     wave: &'a ModeWave,
+    /// Eigenvalue of the wave `+n`.
+    root: c64,
+    /// Matrices of its harmonic, each with what friction multiplies it by.
+    terms: Vec<(&'a Term<CompactRows>, c64)>,
+    /// `M x` of all regions.
     momentum: Vec<c64>,
     /// `x^H M x`.
     mass: f64,
@@ -61,16 +73,29 @@ impl<'t> Apart<'t> {
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
         let regions = model.mesh.regions.iter().map(|name| (name.clone(), Source::Part));
         let supports = tangent.terms.others.iter().map(|name| (name.clone(), Source::Support));
-        let harmonics = numbers.into_iter().map(|n| (n, Harmonic::new(tangent, n))).collect();
-        Self { parts: regions.chain(supports).collect(), harmonics }
+        Self {
+            parts: regions.chain(supports).collect(),
+            harmonics: numbers.into_iter().map(|n| (n, tangent.body_terms(n))).collect(),
+            contact: tangent.contact_unknowns(),
+            tangent,
+        }
     }
 
-    fn waving<'a>(&self, point: &'a FrictionPoint) -> Vec<Waving<'a>> {
+    fn waving<'a>(&'a self, point: &'a FrictionPoint) -> Vec<Waving<'a>> {
+        let power = |term: &Term<CompactRows>| match term.power {
+            0 => c64::ONE,
+            _ => c64::new(0.0, point.friction_coefficient),
+        };
         let own = point.modes.iter().enumerate().filter_map(|(index, mode)| {
-            let wave = mode.wave.as_ref()?;
-            let momentum = self.harmonics[&mode.harmonic].momentum(&wave.unknowns);
+            let (wave, terms) = (mode.wave.as_ref()?, &self.harmonics[&mode.harmonic]);
+            let mut momentum = vec![c64::ZERO; wave.unknowns.len()];
+            for term in terms.iter().filter(|term| term.kind == Kind::Mass) {
+                term.matrix.add_product(c64::ONE, &wave.unknowns, &mut momentum);
+            }
             Some(Waving {
                 name: name_of(point.friction_coefficient, (index + 1, mode), true),
+                root: wave.root(mode.eigenvalue),
+                terms: terms.iter().map(|term| (term, power(term))).collect(),
                 mass: product(&wave.unknowns, &momentum).re,
                 mode,
                 wave,
@@ -82,9 +107,13 @@ impl<'t> Apart<'t> {
 
     /// What each region, support and the contact adds to a mode.
     fn contributions(&self, own: &Waving<'_>, out: &mut Vec<Contribution>) {
-        let parts = &self.harmonics[&own.mode.harmonic];
-        let (x, root) = (&own.wave.unknowns, own.wave.root(own.mode.eigenvalue));
-        let forms = parts.forms(root, own.name.friction_coefficient, x);
+        let (all, x) = (&self.tangent.terms, &own.wave.unknowns);
+        let mut forms = vec![PartForms::default(); all.bodies.len()];
+        for (term, power) in &own.terms {
+            if let Part::Body(body) = term.part {
+                all.add_form(term, own.root, power * term.matrix.form(x, x), &mut forms[body]);
+            }
+        }
         let energies = [own.mass, forms.iter().map(|own| own.stiffness).sum()];
         let rows = self.parts.iter().zip(&forms).map(|((name, source), own)| {
             // A support has no mass.
@@ -108,15 +137,22 @@ impl<'t> Apart<'t> {
         let contact = &model.contact;
         let area: f64 = contact.iter().map(|own| own.place.area).sum();
         let modes = unstable.iter().map(|own| {
-            let root = own.wave.root(own.mode.eigenvalue);
-            let parts = &self.harmonics[&own.mode.harmonic];
-            let friction = own.name.friction_coefficient;
-            // Of the contact nodes of one sector, or of rings, which are of all sectors.
-            let works = parts.works_at_contact(root, friction, &own.wave.unknowns);
-            let repeats = contact.len() / works.len();
-            let scale = 1.0 / (2.0 * root.im * own.mass * repeats as f64);
+            let x = &own.wave.unknowns;
+            // `Im(x_i^H f_i)` of the forces `f = (lambda^2 M + lambda C + K) x` of bodies and supports: what the
+            // contact's forces do on its nodes in one sector, or on rings, which are of all sectors.
+            let mut forces = vec![c64::ZERO; x.len()];
+            for (term, power) in &own.terms {
+                let factor = self.tangent.terms.dynamic(term, own.root) * power;
+                term.matrix.add_product(factor, x, &mut forces);
+            }
+            let work = |unknowns: &Vec<usize>| -> f64 {
+                unknowns.iter().map(|&k| (x[k].conj() * forces[k]).im).sum()
+            };
+            let repeats = contact.len() / self.contact.len();
+            let scale = 1.0 / (2.0 * own.root.im * own.mass * repeats as f64);
             let is_own = |row: &&Contribution| row.mode == own.name && row.kind == Source::Contact;
             let fed = contributions.iter().find(is_own).map_or(0.0, |row| row.growth_rate_per_s);
+            let works: Vec<f64> = self.contact.iter().map(work).collect();
             let rates = works.iter().cycle().take(contact.len()).map(|work| scale * work);
             let rates: Vec<f64> = rates.collect();
             let left = (fed - rates.iter().sum::<f64>()) / area;

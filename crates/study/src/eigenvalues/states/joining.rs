@@ -36,21 +36,20 @@ fn name_of(interval: &UnstableInterval) -> Name {
     (interval.harmonic, interval.branch)
 }
 
-/// A branch whose stability is another on either side of the place where two parts meet.
-struct Jump<'a> {
-    friction_coefficient: f64,
-    /// The mode beyond.
-    mode: &'a ComplexMode,
-}
-
-/// The branches that both of two neighbours know where they meet, and whose stability changes there.
-fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = Jump<'a>> {
-    before.last().zip(after.first()).into_iter().flat_map(|(last, first)| {
+/// The branches that both of two neighbours know where they meet, and whose stability changes there: friction
+/// coefficient and mode beyond.
+fn jumps_between<'a>(
+    before: &'a Part,
+    after: &'a Part,
+) -> impl Iterator<Item = (f64, &'a ComplexMode)> {
+    let is_same =
+        |one: &ComplexMode, other: &ComplexMode| one.branch > 0 && name(one) == name(other);
+    before.last().zip(after.first()).into_iter().flat_map(move |(last, first)| {
         first.known().enumerate().filter_map(move |(j, mode)| {
             let (i, same) = last.known().enumerate().find(|(_, other)| is_same(other, mode))?;
             let is_listed = i < last.modes.len() || j < first.modes.len();
             (is_listed && same.is_unstable() != mode.is_unstable())
-                .then_some(Jump { friction_coefficient: first.friction_coefficient, mode })
+                .then_some((first.friction_coefficient, mode))
         })
     })
 }
@@ -62,17 +61,10 @@ fn begins_statically(before: &Part, after: &Part) -> bool {
     after.sweep.intervals.iter().any(begins) && !before.sweep.intervals.iter().any(is_open)
 }
 
-/// Whether two modes are on one branch.
-fn is_same(one: &ComplexMode, other: &ComplexMode) -> bool {
-    one.branch > 0 && name(one) == name(other)
-}
-
 /// Friction coefficients at which the growth of a branch jumps across zero.
 pub fn jumps(parts: &[Part]) -> impl Iterator<Item = f64> {
-    parts.windows(2).filter(|pair| unknown(pair).is_empty()).filter_map(|pair| {
-        let mut jumps = jumps_between(&pair[0], &pair[1]);
-        jumps.next().map(|jump| jump.friction_coefficient)
-    })
+    let meeting = parts.windows(2).filter(|pair| unknown(pair).is_empty());
+    meeting.filter_map(|pair| Some(jumps_between(&pair[0], &pair[1]).next()?.0))
 }
 
 /// Friction coefficients between two neighbours at which the state is unknown.
@@ -144,13 +136,12 @@ fn joined_intervals(parts: &mut [Part], frictions: &[f64]) -> Vec<UnstableInterv
         let (before, rest) = parts.split_at_mut(k);
         let part = &mut rest[0];
         let intervals = std::mem::take(&mut part.sweep.intervals);
-        let jumps = before.last().map(|before| jumps_between(before, part));
-        let jumps: Vec<Jump<'_>> = jumps.into_iter().flatten().collect();
+        let jumps = before.last().into_iter().flat_map(|before| jumps_between(before, part));
         // Where growth jumps to decay an interval ends.
-        for jump in jumps.iter().filter(|jump| !jump.mode.is_unstable()) {
-            let own = found.iter_mut().rev().find(|known| is_open(known, name(jump.mode)));
+        for (friction, mode) in jumps.filter(|(_, mode)| !mode.is_unstable()) {
+            let own = found.iter_mut().rev().find(|known| is_open(known, name(mode)));
             if let Some(known) = own {
-                known.restabilized = Some((jump.friction_coefficient, jump.mode.frequency_hz()));
+                known.restabilized = Some((friction, mode.frequency_hz()));
             }
         }
         // So does one of static instability where the next state is stable.
@@ -197,7 +188,7 @@ fn relabel(before: &Part, after: &mut Part) {
             }
         }
     }
-    let paired = frictionsim_physics::order::each_once(pairs).into_iter();
+    let paired = order::each_once(pairs).into_iter();
     let paired = paired.filter(|&(i, j)| old[i].branch > 0 && new[j].branch > 0);
     let mut name_at: BTreeMap<Name, Name> =
         paired.map(|(i, j)| (name(new[j]), name(old[i]))).collect();
