@@ -1,6 +1,6 @@
 //! `frictionsim basin`: which of two motions wins.
 
-use super::{Failure, RunOptions, Session};
+use super::prelude::*;
 use crate::study::basin::summary;
 
 pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {

@@ -2,21 +2,17 @@
 //! stands free.
 
 use super::limits::STANDARD_INPUT;
-use super::{
-    Failure, ResumedRun, RunOptions, Session, Told, input_name, read_input, start_threads, terminal,
-};
+use super::prelude::*;
+use super::start_threads;
 use crate::case::{FreeSystem, RawCase};
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::cea::{
     KeptSteps, View, document, figures, page, summary, write_fields, write_universal,
 };
-use crate::results::{Head, Manifest};
 use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
 use crate::study::superelement::free_spectrum;
 use frictionsim_bounds::CASE;
 use indicatif::ProgressBar;
-use std::path::Path;
-use std::time::Instant;
 
 /// What an interrupted run leaves.
 const KEPT: &str = "friction values that are done are kept: the same command with --resume goes on";

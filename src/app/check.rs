@@ -2,15 +2,12 @@
 
 use super::cea::described_system;
 use super::options::CaseChanges;
+use super::prelude::*;
 use super::session::{machine_memory, read_case};
-use super::{Failure, terminal};
-use crate::case::{Case, Convergence, Cost, FreeSystem, RunCost, StudyCost};
+use crate::case::{Convergence, Cost, FreeSystem, RunCost, StudyCost};
 use crate::results::plural;
 use crate::study::{Preflight, preflight};
-use clap::{Args, ValueHint};
-use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 
 /// Time beyond which a run is hardly meant, s: 30 days.
 const LONGEST_RUN: f64 = 30.0 * 86_400.0;
@@ -71,7 +68,7 @@ pub fn examine(path: &Path, overrides: &[String]) -> Result<Value, Failure> {
 fn check(path: &Path, name: &str, changes: &CaseChanges) -> Result<(String, Value), Failure> {
     let overrides = changes.overrides();
     if let Some(system) = described_system(path, &overrides)? {
-        return Ok((describe_superelement(name, &system), superelement_object(name, &system)));
+        return Ok(superelement(name, &system));
     }
     let case = read_case(path, &overrides)?;
     let found = preflight(&case, machine_memory());
@@ -93,21 +90,19 @@ fn valid(name: &str, title: &str) -> String {
     format!("{name}: valid{title}\n")
 }
 
-fn describe_superelement(name: &str, system: &FreeSystem) -> String {
+fn superelement(name: &str, system: &FreeSystem) -> (String, Value) {
     let own = &system.superelement;
     let unknowns = plural(own.mass.rows, ["unknown", "unknowns"]);
-    valid(name, &system.title) + &format!("  superelement {}: {unknowns}\n", own.name)
-}
-
-fn superelement_object(name: &str, system: &FreeSystem) -> Value {
-    json!({
+    let text = valid(name, &system.title) + &format!("  superelement {}: {unknowns}\n", own.name);
+    let object = json!({
         "case": name,
         "valid": true,
         "title": system.title,
         "case_hash": system.hash,
-        "dofs": system.superelement.mass.rows,
+        "dofs": own.mass.rows,
         "warnings": [],
-    })
+    });
+    (text, object)
 }
 
 fn describe(name: &str, case: &Case, found: &Preflight) -> String {

@@ -1,15 +1,13 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
 use super::options::FigureOptions;
+use super::prelude::*;
 use super::sweep::{SweepPlan, figures, finished, gather};
-use super::{Failure, OutputOptions, start_threads, terminal};
-use crate::case::{Case, MeshBytes, RawCase, RawValue, TableBytes};
+use crate::case::{MeshBytes, RawCase, RawValue, TableBytes};
+use crate::results::MESH;
 use crate::results::sweep::{SweepFolder, SweepReport, document};
-use crate::results::{MESH, Manifest};
-use clap::{ArgAction, Args, ValueHint};
+use clap::ArgAction;
 use frictionsim_bounds::{RESULT, read_file};
-use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// Gather the points of a sweep that several processes share
 ///
@@ -36,7 +34,6 @@ pub struct Arguments {
 pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     terminal::start_log(asked.quiet, 0);
-    start_threads(None);
     let folder = SweepFolder::find(&asked.folder, "sweep")?;
     let case = recorded_case(&asked.folder, folder.output().manifest())?;
     let plan = SweepPlan::new(&case)?;

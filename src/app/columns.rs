@@ -1,9 +1,7 @@
 //! `frictionsim columns`: the columns of tables and the keys of `summary.json`.
 
-use super::{Failure, terminal};
+use super::prelude::*;
 use crate::results::reference::{markdown, objects};
-use clap::Args;
-use serde_json::json;
 use std::fmt::Write as _;
 
 /// List the columns of tables and the keys of summary.json with unit and meaning

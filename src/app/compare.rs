@@ -1,13 +1,12 @@
 //! `frictionsim compare`: runs side by side.
 
-use super::{Failure, LONGEST_NAME, OutputOptions, Told, terminal};
+use super::LONGEST_NAME;
+use super::prelude::*;
 use crate::case::hash_of;
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, SharedQuantity, document, file, overlaid, print, shared,
 };
-use crate::results::{Head, Manifest, Page, read_manifest, read_record, read_summary, write_table};
-use clap::{Args, ValueHint};
-use std::path::{Path, PathBuf};
+use crate::results::{Page, read_manifest, read_record, read_summary, write_table};
 
 /// Set finished runs side by side: numbers and curves
 ///

@@ -1,7 +1,8 @@
 //! `frictionsim completions`: a shell's completion script.
 
-use super::{CommandLine, Failure, terminal};
-use clap::{Args, CommandFactory};
+use super::CommandLine;
+use super::prelude::*;
+use clap::CommandFactory;
 use clap_complete::Shell;
 
 /// Print a shell completion script

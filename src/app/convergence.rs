@@ -1,6 +1,6 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
-use super::{Failure, RunOptions, Session, Told, terminal};
+use super::prelude::*;
 use crate::results::convergence::ConvergenceSummary;
 use crate::results::{Finding, declared};
 use crate::study::convergence::{levels, solve};

@@ -1,11 +1,10 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
-use super::{Failure, ResumedRun, Session, Told, terminal};
+use super::prelude::*;
+use crate::results::ShownBody;
 use crate::results::cea::KeptSteps;
 use crate::results::cycle::{CycleSummary, SoughtCycle};
-use crate::results::{OutputFolder, ShownBody};
 use crate::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
-use serde_json::Value;
 
 /// What an interrupted search for motions of two frequencies leaves.
 const KEPT_PAIRS: &str =

@@ -1,13 +1,11 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
-use super::{Failure, RunOptions, Session, depend_on, input_name, read_input};
+use super::prelude::*;
 use crate::results::fit::{BLOCK, FitSummary};
 use crate::signal::reader::{read_modes, read_shapes};
 use crate::study::fit::{fit_case, refuse_too_few};
 use crate::study::mac::MeasuredShapes;
-use clap::{Args, ValueHint};
 use frictionsim_bounds::MEASUREMENT;
-use std::path::{Path, PathBuf};
 
 /// Find parameters of a case from measured modes or squeal frequencies
 ///

@@ -1,6 +1,6 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
-use super::{Failure, RunOptions, Session, terminal};
+use super::prelude::*;
 use crate::results::{response_figure, write_response};
 use crate::signal::FrequencyResponse;
 use crate::study::response::FrequencyStudy;

@@ -1,15 +1,14 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::measurement::{Measurement, SideFile, chosen};
+use super::one_of;
 use super::options::Choice;
-use super::{Failure, OutputOptions, Told, one_of};
+use super::prelude::*;
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
 };
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
 use crate::signal::{FrequencyResponse, ResponseQuantity, identify};
-use clap::{Args, ValueHint};
-use std::path::PathBuf;
 
 /// Find damping from a measured frequency response
 ///

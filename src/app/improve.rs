@@ -1,6 +1,6 @@
 //! `frictionsim improve`: where a modification silences unstable modes.
 
-use super::{Failure, RunOptions, Session};
+use super::prelude::*;
 use crate::results::improve::{document, figures, write};
 use crate::study::improve::improve;
 

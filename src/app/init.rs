@@ -1,12 +1,10 @@
 //! `frictionsim init`: a commented case to start from.
 
+use super::prelude::*;
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
-use super::{Failure, terminal};
 use crate::case::{case_from, reference};
-use clap::{Args, ValueHint};
 use std::fmt::Write as _;
 use std::io::Write;
-use std::path::{Path, PathBuf};
 
 /// Short names of shipped cases.
 const SHORT_NAMES: &[(&str, &str)] = &[

@@ -1,9 +1,7 @@
 //! `frictionsim keys`: every key of a case file.
 
-use super::{Failure, terminal};
+use super::prelude::*;
 use crate::case::{CaseKey, KEYS, reference};
-use clap::Args;
-use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// List the keys of a case with unit, default and meaning

@@ -1,11 +1,9 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
 use super::fit::measured_shapes;
-use super::{Failure, RunOptions, Session, input_name};
+use super::prelude::*;
 use crate::results::mac::MacSummary;
 use crate::study::mac::assurance;
-use clap::{Args, ValueHint};
-use std::path::PathBuf;
 
 /// Compare measured shapes with the modes of a case
 ///

@@ -1,13 +1,12 @@
 //! `frictionsim man`: manual pages.
 
-use super::{Failure, command_line, terminal};
+use super::command_line;
+use super::prelude::*;
 use crate::case::{KEYS, reference};
-use clap::{Args, ValueHint};
 use clap_mangen::Man;
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
-use std::path::PathBuf;
 
 /// Print the manual page, or write those of all subcommands
 #[derive(Args)]

@@ -1,10 +1,9 @@
 //! `frictionsim matrices`: the matrices of a case, for other programs.
 
-use super::{Failure, RunOptions, Session, depend_on};
+use super::prelude::*;
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
 use crate::results::{write_summary, write_universal_mesh};
 use crate::study::matrices::matrices;
-use clap::Args;
 
 /// Export the matrices of a case to other programs
 ///

@@ -1,14 +1,11 @@
 //! Options, input and output folder that the commands on measured tables share.
 
-use super::{Failure, OutputOptions, depend_on, input_name, read_input, terminal};
+use super::prelude::*;
 use crate::case::hash_of;
-use crate::results::{Head, Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
 use frictionsim_bounds::MEASUREMENT;
 use std::fmt::Display;
 use std::io::Write as _;
-use std::path::Path;
-use std::time::Instant;
 
 /// A table on its way through one command.
 pub struct Measurement {

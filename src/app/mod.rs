@@ -26,6 +26,7 @@ mod measurement;
 mod mesh;
 mod options;
 pub mod plot;
+mod prelude;
 mod session;
 mod share;
 pub mod shipped;

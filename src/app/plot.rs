@@ -1,14 +1,10 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::options::FigureOptions;
-use super::{Failure, start_threads, terminal};
+use super::prelude::*;
 use crate::results::sweep::SweepFolder;
-use crate::results::{
-    DrawingOptions, Manifest, OutputFolder, Page, read_manifest, read_record, read_summary,
-};
-use clap::{ArgAction, Args, ValueHint};
-use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use crate::results::{DrawingOptions, Page, read_manifest, read_record, read_summary};
+use clap::ArgAction;
 
 /// Draw the figures of a results folder again
 ///
@@ -31,7 +27,6 @@ pub struct Arguments {
 
 pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     terminal::start_log(asked.quiet, 0);
-    start_threads(None);
     let path = &asked.folder;
     let manifest = read_manifest(path)?;
     if manifest.version != env!("CARGO_PKG_VERSION") {

@@ -1,9 +1,8 @@
 //! Options of the commands whose work is dealt out: parts of it, and a folder that is gone on with.
 
-use super::{Failure, Session};
+use super::prelude::*;
 use crate::results::sweep::{Start, SweepFolder};
 use crate::study::Shard;
-use clap::Args;
 
 /// Which part of the work is done, and whether an earlier run is gone on with.
 #[derive(Args)]

@@ -1,9 +1,9 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
 use super::measurement::{Measurement, SideFile, chosen};
+use super::prelude::*;
 use super::session::read_case;
-use super::{Failure, OutputOptions, Told, depend_on, terminal};
-use crate::case::{Case, Cea};
+use crate::case::Cea;
 use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
 use crate::results::charts::ModeLine;
@@ -19,8 +19,6 @@ use crate::signal::{
     averaged_spectrum, exponential_stage, spectral_lines,
 };
 use crate::study::{modes_at_own_friction, tangent_options};
-use clap::{Args, ValueHint};
-use std::path::PathBuf;
 
 /// Lines reported for each channel.
 const MOST_LINES: usize = 12;

@@ -3,23 +3,19 @@
 mod workers;
 
 pub use crate::study::{Shard, SweepPlan};
-pub use workers::{PointRunner, SweepProgress, SweepRun};
+pub use workers::{PointRunner, SweepProgress, SweepRun, keep_piece};
 
+use super::prelude::*;
 use super::session::machine_memory;
 use super::share::ShareOptions;
 use super::transient::linear_stage;
-use super::{Failure, RunOptions, Session, terminal};
-use crate::case::{Analysis, Case};
-use crate::chart::Figure;
+use crate::case::Analysis;
 use crate::results::sweep::{
     FailedPoint, Found, SweepFolder, SweepReport, SweepSummary, document, draw_sweep, tables,
 };
-use crate::results::{
-    DrawingOptions, Head, Manifest, summary_of, write_page, write_summary, write_table,
-};
+use crate::results::{DrawingOptions, summary_of, write_page, write_summary, write_table};
 use crate::study::{refuse_memory, summarize};
-use clap::Args;
-use serde_json::{Map, Value};
+use serde_json::Map;
 
 /// Run any analysis on a grid of parameters
 ///

@@ -3,21 +3,17 @@
 mod continuation;
 mod watch;
 
-use super::{Failure, RunOptions, Session};
-use crate::case::Case;
+use super::prelude::*;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
     CHECKPOINT, Checkpoint, LinearStage, RecordedRun, SolvedTransient, document, draw_run, write,
     write_checkpoint,
 };
-use crate::results::{OutputFolder, read_record, write_page};
+use crate::results::{read_record, write_page};
 use crate::study;
 use crate::study::transient::TransientStudy;
 use crate::transient::{CentralDifference, Recorder, RunEnd};
-use clap::Args;
-use std::path::Path;
-use std::time::Instant;
 use watch::Watch;
 
 /// How the vibration grows and saturates, step by step in time
@@ -72,7 +68,12 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     };
     let folder = match asked.resume {
         true => continuation::reopen(&session, goes_on)?,
-        false => open(&session)?,
+        // A checkpoint of an earlier run must not outlive the results it belongs to.
+        false => {
+            let folder = session.open_folder(false)?;
+            folder.discard(CHECKPOINT)?;
+            folder
+        }
     };
     let solved = step(&session, &study, &folder, (&mut loop_, operator.name()), record)?;
 
@@ -140,13 +141,6 @@ fn step(
         steps_timed: run.steps_done() - first_step,
         stepping_s,
     })
-}
-
-fn open(session: &Session) -> Result<OutputFolder, Failure> {
-    let folder = session.open_folder(false)?;
-    // A checkpoint of an earlier run must not outlive the results it belongs to.
-    folder.discard(CHECKPOINT)?;
-    Ok(folder)
 }
 
 /// Ends a run that a signal stopped: what there is stays, and the message says how to go on.

@@ -1,15 +1,14 @@
 //! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
 
+use super::prelude::*;
 use super::share::ShareOptions;
-use super::{Failure, RunOptions, Session, terminal};
-use crate::case::{Case, find_key};
-use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
+use super::sweep::keep_piece;
+use crate::case::find_key;
+use crate::results::sweep::{Found, SweepFolder};
 use crate::results::uncertainty::{Sample, samples_table};
 use crate::results::{Finding, declared, summary_of, write_page, write_summary, write_table};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
-use clap::Args;
 use serde_json::Map;
-use std::time::Instant;
 
 /// Name of the samples in the file of a block.
 const SAMPLES: &str = "samples";
@@ -57,7 +56,11 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let count_asked = (blocks.len() * BLOCK) as u64;
     let bar = terminal::progress(output.is_quiet(), count_asked, "samples");
     for &block in &blocks {
-        run_block(&sampler, &folder, block)?;
+        keep_piece(&folder, (block, &Map::new()), || {
+            let samples = serde_json::to_value(sampler.block(block)).map_err(Failure::run)?;
+            let summaries = Map::from_iter([(SAMPLES.to_owned(), samples)]);
+            Ok((session.manifest.case_hash.clone(), Ok(summaries)))
+        })?;
         bar.inc(BLOCK as u64);
     }
     bar.finish_and_clear();
@@ -111,26 +114,6 @@ fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), 
         }
     }
     Ok((samples, missing))
-}
-
-/// Runs one block and keeps it, unless it is finished or another process has it.
-fn run_block(sampler: &Sampler<'_>, folder: &SweepFolder, block: usize) -> Result<(), Failure> {
-    let Some(_claim) = folder.take(block)? else { return Ok(()) };
-    let start = Instant::now();
-    let samples = serde_json::to_value(sampler.block(block)).map_err(Failure::run)?;
-    let manifest = folder.output().manifest();
-    let record = PointRecord {
-        point: block,
-        swept: Map::new(),
-        error: None,
-        summaries: Map::from_iter([(SAMPLES.to_owned(), samples)]),
-        case_hash: manifest.case_hash.clone(),
-        sweep_hash: manifest.case_hash.clone(),
-        version: manifest.version.clone(),
-        simd: manifest.simd.clone(),
-    };
-    let clock = PointClock { wall_s: start.elapsed().as_secs_f64(), ..PointClock::default() };
-    Ok(folder.write_point(&record, &clock)?)
 }
 
 /// Refuses what cannot be designed.

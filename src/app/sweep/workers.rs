@@ -1,17 +1,16 @@
 //! Runs the points of a sweep on worker threads, and tells how far it is.
 
+use crate::app::embedded;
+use crate::app::prelude::*;
 use crate::app::terminal::progress_in;
-use crate::app::{Failure, embedded};
-use crate::case::Case;
 use crate::results::sweep::{PointClock, PointRecord, SweepFolder, swept_text};
 use crate::study::{SweepPlan, one_line};
 use indicatif::ProgressBar;
-use serde_json::{Map, Value};
+use serde_json::Map;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
 
 /// Runs the analyses of one point and gives the summary of each by its name.
 pub type PointRunner<'a> = dyn Fn(&Case) -> Result<Map<String, Value>, Failure> + Sync + 'a;
@@ -20,7 +19,7 @@ pub type PointRunner<'a> = dyn Fn(&Case) -> Result<Map<String, Value>, Failure> 
 pub const KEPT: &str = "finished points are kept: go on with --resume";
 
 /// Hash of a point's case; its summaries, or its error in words.
-type PointOutcome = (String, Result<Map<String, Value>, String>);
+pub type PointOutcome = (String, Result<Map<String, Value>, String>);
 
 /// A sweep on its way.
 pub struct SweepRun<'a> {
@@ -69,41 +68,19 @@ impl SweepRun<'_> {
         })
     }
 
-    /// Runs one point and keeps it, unless it is finished or another process has it.
+    /// Runs one point and tells of it; whether it was this process that ran it.
     fn run_point(&self, point: usize) -> Result<bool, Failure> {
-        let Some(_claim) = self.folder.take(point)? else {
-            // It was finished already, or another process runs it.
-            self.progress.bar.inc(1);
-            return Ok(false);
-        };
         let swept = self.plan.swept(point);
-        self.progress.begin(point, &swept);
-        let (start, busy) = (Instant::now(), thread_core_seconds());
-        let (case_hash, outcome) = self.compute(point)?;
-        let wall_s = start.elapsed().as_secs_f64();
-        let core_s = match (busy, thread_core_seconds(), rayon::current_num_threads()) {
-            (Some(before), Some(after), 1) => after - before,
-            (_, _, threads) => wall_s * threads as f64,
+        let work = || {
+            self.progress.begin(point, &swept);
+            self.compute(point)
         };
-        let (mut summaries, error) = match outcome {
-            Ok(summaries) => (summaries, None),
-            Err(error) => (Map::new(), Some(error)),
-        };
-        let clock = PointClock::taken_from(wall_s, core_s, &mut summaries);
-        let manifest = self.folder.output().manifest();
-        let record = PointRecord {
-            point,
-            swept,
-            error,
-            summaries,
-            case_hash,
-            sweep_hash: manifest.case_hash.clone(),
-            version: manifest.version.clone(),
-            simd: manifest.simd.clone(),
-        };
-        self.folder.write_point(&record, &clock)?;
-        self.progress.end(&record, clock.wall_s);
-        Ok(true)
+        let kept = keep_piece(self.folder, (point, &swept), work)?;
+        match &kept {
+            Some((record, clock)) => self.progress.end(record, clock.wall_s),
+            None => self.progress.bar.inc(1),
+        }
+        Ok(kept.is_some())
     }
 
     /// Hash and summaries of a point, or its error in words.
@@ -123,6 +100,39 @@ impl SweepRun<'_> {
         };
         Ok((case.raw.hash(), outcome))
     }
+}
+
+/// Does a piece of work and keeps what comes of it and how long that took; `None` where it is finished already or
+/// another process has it.
+pub fn keep_piece(
+    folder: &SweepFolder,
+    (point, swept): (usize, &Map<String, Value>),
+    work: impl FnOnce() -> Result<PointOutcome, Failure>,
+) -> Result<Option<(PointRecord, PointClock)>, Failure> {
+    let Some(_claim) = folder.take(point)? else { return Ok(None) };
+    let (start, busy) = (Instant::now(), thread_core_seconds());
+    let (case_hash, outcome) = work()?;
+    let wall_s = start.elapsed().as_secs_f64();
+    let core_s = match (busy, thread_core_seconds(), rayon::current_num_threads()) {
+        (Some(before), Some(after), 1) => after - before,
+        (_, _, threads) => wall_s * threads as f64,
+    };
+    let error = outcome.as_ref().err().cloned();
+    let mut summaries = outcome.unwrap_or_default();
+    let clock = PointClock::taken_from(wall_s, core_s, &mut summaries);
+    let manifest = folder.output().manifest();
+    let record = PointRecord {
+        point,
+        swept: swept.clone(),
+        error,
+        summaries,
+        case_hash,
+        sweep_hash: manifest.case_hash.clone(),
+        version: manifest.version.clone(),
+        simd: manifest.simd.clone(),
+    };
+    folder.write_point(&record, &clock)?;
+    Ok(Some((record, clock)))
 }
 
 /// Time that this thread has been on a core, s, where the system says so.

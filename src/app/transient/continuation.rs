@@ -1,10 +1,9 @@
 //! Going on with an earlier run: from its checkpoint, to its own end or to a later one.
 
-use crate::app::{Failure, Session};
+use crate::app::prelude::*;
 use crate::case::RawCase;
 use crate::results::transient::{CHECKPOINT, Checkpoint, read_checkpoint};
-use crate::results::{OutputFolder, Replace, read_manifest};
-use std::path::{Path, PathBuf};
+use crate::results::{Replace, read_manifest};
 
 /// Keys that may differ when a run goes on: what they say concerns its end alone.
 const FREE: [&str; 2] = ["transient.duration", "transient.stop_when_settled"];

@@ -1,14 +1,15 @@
 //! Progress, checkpoints and signals beside the time loop.
 
 use super::continuation::run_hash;
-use crate::app::{Failure, Session, embedded, terminal};
+use crate::app::embedded;
+use crate::app::prelude::*;
+use crate::results::FolderError;
 use crate::results::transient::write_checkpoint;
-use crate::results::{FolderError, OutputFolder};
 use crate::transient::{Observer, Recorder, Sample, StepPlan};
 use indicatif::ProgressBar;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Set by Ctrl-C and SIGTERM.
 static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);
