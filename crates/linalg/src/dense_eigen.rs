@@ -112,7 +112,7 @@ fn decompose<T: ComplexField>(
     let room = room.map(|own| own.map(|own| own.as_mut()));
     let found =
         matrix.is_all_finite().then(|| by(room, MemStack::new(&mut MemBuffer::new(scratch))));
-    found.and_then(Result::ok).ok_or(LinalgError::DenseEigen { dimension })
+    found.and_then(Result::ok).ok_or_else(|| LinalgError::dense_eigen(dimension))
 }
 
 /// Eigenvalues of a real square matrix, in no particular order, without vectors.

@@ -63,7 +63,7 @@ pub struct RealPairs {
 /// `max_applications` are returned as they are: their residuals tell.
 ///
 /// # Errors
-/// [`LinalgError::DenseEigen`].
+/// If a dense decomposition does not converge.
 ///
 /// Source: G. W. Stewart, A Krylov-Schur algorithm for large eigenproblems, SIAM J. Matrix Anal. Appl. 23 (2001); here in blocks, and with
 /// an orthonormal basis of the Ritz subspace for the Schur vectors.

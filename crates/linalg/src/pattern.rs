@@ -4,11 +4,11 @@ use super::LinalgError;
 use super::dissection::nested_dissection;
 use faer::Side;
 use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use std::sync::{Arc, OnceLock};
 
 /// Entries of factors from which on nested dissection is tried. At ten million it saves what it takes, at two hundred a third of them.
@@ -177,12 +177,7 @@ impl SparsityPattern {
             ..Default::default()
         };
         factorize_symbolic_cholesky(self.symbolic.as_ref(), Side::Upper, order, parameters)
-            .map_err(|error| LinalgError::factorization(self.dimension(), error))
-    }
-
-    /// A matrix of this pattern with `values`, one for each nonzero.
-    pub fn matrix<'a, T>(&'a self, values: &'a [T]) -> SparseColMatRef<'a, usize, T> {
-        SparseColMatRef::new(self.symbolic.as_ref(), values)
+            .map_err(|error| LinalgError::factorization(self.dimension(), format!("{error:?}")))
     }
 }
 

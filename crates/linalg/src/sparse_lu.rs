@@ -201,7 +201,7 @@ macro_rules! sparse_lu {
             /// columns alike.
             ///
             /// # Errors
-            /// [`LinalgError::Singular`] on a pivot of zero, or where entries grow so much that rounding would tell.
+            /// On a pivot of zero, or where entries grow so much that rounding would tell.
             pub fn ln_determinant(
                 analysis: &LuAnalysis,
                 values: &[$scalar],

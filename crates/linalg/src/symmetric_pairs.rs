@@ -29,7 +29,7 @@ pub struct SymmetricPairs {
 /// out orthonormal. Small `theta` are as accurate, relative to themselves, as round-off relative to the largest allows.
 ///
 /// # Errors
-/// [`LinalgError::DenseEigen`].
+/// If a dense decomposition does not converge.
 pub fn symmetric_pairs(
     pencil: &dyn SymmetricPencil,
     count: usize,
@@ -69,10 +69,10 @@ pub fn symmetric_pairs(
 
 fn decomposed(form: Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), LinalgError> {
     let (values, vectors) = symmetric_eigen(&form);
-    let is_complete = values.len() == form.ncols();
-    is_complete
-        .then_some((values, vectors))
-        .ok_or(LinalgError::DenseEigen { dimension: form.ncols() })
+    match values.len() == form.ncols() {
+        true => Ok((values, vectors)),
+        false => Err(LinalgError::dense_eigen(form.ncols())),
+    }
 }
 
 #[cfg(test)]

@@ -74,8 +74,7 @@ fn tied_halves_respond_like_the_whole() {
         if let [tie] = ties.as_slice() {
             let glued = terminal(mesh.boundaries[tie.surface].nodes[0] as usize, Direction::Z);
             let refused = system.port(&mesh, None, glued, "force_node").unwrap_err();
-            let follows = matches!(refused, FrfError::Node { fault: NodeFault::Follows, .. });
-            assert!(follows, "{refused}");
+            assert!(refused.to_string().contains("slides on another, and follows it"), "{refused}");
             let observed = system.port(&mesh, None, glued, "response_node").unwrap();
             let there = direct_response(&system, &force, &observed, &lines, &|_| {});
             assert!(there.unwrap().iter().all(|h| h.norm() > 0.0));

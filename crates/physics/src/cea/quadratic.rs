@@ -63,7 +63,7 @@ pub fn quadratic_modes(
     for matrix in [mass, damping, stiffness] {
         assert_eq!([matrix.nrows(), matrix.ncols()], [n, n]);
         if !matrix.is_all_finite() {
-            return Err(LinalgError::DenseEigen { dimension: n }.into());
+            return Err(LinalgError::dense_eigen(n).into());
         }
     }
     let problem = Problem { matrices: [mass, damping, stiffness] };

@@ -43,14 +43,9 @@ pub fn direct_response(
                 true => vec![None; lines.len()],
                 false => driven.solve_together(lines),
             };
-            let solved = lines
-                .iter()
-                .zip(shared)
-                .map(|(f, known)| match known {
-                    Some(value) => Ok(value),
-                    None => driven.factorized(*f),
-                })
-                .collect::<Result<Vec<c64>, FrfError>>();
+            let solve =
+                |(f, known): (&f64, Option<c64>)| known.map_or_else(|| driven.factorized(*f), Ok);
+            let solved = lines.iter().zip(shared).map(solve).collect::<Result<Vec<c64>, _>>();
             done(lines.len());
             solved
         });

@@ -18,7 +18,7 @@ mod terminal;
 mod waves;
 
 pub use direct::direct_response;
-pub use error::{FrfError, NodeFault};
+pub use error::FrfError;
 pub use port::Port;
 pub use reduction::{ReducedResponse, reduced_response};
 pub use system::FrfSystem;

@@ -4,7 +4,7 @@ use super::driven::Driven;
 use super::krylov::KrylovSpace;
 use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND};
 use crate::fem::RayleighDamping;
-use crate::linalg::{ComplexSparseLu, MatMut, c64};
+use crate::linalg::c64;
 use std::f64::consts::TAU;
 
 impl Driven<'_> {
@@ -60,21 +60,15 @@ impl Driven<'_> {
         let (system, count) = (self.system, self.system.dimension());
         let middle = 0.5 * (lines[0] + lines[lines.len() - 1]);
         let omega = TAU * middle;
-        let factors =
-            ComplexSparseLu::factorize(&self.lu, system.dynamic_stiffness(middle)).ok()?;
-        let solve = |x: &mut [c64]| {
-            factors.solve_in_place(MatMut::from_column_major_slice_mut(x, count, 1));
-        };
-        let mut start = self.force.complex_force(count);
+        let factors = self.factors(middle).ok()?;
+        let mut start = factors.solve(self.force.complex_force(count));
         start.resize(2 * count, c64::ZERO);
-        solve(&mut start[..count]);
         let mut space = KrylovSpace::new(start);
         let distances: Vec<c64> = lines.iter().map(|f| c64::new(TAU * f - omega, 0.0)).collect();
         let solved = space.solve(&distances, |z| {
             let (x, w) = z.split_at(count);
             let terms = [w.iter().map(|w| w * omega).collect(), x.to_vec()];
-            let mut image = system.slope(omega, &terms, false);
-            solve(&mut image);
+            let mut image = factors.solve(system.slope(omega, &terms, false));
             image.extend(x.iter().map(|x| x / omega));
             image
         });

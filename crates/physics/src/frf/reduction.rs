@@ -89,11 +89,11 @@ pub fn reduced_response(
             });
         }
         if shifts.len() >= MOST_SHIFTS {
-            return Err(FrfError::NotReduced {
-                error: largest_error,
-                bound: TOLERANCE,
-                vectors: basis.ncols(),
-            });
+            return Err(FrfError::NotReduced(format!(
+                "the reduced model still errs by {largest_error:.1e} (bound {TOLERANCE:.0e}) with {} vectors: use frf.method = \"auto\", \
+                 which solves line by line then, or \"direct\"",
+                basis.ncols()
+            )));
         }
         shifts.push(worst.0); // The worst line becomes a shift.
         basis = extended(&driven, basis, worst.0)?;
@@ -151,11 +151,7 @@ struct ReducedModel {
 impl ReducedModel {
     fn project(driven: &Driven<'_>, basis: &Mat<f64>) -> Self {
         let matrices = driven.system.matrices.map(|values| {
-            let mut image = Mat::<f64>::zeros(basis.nrows(), basis.ncols());
-            for j in 0..basis.ncols() {
-                let y = driven.system.multiply(values, basis.col_as_slice(j));
-                image.col_as_slice_mut(j).copy_from_slice(&y);
-            }
+            let image = driven.system.pattern.multiply(values, basis.as_ref());
             transpose_product(basis.as_ref(), image.as_ref())
         });
         Self {

@@ -1,6 +1,6 @@
 //! Mass, damping and stiffness of the body in the state that is excited.
 
-use super::{Axis, Direction, FrfError, NodeFault, Port, Terminal};
+use super::{Axis, Direction, FrfError, Port, Terminal};
 use crate::contact::Row;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
 use crate::linalg::{SparsityPattern, c64};
@@ -85,36 +85,39 @@ impl FrfSystem {
         key: &'static str,
     ) -> Result<Port, FrfError> {
         if terminal.node >= mesh.node_count() {
-            return Err(terminal.refused(key, NodeFault::Missing(mesh.node_count())));
+            return Err(terminal.missing(key, mesh.node_count()));
         }
         if matches!(terminal.direction, Direction::Axial | Direction::Z) && mesh.dimension == 2 {
-            return Err(terminal.refused(key, NodeFault::InPlane));
+            return Err(terminal.in_plane(key));
         }
-        let on_axis = NodeFault::OnAxis(terminal.direction.name());
-        let local = terminal.direction.at(mesh, terminal.node, axis);
-        let local = local.ok_or_else(|| terminal.refused(key, on_axis))?;
+        let local = terminal.direction.at(mesh, terminal.node, axis).ok_or_else(|| {
+            let own = terminal.direction.name();
+            let fault = format!(
+                "lies on the axis, where {own} has no direction: use \"x\", \"y\" or \"z\", or another node"
+            );
+            terminal.refused(key, &fault)
+        })?;
         let mut shares = Row::new();
         for component in (0..mesh.dimension).filter(|&k| local[k].abs() > NO_SHARE) {
             let (dof, share) = (mesh.dimension * terminal.node + component, local[component]);
             let follower = self.followers.iter().find(|(own, _)| *own == dof);
-            match (follower, self.unknowns.unknown_of[dof]) {
-                // A separation from a rigid counterface is the node's own.
-                (Some((_, row)), _) if key == "force_node" => match row.as_slice() {
-                    [(own, part)] if *own == dof => match self.unknowns.unknown_of[dof] {
-                        Some(unknown) => shares.push((unknown, part * share)),
-                        None => return Err(terminal.constrained(key)),
-                    },
-                    _ => return Err(terminal.refused(key, NodeFault::Follows)),
-                },
-                (Some((_, row)), _) => {
-                    let free = |&(other, part): &(usize, f64)| {
-                        Some((self.unknowns.unknown_of[other]?, part * share))
-                    };
-                    shares.extend(row.iter().filter_map(free));
-                }
-                (None, Some(unknown)) => shares.push((unknown, share)),
-                (None, None) => return Err(terminal.constrained(key)),
+            let row = follower.map_or_else(|| vec![(dof, 1.0)], |(_, row)| row.clone());
+            // A separation from a rigid counterface is the node's own.
+            let is_own = matches!(row[..], [(other, _)] if other == dof);
+            let is_excited = key == "force_node";
+            if is_excited && !is_own {
+                let fault = "lies on a surface that is tied to or slides on another, and follows it. Apply the force to a node \
+                             beside the surface";
+                return Err(terminal.refused(key, fault));
             }
+            let unknown_of = &self.unknowns.unknown_of;
+            let free =
+                row.iter().filter_map(|&(other, part)| Some((unknown_of[other]?, part * share)));
+            let free: Row = free.collect();
+            if free.is_empty() && (is_excited || follower.is_none()) {
+                return Err(terminal.constrained(key));
+            }
+            shares.extend(free);
         }
         Ok(Port(shares))
     }

@@ -1,12 +1,13 @@
 //! Harmonics of a body of equal sectors in the state that is excited, each solved directly at each frequency.
 
 use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND, check_frequencies};
-use super::{Direction, FrfError, NodeFault, Terminal};
+use super::{Direction, FrfError, Terminal};
 use crate::fem::RayleighDamping;
 use crate::fem::fold::WaveDofs;
 use crate::linalg::LinalgError;
 use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes, multiply_band};
 use crate::linalg::c64;
+use crate::linalg::vectors::largest;
 use crate::prestress::{MovingHarmonic, WaveTangent};
 use std::f64::consts::{PI, TAU};
 
@@ -49,7 +50,7 @@ impl CyclicSystem {
     /// Checks that a terminal can move; `key` is the case key of its node.
     ///
     /// # Errors
-    /// [`FrfError::Node`], [`FrfError::NoAxes`].
+    /// [`FrfError::Node`].
     pub fn check(&self, terminal: Terminal, key: &'static str) -> Result<(), FrfError> {
         self.place(terminal, key).map(|_| ())
     }
@@ -57,18 +58,22 @@ impl CyclicSystem {
     /// Place of a terminal; `key` is the case key of its node.
     ///
     /// # Errors
-    /// [`FrfError::Node`], [`FrfError::NoAxes`].
+    /// [`FrfError::Node`].
     fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
         let per_sector = self.tangent.halves.len();
         let count = per_sector * self.dofs.sectors;
         if terminal.node >= count {
-            return Err(terminal.refused(key, NodeFault::Missing(count)));
+            return Err(terminal.missing(key, count));
         }
-        let component = terminal.direction.component();
-        let component =
-            component.ok_or(FrfError::NoAxes { key, direction: terminal.direction.name() })?;
+        let component = terminal.direction.component().ok_or_else(|| {
+            let own = terminal.direction.name();
+            let fault = format!(
+                ": direction \"{own}\" is for bodies from a mesh file; use \"radial\", \"tangential\" or \"axial\""
+            );
+            FrfError::Node { key, fault }
+        })?;
         if component >= self.tangent.components {
-            return Err(terminal.refused(key, NodeFault::InPlane));
+            return Err(terminal.in_plane(key));
         }
         let (sector, node) = (terminal.node / per_sector, terminal.node % per_sector);
         let unknown = self.dofs.unknown_of[self.tangent.components * node + component];
@@ -102,7 +107,7 @@ pub struct CyclicResponse {
 /// thickness `b` divide by `b`; a body in three dimensions has its own thickness, and `h` is in m/N.
 ///
 /// # Errors
-/// [`FrfError::Node`], [`FrfError::NoAxes`]; [`FrfError::Frequency`]; [`FrfError::Factorization`] where an undamped system is at resonance.
+/// [`FrfError::Node`]; [`FrfError::Frequency`]; [`FrfError::Factorization`] where an undamped system is at resonance.
 pub fn cyclic_response(
     system: &CyclicSystem,
     force: Terminal,
@@ -263,15 +268,12 @@ impl<'a> Lines<'a> {
     }
 
     fn singular(&self, frequency_hz: f64, growth: f64) -> FrfError {
+        let reason = format!(
+            "singular to working precision (condition at least {growth:.1e}, the bound is {GROWTH_BOUND:.0e})"
+        );
         FrfError::Factorization {
             frequency_hz,
-            source: LinalgError::Factorization {
-                dimension: self.dimension,
-                reason: format!(
-                    "singular to working precision (condition at least {growth:.1e}, the bound is \
-                     {GROWTH_BOUND:.0e})"
-                ),
-            },
+            source: LinalgError::factorization(self.dimension, reason),
         }
     }
 }
@@ -288,8 +290,7 @@ fn pivoted(band: &[c64], h: usize, force: usize) -> (Vec<c64>, f64, f64) {
     residual[force] -= 1.0;
     let sums = band.chunks_exact(2 * h + 1).map(|row| row.iter().map(|value| value.norm()).sum());
     let norm = sums.fold(0.0_f64, f64::max);
-    let [residual, largest] =
-        [&residual, &solution].map(|own| own.iter().fold(0.0_f64, |m, x| m.max(x.norm())));
+    let [residual, largest] = [&residual, &solution].map(|own| largest(own));
     let growth = norm * largest;
     (solution, residual / growth, growth)
 }

@@ -14,7 +14,8 @@ use crate::contact::{
     PressedState, SlidingContact, SurfacePair, Turning, mortar_nodes,
 };
 use crate::fem::{
-    MassKind, MaterialField, Triplets, assemble_pressures, assemble_supports, region_stiffnesses,
+    MassKind, MaterialField, RotationTerms, Triplets, assemble_pressures, assemble_supports,
+    region_stiffnesses,
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -173,7 +174,7 @@ impl<'a> Assembly<'a> {
     ///
     /// # Errors
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
-    /// [`PrestressError::Separation`] where a node would open.
+    /// [`PrestressError::NoEquilibrium`] where a node would open.
     pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();
@@ -197,7 +198,7 @@ impl<'a> Assembly<'a> {
         let none = || vec![0.0; self.mesh.dof_count()];
         let mut load = assemble_pressures(self.mesh).unwrap_or_else(none);
         if let Some(rotation) = &self.joined.rotation {
-            load.iter_mut().zip(&rotation.centrifugal).for_each(|(load, own)| *load += own);
+            load.iter_mut().zip(&rotation.terms.centrifugal).for_each(|(load, own)| *load += own);
         }
         if contacts.is_empty() {
             return self.without_contact(&stiffness, &load, friction_coefficients);
@@ -234,13 +235,15 @@ impl<'a> Assembly<'a> {
         let displacement = if load.iter().all(|force| *force == 0.0) {
             vec![0.0; self.mesh.dof_count()]
         } else if self.is_free() {
-            return Err(PrestressError::NothingHolds);
+            let problem = "nothing holds the bodies against the pressure on them. Give a boundary that is clamped, fixed or supported, or \
+                           leave the pressure out for the free modes of a part";
+            return Err(PrestressError::NoEquilibrium(problem.to_owned()));
         } else {
             let basis = &self.joined.basis;
             let held = basis.congruent(stiffness);
             basis.displacement_under(load, &held).or_else(|error| match &self.joined.rotation {
                 // A centrifugal load alone is in balance by itself.
-                Some(own) if own.centrifugal == load => {
+                Some(own) if own.terms.centrifugal == load => {
                     let body = (self.mesh, self.materials);
                     basis.displacement_under(load, &grounded(held.into_owned(), body, basis))
                 }
@@ -261,8 +264,8 @@ impl<'a> Assembly<'a> {
             let masses = terms.all.iter_mut().filter(|term| term.kind == Kind::Mass);
             masses.for_each(|term| term.matrix = self.joined.basis.gathered(&term.matrix));
         }
-        if let Some(Rotation { terms: [transport, gyroscopic], .. }) = self.joined.rotation.clone()
-        {
+        if let Some(rotation) = &self.joined.rotation {
+            let RotationTerms { transport, gyroscopic, .. } = rotation.terms.clone();
             let own = [(Kind::Transport, transport), (Kind::Gyroscopic, gyroscopic)];
             terms.add_body(Some("rotation".into()), PartLaw::default(), own);
         }

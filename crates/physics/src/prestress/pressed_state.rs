@@ -66,11 +66,9 @@ impl Pressing<'_> {
     pub(super) fn gap_everywhere(&self) -> PrestressError {
         let distances = self.pushed.iter().map(|pushed| -pushed);
         let gaps = self.points.iter().zip(&self.pushed);
-        PrestressError::GapEverywhere {
-            total: self.points.len(),
-            distance: distances.fold(f64::INFINITY, f64::min).max(0.0), // The least g_i - delta.
-            interference: gaps.map(|(point, pushed)| pushed + point.gap).fold(0.0, f64::max), // p_i + g_i = delta.
-        }
+        let distance = distances.fold(f64::INFINITY, f64::min).max(0.0); // The least g_i - delta.
+        let interference = gaps.map(|(point, pushed)| pushed + point.gap).fold(0.0, f64::max); // p_i + g_i = delta.
+        PrestressError::gap_everywhere(self.points.len(), [distance, interference])
     }
 }
 

@@ -26,7 +26,7 @@ impl SectorSliding {
     /// pressure, if there is a `law`.
     ///
     /// # Errors
-    /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a stiffness that is not positive definite.
+    /// [`PrestressError::NoEquilibrium`] where a node would open, [`PrestressError::Singular`] for a stiffness that is not positive definite.
     pub fn solve(
         strip: &Strip,
         stiffness: &Triplets,
@@ -103,7 +103,7 @@ impl PressedState {
     /// The state of the points on the `edge` of an annulus, or of one of its equal `sectors`, all of which must be pressed.
     ///
     /// # Errors
-    /// [`PrestressError::Separation`] where a node would open.
+    /// [`PrestressError::NoEquilibrium`] where a node would open.
     pub(super) fn pressed_all_round(
         self,
         (edge, points): (&ContactInterface, &[Point]),
@@ -111,16 +111,16 @@ impl PressedState {
     ) -> Result<Self> {
         let forces = &self.normal_forces[0];
         let is_open = |i: &usize| !(forces[*i] > 0.0);
-        match (0..forces.len()).find(is_open) {
-            None => Ok(self),
-            Some(first) => Err(PrestressError::Separation {
-                count: (0..forces.len()).filter(is_open).count() * sectors,
-                total: forces.len() * sectors,
-                node: edge.nodes[first] as usize + 1,
-                angle_degrees: edge.angles[first].to_degrees(),
-                pressure: forces[first] / points[first].weight,
-            }),
-        }
+        let Some(first) = (0..forces.len()).find(is_open) else { return Ok(self) };
+        let count = (0..forces.len()).filter(is_open).count() * sectors;
+        Err(PrestressError::NoEquilibrium(format!(
+            "contact opens in the base state: {count} of {} contact nodes are not pressed, first node {} at {:.3} degrees with {:.6e} Pa. \
+             Full sliding needs pressure everywhere: raise contact.interference",
+            forces.len() * sectors,
+            edge.nodes[first] + 1,
+            edge.angles[first].to_degrees(),
+            forces[first] / points[first].weight
+        )))
     }
 }
 
@@ -159,11 +159,8 @@ impl SolidSliding {
         let is_pressed: Vec<bool> = pressing.iter().map(|own| *own > 0.0).collect();
         if !is_pressed.contains(&true) {
             let distances = approaches.iter().map(|approach| 0.0 - approach); // Zero has no sign.
-            return Err(PrestressError::GapEverywhere {
-                total: rings.len() * sector.sector_count(),
-                distance: distances.fold(f64::INFINITY, f64::min),
-                interference: contact.interference,
-            });
+            let apart = [distances.fold(f64::INFINITY, f64::min), contact.interference];
+            return Err(PrestressError::gap_everywhere(rings.len() * sector.sector_count(), apart));
         }
         let pressures = rings.iter().zip(pressing).map(|(ring, own)| match law {
             None => own / ring.area, // p = N / A.

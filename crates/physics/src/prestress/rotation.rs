@@ -4,8 +4,8 @@ use super::elimination::Elimination;
 use super::{PrestressError, Result};
 use crate::contact::Motion;
 use crate::fem::{
-    ElementGeometry, MassKind, MaterialField, RotationFrame, Spin, Triplets, assemble_around,
-    assemble_mass, assemble_rotation,
+    ElementGeometry, MassKind, MaterialField, RotationFrame, RotationTerms, Spin, Triplets,
+    assemble_around, assemble_mass, assemble_rotation,
 };
 use crate::mesh::Mesh;
 use std::collections::BTreeSet;
@@ -21,11 +21,9 @@ const GROUND: f64 = 1e-12;
 /// The inertia of all regions that turn with their rotation terms.
 #[derive(Clone, Debug)]
 pub(super) struct Rotation {
-    /// Stiffness (transport, centrifugal stress and the strain that comes with it) and gyroscopic matrix over all dofs.
-    pub terms: [Triplets; 2],
-    /// Centrifugal load, N.
-    pub centrifugal: Vec<f64>,
-    /// What it does alone, m; its stress is in the terms.
+    /// Over all dofs; the stiffness has the centrifugal stress, too, and the strain that comes with it.
+    pub terms: RotationTerms,
+    /// What the centrifugal load does alone, m.
     pub displacement: Vec<f64>,
 }
 
@@ -63,9 +61,8 @@ impl Rotation {
         let added = of.map(|of| assemble_around((mesh, materials), &bases, None, of));
         let added = added.into_iter().flatten().flat_map(|own| own.entries);
         terms.transport.entries.extend(added);
-        let (terms, centrifugal, [displacement]) =
-            ([terms.transport, terms.gyroscopic], terms.centrifugal, bases);
-        Ok(Some(Self { terms, centrifugal, displacement }))
+        let [displacement] = bases;
+        Ok(Some(Self { terms, displacement }))
     }
 }
 

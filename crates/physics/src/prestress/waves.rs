@@ -107,7 +107,7 @@ impl WaveTangent {
     /// Finds the steady sliding state of a body of revolution and linearises around it.
     ///
     /// # Errors
-    /// [`PrestressError`] where that state does not exist, [`PrestressError::AtRest`] where the rotor does not turn.
+    /// [`PrestressError`] where that state does not exist, or the rotor does not turn.
     pub fn of_revolution(
         sector: &SolidSector,
         material: &dyn MaterialField,
@@ -115,7 +115,9 @@ impl WaveTangent {
         contact: &SlidingContact,
     ) -> Result<Self> {
         if contact.rotation_speed == 0.0 {
-            return Err(PrestressError::AtRest);
+            let problem = "contact.rotation_speed_rpm = 0: without sliding there is no steady sliding to study. Friction then holds a \
+                           three-dimensional body across the sliding as an infinite dashpot (mu p / V) does. Give a speed";
+            return Err(PrestressError::NoEquilibrium(problem.to_owned()));
         }
         let strip = &sector.strip;
         let terms = Terms::of_mesh((&strip.mesh, material), false, options);

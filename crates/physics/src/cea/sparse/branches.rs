@@ -118,7 +118,7 @@ fn split_degenerate(
         if size > 1 {
             let cluster = &mut modes[first..first + size];
             let eigen = (-rate.pencil_forms(cluster, cluster)).eigen();
-            let eigen = eigen.map_err(|_| LinalgError::DenseEigen { dimension: size })?;
+            let eigen = eigen.map_err(|_| LinalgError::dense_eigen(size))?;
             let (values, parts) = (eigen.S().column_vector(), eigen.U());
             let mut order: Vec<usize> = (0..size).collect();
             crate::order::sort_by_number(&mut order, |&i| values[i].re);

@@ -301,8 +301,7 @@ impl<'a> Inertia<'a> {
                 _ => 10.0 * *shift,
             };
         }
-        let (tolerance, applications) = (CONVERGED, MOST_ATTEMPTS * count);
-        Err(LinalgError::NotConverged { converged, wanted: count, tolerance, applications })
+        Err(LinalgError::not_converged([converged, count, MOST_ATTEMPTS * count], CONVERGED))
     }
 
     /// Rayleigh quotients of the vectors, and which are those of rigid motions: the energy `x^T K x` is a sum of rounding errors of
