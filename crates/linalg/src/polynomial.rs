@@ -16,6 +16,12 @@ impl FrictionWeights {
         Self { origin }
     }
 
+    /// The place of what `mu^p` multiplies, or with the origin `a` `(mu - a)^p` of what is frozen below it.
+    #[inline]
+    pub fn place(self, p: usize) -> usize {
+        p + usize::from(!self.are_powers() && p > 0)
+    }
+
     /// The places of what `mu` and the coefficient at `place` multiply, and their factors: `mu mu^p = mu^(p + 1)`, or with the origin `a`
     ///
     /// ```text
@@ -207,22 +213,26 @@ impl MatrixPolynomial {
     /// Friction touches the contact rows only: on the shared pattern most of such a coefficient is structural zeros.
     pub fn compact_coefficient(&self, power: usize) -> (Self, Vec<usize>) {
         let (values, count) = (&self.coefficients[power], self.dimension());
-        let entries = (0..count).flat_map(|column| {
-            let own = self.pattern.column(column);
-            own.map(move |(position, row)| (row, column, values[position]))
-        });
-        let mut entries: Vec<(usize, usize, f64)> = entries.filter(|own| own.2 != 0.0).collect();
+        let nonzeros = |column: usize| {
+            let all = self.pattern.column(column);
+            all.filter(|(position, _)| values[*position] != 0.0)
+        };
 
         // The unknowns, and their places among themselves.
         let mut touched = vec![false; count];
-        entries.iter().for_each(|&(row, column, _)| (touched[row], touched[column]) = (true, true));
+        for column in 0..count {
+            nonzeros(column).for_each(|(_, row)| (touched[row], touched[column]) = (true, true));
+        }
         let unknowns: Vec<usize> = (0..count).filter(|&i| touched[i]).collect();
         let mut place = vec![0; count];
         unknowns.iter().enumerate().for_each(|(slot, &i)| place[i] = slot);
-        for (row, column, _) in &mut entries {
-            (*row, *column) = (place[*row], place[*column]);
-        }
-        (Self::from_triplets(unknowns.len(), &[entries]), unknowns)
+
+        // Rows and columns keep their order.
+        let columns = || unknowns.iter().flat_map(|&j| nonzeros(j).map(move |own| (own, j)));
+        let positions = columns().map(|((_, row), column)| (place[row], place[column]));
+        let pattern = SparsityPattern::from_positions(unknowns.len(), positions);
+        let kept = columns().map(|((position, _), _)| values[position]).collect();
+        (Self::from_coefficients(&Arc::new(pattern), vec![kept]), unknowns)
     }
 
     /// Nonzero values of `P(mu)`.

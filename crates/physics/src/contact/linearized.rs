@@ -22,18 +22,6 @@ pub struct PressedState {
     pub frozen_below: f64,
 }
 
-/// What contact adds to the matrices of small motions over all dofs, by power of `mu`; of a state that is frozen in the terms of
-/// [`MatrixPolynomial::frozen_below`](crate::linalg::MatrixPolynomial::frozen_below).
-#[derive(Clone, Debug, Default)]
-pub struct ContactTerms {
-    /// Penalty and the friction that follows it; nothing for rigid contact.
-    pub stiffness: Vec<Triplets>,
-    /// Dashpots of the contact and the friction that follows them.
-    pub dashpots: Vec<Triplets>,
-    /// Those of friction whose force the base state has: they come with its first power.
-    pub friction: Vec<Triplets>,
-}
-
 /// Linearises contact and friction at `points` around `state`, among whose points they begin at `first`, moved to the left-hand side:
 ///
 /// ```text
@@ -43,24 +31,29 @@ pub struct ContactTerms {
 ///
 /// along the rows `n`, `t` and `d` of normal, slip and slip across, with `k_n` at the base state's pressure where contact
 /// stiffens: friction follows the normal force, falls with the slip speed, and turns with the direction of slip. Forces of the
-/// base state turn with the surfaces beside ([`super::turned`]). Shape: sums over all dofs of both bodies, N/m and N s/m.
+/// base state turn with the surfaces beside ([`super::turned`]).
+///
+/// Returns the stiffness, nothing of rigid contact, and the dashpots of the contact, both with the friction that follows them; then
+/// dashpots of friction whose force the base state has, which come with its first power. Shape: sums over all dofs of both bodies, N/m and
+/// N s/m, by power of `mu`; of a state that is frozen in the terms of
+/// [`MatrixPolynomial::frozen_below`](crate::linalg::MatrixPolynomial::frozen_below).
 pub fn linearized(
     points: &[Point],
     (state, first): (&PressedState, usize),
     stiffness: &ContactStiffness,
-) -> ContactTerms {
+) -> [Vec<Triplets>; 3] {
     let [mut springs, mut dashpots, mut dragging]: [Products<'_>; 3] = Default::default();
-    let frozen = state.frozen_below;
+    let weights = FrictionWeights::frozen_below(state.frozen_below);
     let pressed = || (0..points.len()).filter(|&i| state.is_pressed[first + i]);
     for point in pressed().map(|i| &points[i]) {
         let weight = point.weight;
         // Springs and dashpots of the contact itself.
         if let (Some(normal), []) = (stiffness.normal_stiffness, &state.stiffnesses[..]) {
-            add_normal_law(&mut springs, (0, frozen), point, weight * normal);
+            add_normal_law(&mut springs, (0, weights), point, weight * normal);
         }
         if stiffness.normal_damping != 0.0 {
             let value = weight * stiffness.normal_damping;
-            add_normal_law(&mut dashpots, (0, frozen), point, value);
+            add_normal_law(&mut dashpots, (0, weights), point, value);
         }
         if stiffness.tangential_damping != 0.0 {
             let value = weight * stiffness.tangential_damping;
@@ -70,7 +63,7 @@ pub fn linearized(
     }
     for (p, own) in state.stiffnesses.iter().enumerate() {
         for i in pressed() {
-            add_normal_law(&mut springs, (p, frozen), &points[i], own[first + i]);
+            add_normal_law(&mut springs, (p, weights), &points[i], own[first + i]);
         }
     }
     // What the forces of the base state do.
@@ -79,16 +72,14 @@ pub fn linearized(
             let (point, force) = (&points[i], forces[first + i]);
             let rates = [point.friction.slope, point.friction.drag.abs() / point.speed];
             for (row, rate) in [&point.slip, &point.across].into_iter().zip(rates) {
-                for (term, factor) in
-                    following(p, frozen).filter(|_| rate != 0.0 && !row.is_empty())
-                {
+                let terms = weights.times_mu(weights.place(p));
+                for (term, factor) in terms.filter(|_| rate != 0.0 && !row.is_empty()) {
                     power(&mut dragging, term).push((factor * (rate * force), row, row));
                 }
             }
         }
     }
-    let [stiffness, dashpots, friction] = [springs, dashpots, dragging].map(|own| sums(&own));
-    ContactTerms { stiffness, dashpots, friction }
+    [springs, dashpots, dragging].map(|own| sums(&own))
 }
 
 /// A row of dofs with values.
@@ -116,25 +107,16 @@ pub(super) fn sums(products: &Products<'_>) -> Vec<Triplets> {
     products.iter().map(sum).collect()
 }
 
-/// The term of what the power `p` of a state multiplies: `mu^p`, or `(mu - a)^p` from the coefficient `a` on below which it is frozen.
-pub(super) fn alone(p: usize, frozen_below: f64) -> usize {
-    p + usize::from(frozen_below > 0.0 && p > 0)
-}
-
-/// The terms of what `mu` and the power `p` of a state multiply, and their factors.
-pub(super) fn following(p: usize, frozen_below: f64) -> impl Iterator<Item = (usize, f64)> {
-    FrictionWeights::frozen_below(frozen_below).times_mu(alone(p, frozen_below))
-}
-
 /// `dN = -coefficient mu^p n.u` and the friction that follows it.
 fn add_normal_law<'a>(
     terms: &mut Products<'a>,
-    (p, frozen): (usize, f64),
+    (p, weights): (usize, FrictionWeights),
     point: &'a Point,
     coefficient: f64,
 ) {
-    power(terms, alone(p, frozen)).push((coefficient, &point.normal, &point.normal));
-    for (term, factor) in following(p, frozen) {
+    let place = weights.place(p);
+    power(terms, place).push((coefficient, &point.normal, &point.normal));
+    for (term, factor) in weights.times_mu(place) {
         let follow = point.friction.drag * factor * coefficient;
         power(terms, term).push((follow, &point.slip, &point.normal));
     }

@@ -22,7 +22,6 @@ mod linearized;
 mod mortar;
 mod normal_law;
 mod opposite;
-mod pair_error;
 mod pairing;
 mod point;
 mod polygon;
@@ -34,16 +33,20 @@ mod turning;
 pub use counterpart::{Counterpart, RigidCounterface, RigidMotion, RigidShape};
 pub use interface::ContactInterface;
 pub use law::{ContactStatus, CoulombFriction, Friction, FrictionDecay, Slipping, SteadyFriction};
-pub use linearized::{ContactTerms, PressedState, linearized};
+pub use linearized::{PressedState, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
 pub use normal_law::NormalLaw;
 pub use opposite::OppositeMotion;
-pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, row_along, scaled, summed};
 pub use surface::{SegmentPoint, SurfacePair, SurfacePoint};
 pub use topography::Topography;
 pub use turning::{Turning, turned};
+
+/// Why two surfaces make no contact or tie, and what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
+pub struct PairError(String);
 
 /// The rigid moving counterface and its friction law.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

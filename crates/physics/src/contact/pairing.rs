@@ -1,6 +1,6 @@
 //! Contact points of two surfaces of which one slides over the other.
 
-use super::mortar::{MortarNode, mortar_nodes};
+use super::mortar::mortar_nodes;
 use super::surface::{SegmentPoint, SurfacePair, SurfacePoint};
 use super::{
     ContactInterface, Counterpart, FrictionDecay, PairError, Point, RigidCounterface, Row,
@@ -159,7 +159,10 @@ impl ContactSurface {
                     if let Counterpart::Rigid(rigid) = counterpart {
                         node.at.normal = rigid.normal(node.at.position, node.at.normal);
                     }
-                    found.add_node(mesh, &node, (sliding(node.at.position), friction));
+                    let lift = row_along(mesh, &node.lift, node.at.normal, 1.0);
+                    let (velocity, shares) = (sliding(node.at.position), vec![(node.node, 1.0)]);
+                    let jump = |direction| node.jump(mesh, direction);
+                    found.add((&node.at, shares), (velocity, friction), jump, lift);
                 }
             }
         }
@@ -167,13 +170,6 @@ impl ContactSurface {
             found.drop_held(mesh);
         }
         found.sliding(surface, counter)
-    }
-
-    /// [`Self::add`] of a node.
-    fn add_node(&mut self, mesh: &Mesh, node: &MortarNode, moving: (Vector3<f64>, PairFriction)) {
-        let lift = row_along(mesh, &node.lift, node.at.normal, 1.0);
-        let shares = vec![(node.node, 1.0)];
-        self.add((&node.at, shares), moving, |direction| node.jump(mesh, direction), lift);
     }
 
     /// The nodes of the contact edge of a plane body as points, for each metre of thickness.

@@ -1,11 +1,12 @@
 //! How the forces of the base state turn with the surfaces.
 
-use super::linearized::{Products, alone, following, power, sums};
+use super::linearized::{Products, power, sums};
 use super::{
     ContactInterface, ContactSurface, Counterpart, Point, PressedState, Row, row_along, scaled,
     summed,
 };
 use crate::fem::Triplets;
+use crate::linalg::FrictionWeights;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -65,15 +66,17 @@ pub fn turned(
     });
     let columns: Vec<[Row; 2]> = columns.collect();
     let mut products = Products::new();
+    let weights = FrictionWeights::frozen_below(state.frozen_below);
     for (p, forces) in state.normal_forces.iter().enumerate() {
+        let place = weights.place(p);
         for (i, (point, own)) in points.iter().zip(turnings).enumerate() {
             let ([t, d], [along, across]) = ([&point.slip, &point.across], &columns[i]);
             let ([tilt_t, tilt_d], [stretch_t, stretch_d]) = (&own.tilt, &own.stretch);
-            let (force, frozen) = (forces[first + i], state.frozen_below);
+            let force = forces[first + i];
             let pressed = [(t, along), (d, across), (tilt_t, t), (tilt_d, d)];
             let pressed = pressed.map(|(row, column)| (force, &row[..], &column[..]));
-            power(&mut products, alone(p, frozen)).extend(pressed);
-            for (term, factor) in following(p, frozen) {
+            power(&mut products, place).extend(pressed);
+            for (term, factor) in weights.times_mu(place) {
                 let drag = factor * force * point.friction.drag;
                 power(&mut products, term).extend([
                     (-drag, &point.normal[..], &along[..]),

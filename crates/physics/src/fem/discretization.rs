@@ -2,7 +2,7 @@
 
 use super::MaterialField;
 use super::element::{ElementGeometry, IntegrationPoint};
-use super::recovery::{Degree, Recovery};
+use super::recovery::{Degree, Recovery, Weights};
 use crate::linalg::c64;
 use crate::mesh::Mesh;
 use nalgebra::DMatrix;
@@ -88,15 +88,15 @@ impl<'a> DiscretizationError<'a> {
         let element_of: Vec<usize> =
             elements.flat_map(|e| std::iter::repeat_n(e, first[e + 1] - first[e])).collect();
         let (count, width) = (self.components(), sampled.first().map_or(0, DMatrix::nrows));
-        let of_region = |(region, weights): (usize, &[(usize, f64)])| {
+        let of_region = |(region, weights): &(usize, Weights)| {
             let terms = weights.iter().map(|&(sample, weight)| {
                 let e = element_of[sample];
                 (weight, at_point(&sampled[e], sample - first[e], count))
             });
-            (region, combination((width, count), terms))
+            (*region, combination((width, count), terms))
         };
         let nodes = 0..self.mesh.node_count();
-        crate::parallel::map(nodes, |node| self.recovery.at(node).map(of_region).collect())
+        crate::parallel::map(nodes, |node| self.recovery.at(node).iter().map(of_region).collect())
     }
 
     /// `int (R eps(w) - eps(w))^T D (R eps(x) - eps(x)) dV` over an element, of each pair.

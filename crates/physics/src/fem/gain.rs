@@ -23,16 +23,6 @@ impl TabledGain {
     pub fn reference(&self) -> f64 {
         self.table.ratio(self.reference_hz).re
     }
-
-    /// `g` at the frequency `Im(lambda) / 2 pi` of an eigenvalue.
-    pub fn at(&self, lambda: c64) -> c64 {
-        self.table.ratio(lambda.im / TAU) - self.reference()
-    }
-
-    /// `dg / d omega` there.
-    pub fn slope(&self, lambda: c64) -> c64 {
-        self.table.slope(lambda.im / TAU)
-    }
 }
 
 /// What multiplies a stiffness beside the real one at an eigenvalue: `i` of structural damping, `g` of a table.
@@ -40,15 +30,18 @@ impl TabledGain {
 pub struct LossGain(pub Option<TabledGain>);
 
 impl LossGain {
-    /// The factor. Motions are real: what belongs to `-f` is the conjugate of what belongs to `f`.
+    /// The factor, of a table at the frequency `Im(lambda) / 2 pi`. Motions are real: what belongs to `-f` is the conjugate of what
+    /// belongs to `f`.
     pub fn at(&self, lambda: c64) -> c64 {
-        let at = |own| self.0.as_ref().map_or(c64::I, |gain| gain.at(own));
-        if lambda.im < 0.0 { at(lambda.conj()).conj() } else { at(lambda) }
+        let table = |own: &TabledGain| own.table.ratio(lambda.im.abs() / TAU) - own.reference();
+        let gain = self.0.as_ref().map_or(c64::I, table);
+        if lambda.im < 0.0 { gain.conj() } else { gain }
     }
 
     /// Its derivative by the angular frequency, s.
     pub fn slope(&self, lambda: c64) -> c64 {
-        let at = |own| self.0.as_ref().map_or(c64::ZERO, |gain| gain.slope(own));
-        if lambda.im < 0.0 { -at(lambda.conj()).conj() } else { at(lambda) }
+        let table = |own: &TabledGain| own.table.slope(lambda.im.abs() / TAU);
+        let slope = self.0.as_ref().map_or(c64::ZERO, table);
+        if lambda.im < 0.0 { -slope.conj() } else { slope }
     }
 }

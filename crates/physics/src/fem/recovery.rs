@@ -27,16 +27,12 @@ pub struct Recovery {
     pub first_sample: Vec<usize>,
     /// Places of the samples in the parent element.
     places: Vec<[f64; 3]>,
-    /// What every element of a region takes at its nodes.
-    nodes: Vec<Vec<RecoveredNode>>,
+    /// What every element of a region takes at its nodes: of each the regions that meet there, with samples and their weights.
+    nodes: Vec<Vec<(usize, Weights)>>,
 }
 
-/// The recovered value at a node, of one of the regions that meet there.
-struct RecoveredNode {
-    region: usize,
-    /// Samples with their weights.
-    weights: Vec<(usize, f64)>,
-}
+/// Samples with their weights in a recovered value.
+pub type Weights = Vec<(usize, f64)>;
 
 impl Recovery {
     /// The weights of every node; in each of the regions that meet there, or in that of its first element alone.
@@ -70,7 +66,7 @@ impl Recovery {
             let places: Vec<[f64; 3]> = own.iter().map(|&s| samples.positions[s]).collect();
             let thinnest = if is_layer { ROUND_OFF } else { FLAT };
             let weights = weights_at(mesh.nodes[node], &places, degree, thinnest);
-            RecoveredNode { region, weights: own.into_iter().zip(weights).collect() }
+            (region, own.into_iter().zip(weights).collect())
         };
         let nodes = crate::parallel::map(patches.iter().enumerate(), |(node, patches)| {
             patches.iter().map(|(region, patch)| recovered(node, *region, patch)).collect()
@@ -85,12 +81,12 @@ impl Recovery {
 
     /// The weights of the region of the first element around a node; none for a node without elements.
     pub fn first(&self, node: usize) -> &[(usize, f64)] {
-        self.nodes[node].first().map_or(&[], |first| &first.weights)
+        self.nodes[node].first().map_or(&[], |(_, weights)| weights)
     }
 
     /// The regions that meet at a node, each with its weights.
-    pub fn at(&self, node: usize) -> impl Iterator<Item = (usize, &[(usize, f64)])> {
-        self.nodes[node].iter().map(|own| (own.region, own.weights.as_slice()))
+    pub fn at(&self, node: usize) -> &[(usize, Weights)] {
+        &self.nodes[node]
     }
 }
 

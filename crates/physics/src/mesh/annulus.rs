@@ -78,14 +78,11 @@ impl AnnulusSheet {
     fn of(spec: &AnnulusSpecification) -> Self {
         let mut own = Self { nodes: Vec::new(), elements: Vec::new(), first: 0 };
         if let Some(shaft) = spec.shaft {
-            let (count, width) = (shaft.radial_elements, spec.inner_radius - shaft.inner_radius);
-            let radius = |i: usize| shaft.inner_radius + width * (i as f64 / count as f64);
-            let mut radii: Vec<f64> = (0..=count).map(radius).collect();
-            radii[count] = spec.inner_radius;
-            own.add(&radii, spec.element, 1);
+            let radii = [shaft.inner_radius, spec.inner_radius];
+            own.add(&graded(radii, shaft.radial_elements, 1.0), spec.element, 1);
             own.first = own.nodes.len();
         }
-        own.add(&graded_radii(spec), spec.element, 0);
+        own.add(&spec.radii(), spec.element, 0);
         own
     }
 
@@ -115,11 +112,16 @@ pub(super) fn radius_at(radii: &[f64], i: usize) -> f64 {
     if i.is_multiple_of(2) { radii[i / 2] } else { 0.5 * (radii[i / 2] + radii[i / 2 + 1]) }
 }
 
-/// Radii of the corner nodes: element sizes form a geometric sequence of ratio `radial_grading`.
-pub(super) fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
-    let count = spec.radial_elements;
-    let width = spec.outer_radius - spec.inner_radius;
-    let ratio = spec.radial_grading;
+impl AnnulusSpecification {
+    /// Radii of the corner nodes.
+    pub(super) fn radii(&self) -> Vec<f64> {
+        let ends = [self.inner_radius, self.outer_radius];
+        graded(ends, self.radial_elements, self.radial_grading)
+    }
+}
+
+/// Ends of elements between two radii, whose sizes form a geometric sequence of some ratio.
+fn graded([from, to]: [f64; 2], count: usize, ratio: f64) -> Vec<f64> {
     let mut radii: Vec<f64> = (0..=count)
         .map(|i| {
             let fraction = if ratio == 1.0 {
@@ -129,10 +131,10 @@ pub(super) fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
                 let log = ratio.ln();
                 (i as f64 * log).exp_m1() / (count as f64 * log).exp_m1()
             };
-            spec.inner_radius + width * fraction
+            from + (to - from) * fraction
         })
         .collect();
-    radii[count] = spec.outer_radius;
+    radii[count] = to;
     radii
 }
 
@@ -249,7 +251,7 @@ mod tests {
     #[test]
     fn graded_elements_grow_by_the_given_ratio() {
         let spec = AnnulusSpecification { radial_grading: 1.1, ..paper(ElementKind::Quad4) };
-        let radii = graded_radii(&spec);
+        let radii = spec.radii();
         for triple in radii.windows(3) {
             let ratio = (triple[2] - triple[1]) / (triple[1] - triple[0]);
             assert!((ratio - 1.1).abs() < 1e-10);

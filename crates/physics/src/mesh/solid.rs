@@ -1,6 +1,6 @@
 //! One sector of a body of revolution in three dimensions.
 
-use super::annulus::{graded_radii, radius_at};
+use super::annulus::radius_at;
 use super::revolution::{SheetElement, SheetNode, Strip, elements_between, revolved};
 use super::specification::{at_least, validate};
 use super::{
@@ -59,8 +59,9 @@ impl SolidSector {
     pub fn generate(specification: &SolidSpecification) -> Result<Self, MeshError> {
         let radii = specification.corner_radii()?;
         let nodes = sheet_nodes(specification, &radii);
-        let (kind, count) =
-            (specification.element_kind(), specification.annulus.circumferential_elements);
+        let AnnulusSpecification { element, circumferential_elements: count, .. } =
+            specification.annulus;
+        let kind = if element.is_quadratic() { ElementKind::Hex20 } else { ElementKind::Hex8 };
         let region = |at| specification.region_at(&radii, at);
         let elements = elements_between(&nodes, kind, specification.divisions(), region);
         let order = (0..nodes.len()).collect();
@@ -154,13 +155,8 @@ impl SolidSector {
         rings.into_values().collect()
     }
 
-    /// Area of the contact in one sector, m2.
-    pub fn contact_area(&self) -> f64 {
-        self.contact_areas().iter().sum()
-    }
-
     /// Integral of each node's shape function over the contact, m2.
-    fn contact_areas(&self) -> Vec<f64> {
+    pub(crate) fn contact_areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.node_count()];
         for face in self.contact_elements() {
             for point in face_quadrature(self.is_quadratic()) {
@@ -175,11 +171,6 @@ impl SolidSector {
 }
 
 impl SolidSpecification {
-    /// Kind of all elements: bricks of 20 or of 8 nodes.
-    pub fn element_kind(&self) -> ElementKind {
-        if self.annulus.element.is_quadratic() { ElementKind::Hex20 } else { ElementKind::Hex8 }
-    }
-
     /// Elements along a radius and over the thickness.
     pub fn divisions(&self) -> [usize; 2] {
         [self.annulus.radial_elements, self.axial_elements]
@@ -275,7 +266,7 @@ impl SolidSpecification {
         let annulus = self.plane();
         validate(&annulus)?;
         at_least(1, self.axial_elements, "axial_elements")?;
-        let mut radii = graded_radii(&annulus);
+        let mut radii = annulus.radii();
         if let SolidContact::Ring { inner_radius, outer_radius } = self.contact {
             fit(&mut radii, inner_radius, outer_radius)?;
         }

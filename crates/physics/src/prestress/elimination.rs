@@ -236,15 +236,6 @@ impl Elimination {
         }
         projected
     }
-
-    /// [`Self::take`] of the separation of a contact point.
-    ///
-    /// # Errors
-    /// [`PrestressError::Asked`] where that is held already.
-    pub fn require(&mut self, row: &Row) -> Result<usize> {
-        let problem = "contact holds nodes that are already held or tied: leave one of the conditions out there";
-        self.take(row).ok_or_else(|| PrestressError::Asked(problem.to_owned()))
-    }
 }
 
 /// Factors of a stiffness over the unknowns.

@@ -54,7 +54,8 @@ impl SolidSliding {
 
     /// Normal force of the whole contact over its area, Pa.
     pub fn mean_pressure(&self, sector: &SolidSector) -> f64 {
-        self.normal_forces().map(|own| own.1).sum::<f64>() / sector.contact_area()
+        let area: f64 = sector.contact_areas().iter().sum();
+        self.normal_forces().map(|own| own.1).sum::<f64>() / area
     }
 
     /// Pressure along an element of the face, -1 to 1, Pa. Nodes that are held along the normal have none.

@@ -230,11 +230,11 @@ impl ContactPart<'_> {
     /// Adds what it does around its state.
     pub(super) fn add_to(&self, terms: &mut Terms<Triplets>) {
         let state = (self.state, self.first);
-        let own = linearized(self.points, state, &self.stiffness);
+        let [stiffness, dashpots, friction] = linearized(self.points, state, &self.stiffness);
         let part = terms.add_contact(self.stiffness.loss_factor);
-        terms.add(part, Kind::Stiffness, own.stiffness);
-        terms.add(part, Kind::Dashpots, own.dashpots);
-        terms.add(part, Kind::FrictionDashpots, own.friction);
+        terms.add(part, Kind::Stiffness, stiffness);
+        terms.add(part, Kind::Dashpots, dashpots);
+        terms.add(part, Kind::FrictionDashpots, friction);
         terms.add(part, Kind::Prestress, turned(self.points, self.turnings, state)); // Forces of the base state turn with their points.
     }
 }
@@ -277,7 +277,11 @@ fn hold_rigid(
         let is_rigid = part.stiffness.normal_stiffness.is_none();
         let own = &part.state.is_pressed[part.first..];
         for (point, &is_pressed) in part.points.iter().zip(own) {
-            let pivot = basis.require(&point.normal)?; // A pressed point of rigid contact keeps its separation: c = 0.
+            let pivot = basis.take(&point.normal).ok_or_else(|| {
+                let problem = "contact holds nodes that are already held or tied: leave one of the conditions out there";
+                PrestressError::Asked(problem.to_owned())
+            })?;
+            // A pressed point of rigid contact keeps its separation: c = 0.
             if is_rigid && is_pressed {
                 basis.drop_unknown(pivot);
                 friction.push(RigidFriction::of(point));

@@ -1,7 +1,6 @@
 //! Elements of the faces of a body of revolution.
 
-use super::super::ElementKind;
-use super::{SolidFace, SolidSector};
+use super::{ElementKind, SheetNode, SolidContact, SolidSector};
 
 /// One element's part of a face, in sector 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,37 +53,26 @@ impl FaceElement {
 }
 
 impl SolidSector {
-    /// The elements of a face.
-    pub fn face_elements(&self, face: SolidFace) -> Vec<FaceElement> {
-        let [nr, nz] = self.specification.divisions();
-        let count = if face.normal_component() == 0 { nz } else { nr };
-        let places = self.specification.annulus.element.node_places();
-        let find = |place: [usize; 2], half: usize| {
-            let is_here =
-                |node: &crate::mesh::SheetNode| node.place == place && node.half_step == half % 2;
-            self.nodes.iter().position(is_here).unwrap_or(0)
-        };
-        (0..count)
-            .map(|k| {
-                let node = |&[a, b, _]: &[f64; 3]| {
-                    let along = (2 * k + 1).wrapping_add_signed(b as isize);
-                    let half = 1usize.wrapping_add_signed(a as isize);
-                    let place = match face {
-                        SolidFace::Inner => [0, along],
-                        SolidFace::Outer => [2 * nr, along],
-                        SolidFace::Top => [along, 2 * nz],
-                        SolidFace::Bottom => [along, 0],
-                    };
-                    (find(place, half), half)
-                };
-                FaceElement { nodes: places.iter().map(node).collect() }
-            })
-            .collect()
-    }
-
     /// The elements of the face that the rotor touches.
     pub fn contact_elements(&self) -> Vec<FaceElement> {
-        let mut elements = self.face_elements(self.specification.contact.face());
+        let contact = self.specification.contact;
+        let [radial, axial] = self.specification.divisions();
+        let count = if contact == SolidContact::Inner { axial } else { radial };
+        let places = self.specification.annulus.element.node_places();
+        let element = |k: usize| {
+            let node = |&[a, b, _]: &[f64; 3]| {
+                let along = (2 * k + 1).wrapping_add_signed(b as isize);
+                let half = 1usize.wrapping_add_signed(a as isize);
+                let place = match contact {
+                    SolidContact::Inner => [0, along],
+                    SolidContact::Ring { .. } => [along, 2 * axial],
+                };
+                let is_here = |own: &SheetNode| own.place == place && own.half_step == half % 2;
+                (self.nodes.iter().position(is_here).unwrap_or(0), half)
+            };
+            FaceElement { nodes: places.iter().map(node).collect() }
+        };
+        let mut elements: Vec<FaceElement> = (0..count).map(element).collect();
         elements.retain(|element| {
             let mut ends = [0, 2].map(|corner| element.nodes[corner].0).into_iter();
             ends.all(|node| self.specification.touches(self.nodes[node].radius))

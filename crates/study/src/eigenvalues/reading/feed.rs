@@ -97,7 +97,7 @@ fn form(terms: &PointTerms, factors: [c64; 3], phi: &[c64]) -> c64 {
 /// What one point adds to the stiffness, to the dashpots and to the structural damping.
 fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> PointTerms {
     let point = std::slice::from_ref(own.point);
-    let found = linearized(point, state, &own.stiffness);
+    let [springs, dashpots, dragging] = linearized(point, state, &own.stiffness);
     let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
         let each = powers.iter().enumerate().flat_map(|(power, terms)| {
             let factor = friction.powi(power as i32);
@@ -105,9 +105,9 @@ fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> P
         });
         each.collect()
     };
-    let mut stiffness = at(&found.stiffness);
+    let mut stiffness = at(&springs);
     let lost = |(row, column, value): &_| (*row, *column, own.stiffness.loss_factor * value);
     let structural = stiffness.iter().map(lost).collect();
     stiffness.extend(at(&turned(point, own.turning.as_slice(), state)));
-    [stiffness, [at(&found.dashpots), at(&found.friction)].concat(), structural]
+    [stiffness, [at(&dashpots), at(&dragging)].concat(), structural]
 }
