@@ -3,7 +3,8 @@
 use proc_macro::{Delimiter, TokenStream, TokenTree};
 use std::fmt::Write;
 
-/// Implements `frictionsim_output::Described`. An untagged enum has the keys of its variants, another one is a value without keys.
+/// Implements `frictionsim_output::Described` for a type without parameters. An untagged enum has the keys of its variants,
+/// another one is a value without keys.
 #[proc_macro_derive(Described)]
 pub fn derive_described(item: TokenStream) -> TokenStream {
     let is_untagged = item.to_string().contains("untagged");
@@ -11,30 +12,18 @@ pub fn derive_described(item: TokenStream) -> TokenStream {
     let is_kind = |token: &TokenTree| ["struct", "enum"].contains(&token.to_string().as_str());
     let kind = tokens.find(is_kind).map(|kind| kind.to_string());
     let name = tokens.next().map_or_else(String::new, |name| name.to_string());
-    // One parameter at most, `<S>`.
-    let mut generics = String::new();
-    let body = tokens.find_map(|token| match token {
-        TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => Some(group.stream()),
-        TokenTree::Ident(ident) => {
-            generics = ident.to_string();
-            None
-        }
-        _ => None,
-    });
     let mut calls = String::new();
-    let body = body.unwrap_or_default();
+    let body = match tokens.next() {
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace => group.stream(),
+        _ => TokenStream::new(),
+    };
     if kind.as_deref() == Some("struct") {
         describe_fields(body, &mut calls);
     } else if is_untagged {
         body.into_iter().for_each(|token| describe_variant(&token, &mut calls));
     }
-    let bound = match generics.as_str() {
-        "" => String::new(),
-        own => format!("<{own}: ::frictionsim_output::Described>"),
-    };
-    let own = if generics.is_empty() { String::new() } else { format!("<{generics}>") };
     let code = format!(
-        "impl{bound} ::frictionsim_output::Described for {name}{own} {{
+        "impl ::frictionsim_output::Described for {name} {{
             fn describe(path: &str, keys: &mut Vec<::frictionsim_output::Entry>) {{
                 let _ = (path, &keys);
                 {calls}
