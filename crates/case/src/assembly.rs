@@ -135,11 +135,11 @@ pub(super) fn motion(section: &Section<'_>) -> Motion {
     }
 }
 
-/// The solid bodies of a mesh file, and their materials; no error where a name is missing, which has been told.
+/// The solid bodies of a mesh file; no error where a name is missing, which has been told.
 pub(super) fn assemble(
     file: &FileParts<'_>,
     parts: AssemblyParts,
-) -> Result<(Vec<RegionMaterial>, AssemblyBody), Option<Diagnostic>> {
+) -> Result<Body, Option<Diagnostic>> {
     let own = file.own;
     let (read, _) = file.shaped("")?;
     let mesh = Mesh::from_solids(&read, own.scale, &own.conditions);
@@ -191,37 +191,25 @@ pub(super) fn assemble(
         if let (Some(counter), None) = (counter, surfaces.counter.rigid()) {
             surfaces.counter = Counterpart::Surface(surface(&counter, &counter_key)?);
         }
+        // That of the first one is varied.
         if let Some((first, reference)) = &first {
-            let ratio = friction_ratio(first, *reference, &surfaces.name, friction_coefficient);
-            surfaces.friction.ratio =
-                ratio.map_err(|(key, why)| own.error(&key, why, "no ratio to it"))?;
+            let name = quote(&surfaces.name);
+            if *reference > 0.0 {
+                surfaces.friction.ratio = friction_coefficient / reference;
+            } else if friction_coefficient > 0.0 {
+                let key = format!("contacts.{}.friction_coefficient", quote(first));
+                let why = format!(
+                    "{key} = 0 beside {friction_coefficient} of contacts.{name}: friction is varied \
+                     with that of the first contact by name, and others keep their ratio"
+                );
+                return Err(Some(own.error(&key, why, "no ratio to it")));
+            }
         }
         contacts.push(surfaces);
     }
     let (mesh, base) = (Arc::new(mesh), parts.base);
-    Ok((materials, AssemblyBody { mesh, ties, contacts, motions, base }))
-}
-
-/// Friction of a contact over that of the first one, `reference`, with which it is varied.
-fn friction_ratio(
-    first: &str,
-    reference: f64,
-    name: &str,
-    friction_coefficient: f64,
-) -> Result<f64, Misfit> {
-    if reference > 0.0 {
-        return Ok(friction_coefficient / reference);
-    }
-    if friction_coefficient > 0.0 {
-        let key = format!("contacts.{}.friction_coefficient", quote(first));
-        let why = format!(
-            "{key} = 0 beside {friction_coefficient} of contacts.{}: friction is varied with that \
-             of the first contact by name, and others keep their ratio",
-            quote(name)
-        );
-        return Err((key, why));
-    }
-    Ok(1.0)
+    let kind = BodyKind::Assembly(AssemblyBody { mesh, ties, contacts, motions, base });
+    Ok(Body { materials, kind })
 }
 
 impl Case {

@@ -151,6 +151,22 @@ impl Body {
             || matches!(rigid.map(|own| own.motion), Some(RigidMotion::Sliding(_)))
     }
 
+    /// Radii between which a plane body or one of revolution touches a counterface that turns, m.
+    pub(super) fn contact_radii(&self) -> Option<[f64; 2]> {
+        Some(match &self.kind {
+            BodyKind::Annulus(annulus) => [annulus.inner_radius; 2],
+            BodyKind::Revolution(solid) => match solid.contact {
+                SolidContact::Inner => [solid.annulus.inner_radius; 2],
+                SolidContact::Ring { inner_radius, outer_radius } => [inner_radius, outer_radius],
+            },
+            BodyKind::Imported(own) => match own.mesh.counterface {
+                Counterface::Cylinder { radius, .. } => [radius; 2],
+                Counterface::Plane { .. } => return None,
+            },
+            BodyKind::Assembly(_) => return None,
+        })
+    }
+
     /// The length that curvatures of the contact are compared with, m: the radius of a cylinder that turns in the body,
     /// else half the body's largest extent.
     pub fn contact_length(&self) -> f64 {

@@ -57,15 +57,6 @@ pub(super) fn condition(section: &Section<'_>) -> BoundaryCondition {
     }
 }
 
-/// In the plane a boundary that is held along x and y is clamped.
-pub(super) fn clamp_held_in_plane(boundaries: &mut [NamedCondition]) {
-    for (_, condition) in boundaries {
-        if let BoundaryCondition::Fixed([true, true, _]) = condition {
-            *condition = BoundaryCondition::Clamped;
-        }
-    }
-}
-
 /// Support along the axis is for bodies of revolution; others have a plane, or no axis.
 pub(super) fn no_axial_support(root: &Section<'_>, given: &mut [NamedCondition], is_file: bool) {
     let section = root.section("boundaries", false);

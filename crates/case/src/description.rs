@@ -44,7 +44,7 @@ impl<'a> Description<'a> {
         let file = mesh.optional_text("file").or_else(|| mesh.has("file").then(String::new));
         let common = material(root, &tables);
         let modifications = modifications::sections(root);
-        let conditions = root.each("boundaries", boundaries::condition);
+        let mut conditions = root.each("boundaries", boundaries::condition);
         let (units, scale): (UnitsWord, _) = (mesh.choice("units"), mesh.number("scale"));
         let (_, _): (Vec<FilePart>, _) = (mesh.choices("take"), mesh.texts("drop"));
         refuse_if!(mesh.has("units") && mesh.has("scale"); mesh, "scale",
@@ -58,7 +58,19 @@ impl<'a> Description<'a> {
         }
         let geometry = root.section("geometry", file.is_none());
         let thickness = geometry.number("thickness");
-        let mut own = Self {
+        let is_solid = common.elastic.formulation == PlaneFormulation::ThreeDimensional;
+        if file.is_some() || !is_solid {
+            boundaries::no_axial_support(root, &mut conditions, file.is_some());
+        }
+        if file.is_none() && !is_solid {
+            // A boundary that is held along x and y is clamped.
+            for (_, condition) in &mut conditions {
+                if let BoundaryCondition::Fixed([true, true, _]) = condition {
+                    *condition = BoundaryCondition::Clamped;
+                }
+            }
+        }
+        Self {
             raw,
             root,
             geometry,
@@ -70,15 +82,7 @@ impl<'a> Description<'a> {
             conditions,
             modifications,
             thickness,
-        };
-        let is_file = own.file.is_some();
-        if is_file || !own.is_solid() {
-            boundaries::no_axial_support(root, &mut own.conditions, is_file);
         }
-        if !is_file && !own.is_solid() {
-            boundaries::clamp_held_in_plane(&mut own.conditions);
-        }
-        own
     }
 
     /// Whether the body has a thickness of its own.

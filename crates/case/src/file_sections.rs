@@ -47,7 +47,7 @@ pub(super) fn sections(
             let rpm = rounded(motion.angular_velocity * 60.0 / std::f64::consts::TAU, 9);
             let mut keys = vec![
                 ("axis", numbers(&axis)),
-                ("center", numbers(&from.map(|x| scaled(x, units.power("m"))))),
+                ("center", list(from.map(|x| in_si(x, units, "m")).to_vec())),
                 ("rotation_speed_rpm", RawValue::Float(rpm)),
             ];
             if motion.is_load {
@@ -59,10 +59,9 @@ pub(super) fn sections(
     }
     for condition in &model.conditions {
         let keys = match condition.kind {
-            FileConditionKind::Pressure(pressure) => vec![
-                ("condition", text("pressure")),
-                ("pressure", RawValue::Float(scaled(pressure, units.power("Pa")))),
-            ],
+            FileConditionKind::Pressure(pressure) => {
+                vec![("condition", text("pressure")), ("pressure", in_si(pressure, units, "Pa"))]
+            }
             FileConditionKind::Fixed(axes) => held(axes, file.dimension),
         };
         sections.push(section(("boundaries", &condition.boundary), keys, &condition.place));
@@ -86,14 +85,15 @@ fn held(axes: [bool; 3], dimension: usize) -> Vec<(&'static str, RawValue)> {
 
 fn contact_keys(contact: &FileContact, units: UnitsWord) -> Vec<(&'static str, RawValue)> {
     let mut keys = vec![("surface", text(&contact.surface)), ("counter", text(&contact.counter))];
-    let mut number = |key, value: Option<f64>| {
-        keys.extend(value.map(|value| (key, RawValue::Float(value))));
-    };
-    number("friction_coefficient", contact.friction_coefficient);
-    number("static_friction_ratio", contact.decay.map(|decay| decay.0));
-    number("decay_speed", contact.decay.map(|decay| scaled(decay.1, units.power("m/s"))));
-    let stiffness = |value| scaled(value, units.power("Pa/m"));
-    number("normal_stiffness", contact.normal_stiffness.map(stiffness));
+    let numbers = [
+        ("friction_coefficient", contact.friction_coefficient, ""),
+        ("static_friction_ratio", contact.decay.map(|decay| decay.0), ""),
+        ("decay_speed", contact.decay.map(|decay| decay.1), "m/s"),
+        ("normal_stiffness", contact.normal_stiffness, "Pa/m"),
+    ];
+    let given =
+        numbers.into_iter().filter_map(|(key, own, unit)| Some((key, in_si(own?, units, unit))));
+    keys.extend(given);
     keys
 }
 
@@ -120,7 +120,7 @@ fn material_section(
     units: UnitsWord,
     left_out: &mut Vec<LeftOut>,
 ) -> FileSection {
-    let stress = |value: f64| RawValue::Float(scaled(value, units.power("Pa")));
+    let stress = |value: f64| in_si(value, units, "Pa");
     let mut keys = Vec::new();
     match &material.elasticity {
         Some(FileElasticity::Isotropic { young_modulus, poisson_ratio }) => {
@@ -150,8 +150,7 @@ fn material_section(
         }
         None => {}
     }
-    let density = |value| RawValue::Float(scaled(value, units.power("kg/m3")));
-    keys.extend(material.density.map(|value| ("density", density(value))));
+    keys.extend(material.density.map(|own| ("density", in_si(own, units, "kg/m3"))));
     let plain = [
         ("mass_coefficient", material.mass_coefficient),
         ("stiffness_coefficient", material.stiffness_coefficient),
@@ -227,11 +226,12 @@ fn numbers(values: &[f64]) -> RawValue {
     list(values.iter().map(|&value| RawValue::Float(value)).collect())
 }
 
-/// `value 10^power`, its decimal digits kept: 7.85e-9 times 10^12 is 7850.
-fn scaled(value: f64, power: i32) -> f64 {
+/// A number in the SI unit of its kind, its decimal digits kept: 7.85e-9 times 10^12 is 7850.
+fn in_si(value: f64, units: UnitsWord, unit: &str) -> RawValue {
+    let power = units.power(unit);
     let parts = format!("{value:e}").split_once('e').and_then(|(digits, exponent)| {
         let exponent: i32 = exponent.parse().ok()?;
         format!("{digits}e{}", exponent + power).parse().ok()
     });
-    parts.unwrap_or(value * 10f64.powi(power))
+    RawValue::Float(parts.unwrap_or(value * 10f64.powi(power)))
 }

@@ -215,12 +215,12 @@ pub(super) fn near_name(name: &str, known: &[String]) -> String {
     near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"))
 }
 
-/// The plane body that a mesh file describes, with its contact curves and counterface at `place`, and its materials.
+/// The plane body that a mesh file describes, with its contact curves and counterface at `place`.
 pub(super) fn import(
     parts: &FileParts<'_>,
     place: BodySpecification,
     interference: f64,
-) -> Result<(Vec<RegionMaterial>, ImportedBody), Option<Diagnostic>> {
+) -> Result<Body, Option<Diagnostic>> {
     let own = parts.own;
     let (read, way) = parts.shaped(&place.contact)?;
     let specification = BodySpecification {
@@ -246,7 +246,8 @@ pub(super) fn import(
         })
     };
     let materials = parts.materials_of(&mesh.regions, find)?;
-    Ok((materials, ImportedBody::new(mesh, read, specification)))
+    let kind = BodyKind::Imported(ImportedBody::new(mesh, read, specification));
+    Ok(Body { materials, kind })
 }
 
 /// The counterface of a body whose contact curve is moved.

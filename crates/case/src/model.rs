@@ -38,7 +38,15 @@ enum Joints {
 /// The body of a mesh file with what modifications take away or move, its contact, and the file.
 fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Option<MeshBytes>) {
     let root = own.root;
-    ignore_generated(&own.geometry, &own.mesh);
+    // What describes a generated body has no effect beside `mesh.file`.
+    let radii = "inner_radius outer_radius shaft_inner_radius";
+    let counts = "circumferential_elements radial_elements axial_elements shaft_radial_elements \
+                  radial_grading element";
+    for (section, keys) in [(&own.geometry, radii), (&own.mesh, counts)] {
+        for key in section.refused(keys) {
+            caution!(section, key => "is not used: mesh.file describes the body"; "no effect");
+        }
+    }
     own.geometry.close();
     let bytes = imported::mesh_bytes(own.raw, file);
     let read = bytes.as_ref().ok().and_then(|bytes| bytes.read().ok());
@@ -76,10 +84,8 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
         let parts = FileParts { bytes, own, symmetry, materials };
         let pushed = contact.sliding.interference;
         let made = match joints {
-            Joints::Plane(place) => imported::import(&parts, place, pushed)
-                .map(|(materials, own)| Body { materials, kind: BodyKind::Imported(own) }),
-            Joints::Solids(joints) => assembly::assemble(&parts, joints)
-                .map(|(materials, own)| Body { materials, kind: BodyKind::Assembly(own) }),
+            Joints::Plane(place) => imported::import(&parts, place, pushed),
+            Joints::Solids(joints) => assembly::assemble(&parts, joints),
         };
         made.map_err(|error| error.map(|error| root.findings.push(error))).ok()
     });
@@ -129,16 +135,4 @@ fn materials(own: &mut Description<'_>, body: &Surroundings) -> Vec<(String, Reg
         own.common.elastic = first.elastic;
     }
     all
-}
-
-/// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
-fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
-    let radii = "inner_radius outer_radius shaft_inner_radius";
-    let counts = "circumferential_elements radial_elements axial_elements shaft_radial_elements \
-                  radial_grading element";
-    for (section, keys) in [(geometry, radii), (mesh, counts)] {
-        for key in section.refused(keys) {
-            caution!(section, key => "is not used: mesh.file describes the body"; "no effect");
-        }
-    }
 }

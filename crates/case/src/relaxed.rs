@@ -47,14 +47,11 @@ impl Case {
 
     /// Refuses losses that have no equivalent in time.
     pub(super) fn refuse_losses_without_chain(&self) -> Result<(), CaseErrors> {
-        if !self.has_structural_damping() {
-            return Ok(());
-        }
         if self.body.has_lossy_supports() || self.has_lossy_contacts() {
             return self
                 .refuse_losses_in_time("with loss factors of supports or contacts, a transient");
         }
-        if self.relaxed.is_some() {
+        if self.relaxed.is_some() || !self.has_structural_damping() {
             return Ok(());
         }
         Err(self.loss_error(

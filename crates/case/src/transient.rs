@@ -167,22 +167,8 @@ fn perturbation(
 
 /// `|Omega| a`, under a ring `|Omega|` times its mean radius, on a plane its speed, m/s.
 fn slip_speed(body: &Body, sliding: &SlidingContact) -> f64 {
-    let radius = match &body.kind {
-        BodyKind::Annulus(annulus) => annulus.inner_radius,
-        BodyKind::Revolution(solid) => match solid.contact {
-            SolidContact::Ring { inner_radius, outer_radius } => {
-                0.5 * (inner_radius + outer_radius)
-            }
-            SolidContact::Inner => solid.annulus.inner_radius,
-        },
-        // Where it turns, the slip speed differs from point to point.
-        BodyKind::Assembly(_) => 1.0,
-        BodyKind::Imported(imported) => match imported.mesh.counterface {
-            Counterface::Cylinder { radius, .. } => radius,
-            // What turns is a speed, m/s, there.
-            Counterface::Plane { .. } => 1.0,
-        },
-    };
+    // On a plane what turns is a speed, m/s; of solid bodies that turn it differs from point to point.
+    let radius = body.contact_radii().map_or(1.0, |[inner, outer]| 0.5 * (inner + outer));
     sliding.rotation_speed.abs() * radius
 }
 

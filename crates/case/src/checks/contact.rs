@@ -39,27 +39,18 @@ pub(super) fn speed(case: &Case) -> Option<Diagnostic> {
 
 /// How far from the axis of what turns the contact reaches, m.
 fn sliding_radius(case: &Case) -> f64 {
-    match &case.body.kind {
-        BodyKind::Annulus(annulus) => annulus.inner_radius,
-        BodyKind::Revolution(solid) => match solid.contact {
-            SolidContact::Inner => solid.annulus.inner_radius,
-            SolidContact::Ring { outer_radius, .. } => outer_radius,
-        },
-        BodyKind::Imported(own) => match own.mesh.counterface {
-            Counterface::Cylinder { radius, .. } => radius,
-            Counterface::Plane { .. } => case.body.size(),
-        },
-        BodyKind::Assembly(own) => {
-            let Some([point, direction]) = own.axis() else { return case.body.size() };
-            let first = own.contacts.first();
-            let nodes = first.map_or(&[][..], |first| &own.mesh.boundaries[first.surface].nodes);
-            let away = |&node: &u32| {
-                let from = Vector3::from(own.mesh.nodes[node as usize]) - Vector3::from(point);
-                from.cross(&Vector3::from(direction)).norm()
-            };
-            nodes.iter().map(away).fold(0.0, f64::max)
-        }
+    if let Some([_, outer]) = case.body.contact_radii() {
+        return outer;
     }
+    let turning = case.body.assembly().and_then(|own| Some((own, own.axis()?)));
+    let Some((own, [point, direction])) = turning else { return case.body.size() };
+    let first = own.contacts.first();
+    let nodes = first.map_or(&[][..], |first| &own.mesh.boundaries[first.surface].nodes);
+    let away = |&node: &u32| {
+        let from = Vector3::from(own.mesh.nodes[node as usize]) - Vector3::from(point);
+        from.cross(&Vector3::from(direction)).norm()
+    };
+    nodes.iter().map(away).fold(0.0, f64::max)
 }
 
 /// A friction coefficient of the contact or of a sweep that no pair of materials has.
