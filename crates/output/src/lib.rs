@@ -15,4 +15,4 @@ pub use frictionsim_described::Described;
 pub use described::{Described, describe_field, keys_of};
 pub use document::{Document, Section};
 pub use number::{Format, fixed, rounded, significant, unit_of};
-pub use table::{Cell, Column, Entry, Head, Look, Shown, Table, entries, parted, write_rows};
+pub use table::{Cell, Column, Entry, Head, Shown, Table, entries, parted, write_rows};

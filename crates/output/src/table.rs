@@ -90,25 +90,14 @@ pub enum Shown {
     IfAny,
 }
 
-/// How people see a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Look {
-    /// When they do.
-    pub when: Shown,
-    /// What stands above it, without the unit.
-    pub label: &'static str,
-    /// Its digits.
-    pub format: Format,
-}
-
 /// One column of a table of `T`s.
 pub struct Column<T> {
     /// Name in CSV.
     pub key: &'static str,
     /// What it means, in a line.
     pub meaning: &'static str,
-    /// How people see it; not at all where it is in files only.
-    pub look: Option<&'static Look>,
+    /// When people see it, what stands above it, without the unit, and its digits; none where it is in files only.
+    pub look: Option<(Shown, &'static str, Format)>,
     /// Its cell of a row.
     pub cell: fn(&T) -> Cell,
 }
@@ -116,7 +105,7 @@ pub struct Column<T> {
 impl<T> Column<T> {
     /// What stands above it, with the unit; its name where it is in files only.
     pub fn heading(&self) -> String {
-        let look = self.look.map(|own| (own.when, own.label.to_owned(), own.format));
+        let look = self.look.map(|(when, label, format)| (when, label.to_owned(), format));
         Head { key: self.key.to_owned(), look }.label()
     }
 }
@@ -134,12 +123,7 @@ macro_rules! columns {
             &[$($crate::Column {
                 key: stringify!($key),
                 meaning: [$($meaning,)? ""][0],
-                look: {
-                    const LOOKS: &[$crate::Look] = &[$($crate::Look {
-                        when: $crate::Shown::$when, label: $label, format: $format,
-                    })?];
-                    LOOKS.first()
-                },
+                look: [$(Some(($crate::Shown::$when, $label, $format)),)? None][0],
                 cell: |#[allow(unused_variables)] $row: &$type| $crate::Cell::from($cell),
             }),+]
         };
@@ -262,7 +246,7 @@ impl Table {
     ) -> Self {
         self.heads.extend(columns.iter().map(|column| Head {
             key: format!("{prefix}{}", column.key),
-            look: column.look.map(|l| (l.when, format!("{label}{}", l.label), l.format)),
+            look: column.look.map(|(when, own, format)| (when, format!("{label}{own}"), format)),
         }));
         let cell = |column: &Column<T>, row: &Option<R>| {
             row.as_ref().map_or(Cell::None, |row| (column.cell)(row.borrow()))
