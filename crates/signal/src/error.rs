@@ -35,18 +35,12 @@ pub(super) fn too_short(what: &str, count: usize, needed: usize, remedy: &str) -
     SignalError::Unfit(format!("{what} has {count} samples; {needed} or more are needed: {remedy}"))
 }
 
-/// A sample, by its place from 0, that is NaN or infinite.
-pub(super) fn not_finite(what: &str, place: usize, value: f64) -> SignalError {
-    SignalError::Unfit(format!(
-        "{what} number {} is {value}: remove it or repair the measurement",
-        place + 1
-    ))
-}
-
 /// Checks that every sample is finite.
 pub(super) fn check_finite(what: &'static str, samples: &[f64]) -> Result<(), SignalError> {
-    let place = samples.iter().position(|v| !v.is_finite());
-    place.map_or(Ok(()), |i| Err(not_finite(what, i, samples[i])))
+    let Some(place) = samples.iter().position(|v| !v.is_finite()) else { return Ok(()) };
+    let (number, value) = (place + 1, samples[place]);
+    let remedy = "remove it or repair the measurement";
+    Err(SignalError::Unfit(format!("{what} number {number} is {value}: {remedy}")))
 }
 
 /// A number that must be positive and finite and is not; the remedy begins with punctuation, or is nothing.

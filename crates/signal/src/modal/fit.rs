@@ -108,8 +108,7 @@ pub fn fit_modes(
         .collect::<Result<_, _>>()?;
     // The noise of the data weighs the first fit, that of the residuals the last.
     let needed = (2 + 2 * parts.len()) * starts.len() + parts.len() * REMAINDER + 1;
-    let noise = |r: &FrequencyResponse| NoiseModel::from_differences(r.values(), r.has_phase());
-    let mut noise: Vec<NoiseModel> = parts.iter().map(noise).collect();
+    let mut noise: Vec<NoiseModel> = parts.iter().map(NoiseModel::from_differences).collect();
     let moduli: Vec<Vec<f64>> = parts.iter().map(|r| r.magnitudes()).collect();
     let mut problem = Problem::new(&parts, &noise, &moduli);
     if problem.data_count() <= needed {

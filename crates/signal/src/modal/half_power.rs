@@ -67,7 +67,7 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
     let f = mobility.frequencies_hz();
     let offset = response.values().len() - f.len();
     // Of the quantity that was measured, in which noise is most likely uniform.
-    let noise = NoiseModel::from_differences(response.values(), response.has_phase());
+    let noise = NoiseModel::from_differences(response);
     let tops = resonances(&mobility, &response.magnitudes()[offset..], &noise);
     if tops.is_empty() {
         return Err(SignalError::NoResonance { low_hz: f[0], high_hz: f[f.len() - 1] });

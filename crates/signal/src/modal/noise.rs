@@ -1,6 +1,6 @@
 //! Noise level of a frequency response.
 
-use faer::c64;
+use crate::FrequencyResponse;
 
 /// Noise of each real component of a response value: variance `additive^2 + relative^2 |H|^2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +24,8 @@ impl NoiseModel {
     ///
     /// Too large where the lines are so coarse that the response itself differs from a parabola over
     /// four of them: safe, since it then only asks more of a peak.
-    pub fn from_differences(values: &[c64], has_phase: bool) -> Self {
-        let (squares, moduli): (Vec<f64>, Vec<f64>) = values
+    pub fn from_differences(response: &FrequencyResponse) -> Self {
+        let (squares, moduli): (Vec<f64>, Vec<f64>) = (response.values())
             .windows(4)
             .map(|w| {
                 let d = w[0] - w[1] * 3.0 + w[2] * 3.0 - w[3];
@@ -33,7 +33,7 @@ impl NoiseModel {
                 (d.norm_sqr() / 20.0, mean)
             })
             .unzip();
-        Self::from_squares(&squares, &moduli, has_phase)
+        Self::from_squares(&squares, &moduli, response.has_phase())
     }
 
     /// Noise from squared residuals `|r|^2` and the moduli of the response beneath them, by maximum

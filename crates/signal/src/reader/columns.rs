@@ -65,9 +65,6 @@ pub(super) fn responses(
     let whole: Vec<(usize, &[f64])> = (table.columns.iter().enumerate())
         .filter_map(|(k, column)| Some((k, column.imaginary.as_deref()?)))
         .collect();
-    if table.names.is_empty() && whole.is_empty() {
-        return Ok(vec![Found { name: "response".to_string(), ..unnamed(table)? }]);
-    }
     let columns = |wanted: Part| -> Vec<usize> {
         let named = (0..table.names.len()).filter(|k| *k != frequency);
         named.filter(|k| part(&table.names[*k]) == wanted).collect()
@@ -83,6 +80,8 @@ pub(super) fn responses(
     // Complex numbers come first, then pairs of parts, then levels, then magnitudes.
     let mut found: Vec<Found> = if !whole.is_empty() {
         whole.iter().map(|(k, imaginary)| complex(table, *k, imaginary)).collect()
+    } else if table.names.is_empty() {
+        vec![unnamed(table)?]
     } else if !real.is_empty() {
         let pairs = real.iter().zip(paired(table, &real, imaginary));
         pairs.map(|(re, im)| complex(table, *re, &table.columns[im].real)).collect()

@@ -1,5 +1,6 @@
 //! Time signals.
 
+use super::super::error::check_finite;
 use super::error::{NO_RATE, ReadError};
 use super::table::Table;
 use super::units::{sampling_rate, seconds};
@@ -73,6 +74,9 @@ fn signals(bytes: &[u8], options: &SignalOptions) -> Result<SignalFile, ReadErro
         Format::Wave => wav::read_wav(bytes)?,
         other => from_table(&other.table(bytes, &options.columns)?, options)?,
     };
+    for channel in &file.channels {
+        check_finite("sample", &channel.samples).map_err(ReadError::whole)?;
+    }
     // A file that states its rate is overruled aloud.
     if let Some(rate) = options.rate.filter(|rate| *rate != file.sampling_rate) {
         let stated = file.sampling_rate;

@@ -3,7 +3,6 @@
 //! Source: SDRC, "Universal file datasets", number 58, and the University of Cincinnati's description of the
 //! binary form.
 
-use super::super::error::not_finite;
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::error::{NO_RATE, ReadError};
 use super::mat::whole;
@@ -297,11 +296,6 @@ pub(super) fn read_signals(bytes: &[u8]) -> Result<SignalFile, ReadError> {
     if !others.is_empty() {
         let names = first_of(others.iter().map(|f| &f.name));
         notes.push(format!("left out, for another length or rate than the first: {names}"));
-    }
-    for f in &fit {
-        if let Some(i) = f.values.iter().position(|z| !z.re.is_finite()) {
-            return Err(ReadError::whole(not_finite("sample", i, f.values[i].re)));
-        }
     }
     let samples = |f: &Function| f.values.iter().map(|z| z.re).collect();
     let channel = |f: &&Function| Channel { name: f.name.clone(), samples: samples(f) };

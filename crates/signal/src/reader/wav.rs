@@ -1,7 +1,7 @@
 //! WAV files: sound in, and a signal made audible.
 
 use super::super::SignalError;
-use super::super::error::{not_finite, not_positive};
+use super::super::error::not_positive;
 use super::error::ReadError;
 use super::time_signal::{Channel, SignalFile};
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
@@ -35,9 +35,6 @@ pub(super) fn read_wav(bytes: &[u8]) -> Result<SignalFile, ReadError> {
     let mut notes = Vec::new();
     if rows * count < wav.len() as usize {
         notes.push(format!("the file ends early: {rows} samples of each channel are read"));
-    }
-    if let Some(position) = values.iter().position(|v| !v.is_finite()) {
-        return Err(ReadError::whole(not_finite("sample", position / count, values[position])));
     }
     let channels = (0..count.min(values.len())).map(|k| Channel {
         name: format!("channel {}", k + 1),
