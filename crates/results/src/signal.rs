@@ -9,7 +9,7 @@ use crate::{FolderError, OutputFolder};
 use frictionsim_output::{unit_of, write_rows};
 use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
-use frictionsim_signal::{AmplitudeSpectrum, SpectrogramOptions, spectrogram};
+use frictionsim_signal::{AmplitudeSpectrum, spectrogram};
 pub use summary::{
     ChannelSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary, SignalSummary,
 };
@@ -146,13 +146,8 @@ impl SignalDrawing<'_> {
         let time = |j: usize| start + j as f64 / rate;
         let times: Vec<f64> = (0..channel.samples.len()).map(time).collect();
         let axis = run_axis(&times);
-        let window = SpectrogramOptions {
-            window_length: self.window,
-            hop: 0.25 * self.window,
-            max_frequency_hz: self.max_frequency_hz,
-            ..SpectrogramOptions::default()
-        };
-        let (spectrograms, reason) = match spectrogram(&channel.samples, rate, &window) {
+        let map = spectrogram(&channel.samples, rate, self.window, self.max_frequency_hz);
+        let (spectrograms, reason) = match map {
             Ok(map) => (spectrogram_panels(&axis, &map, start, self.highest(), &self.modes), None),
             Err(error) => {
                 let name = &channel.name;

@@ -35,7 +35,7 @@ pub use modal::{
 };
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use rotating::{RotatingLine, rotating_lines};
-pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
+pub use spectrogram::{Spectrogram, USUAL_WINDOW, spectrogram};
 pub use spectrum::{AmplitudeSpectrum, averaged_spectrum, centred, top_of};
 pub use statistics::student_95;
 pub use transform::{Fft, forward_transform, inverse_transform};

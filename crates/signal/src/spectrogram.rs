@@ -7,25 +7,10 @@ use super::spectrum::{BlockTransform, check_signal};
 /// The transform is zero-padded to at least this many window lengths (then to a power of two).
 const PADDING: usize = 4;
 
-/// How a [`spectrogram`] cuts the signal, into Hann windows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpectrogramOptions {
-    /// Window length, s.
-    pub window_length: f64,
-    /// Distance of successive windows, s.
-    pub hop: f64,
-    /// Frequencies above are left out, Hz.
-    pub max_frequency_hz: f64,
-    /// At most this many rows: where there are more windows, each row is the largest of several.
-    pub most_rows: usize,
-}
-
-impl Default for SpectrogramOptions {
-    /// Windows of 0.5 ms, as in figures 8 and 11 of the paper, with three quarters overlap.
-    fn default() -> Self {
-        Self { window_length: 5e-4, hop: 1.25e-4, max_frequency_hz: f64::INFINITY, most_rows: 4000 }
-    }
-}
+/// Most rows: where there are more windows, each row is the largest of several.
+const MOST_ROWS: usize = 4000;
+/// Window of figures 8 and 11 of the paper, s.
+pub const USUAL_WINDOW: f64 = 5e-4;
 
 /// Amplitude over time and frequency.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +23,8 @@ pub struct Spectrogram {
     pub magnitudes: Vec<f64>,
 }
 
-/// Amplitude spectra of successive windows, each less its own mean.
+/// Amplitude spectra of successive Hann windows of a length, s, with three quarters overlap, each less its own mean, up to
+/// a frequency, Hz.
 ///
 /// One scale for the whole record: a quiet window stays quiet beside a loud one.
 ///
@@ -48,27 +34,27 @@ pub struct Spectrogram {
 pub fn spectrogram(
     samples: &[f64],
     sampling_rate: f64,
-    options: &SpectrogramOptions,
+    window_length: f64,
+    max_frequency_hz: f64,
 ) -> Result<Spectrogram, SignalError> {
-    check_positive("spectrogram window length", options.window_length, " (s)")?;
-    check_positive("spectrogram hop", options.hop, " (s)")?;
+    check_positive("spectrogram window length", window_length, " (s)")?;
     check_signal(samples, sampling_rate, 4)?;
-    let block = (options.window_length * sampling_rate).round() as usize;
+    let block = (window_length * sampling_rate).round() as usize;
     if block < 4 {
         let remedy = "lengthen the window or sample faster";
         return Err(too_short("the spectrogram window", block, 4, remedy));
     }
     check_signal(samples, sampling_rate, block)?;
     // Windows, and how many of them make a row.
-    let hop = ((options.hop * sampling_rate).round() as usize).max(1);
+    let hop = ((0.25 * window_length * sampling_rate).round() as usize).max(1);
     let windows = (samples.len() - block) / hop + 1;
-    let together = windows.div_ceil(options.most_rows.max(1));
+    let together = windows.div_ceil(MOST_ROWS);
     let length = (block * PADDING).next_power_of_two();
     let taper = Window::Hann.coefficients(block);
     let weight: f64 = taper.iter().sum();
     let mut transform = BlockTransform::new(taper.clone(), length);
     let mut frequencies_hz = transform.frequencies_hz(sampling_rate);
-    frequencies_hz.retain(|f| *f <= options.max_frequency_hz);
+    frequencies_hz.retain(|f| *f <= max_frequency_hz);
     let (mut times, mut magnitudes) = (Vec::new(), Vec::new());
     for row in 0..windows.div_ceil(together) {
         let range = row * together..((row + 1) * together).min(windows);
@@ -106,8 +92,7 @@ mod tests {
     #[test]
     fn half_millisecond_windows_follow_a_frequency_switch_on_one_scale() {
         let (rate, switch) = (5e5, 0.01);
-        let options = SpectrogramOptions { max_frequency_hz: 2e4, ..SpectrogramOptions::default() };
-        let s = spectrogram(&switching(rate, switch, 10_000), rate, &options).unwrap();
+        let s = spectrogram(&switching(rate, switch, 10_000), rate, USUAL_WINDOW, 2e4).unwrap();
         assert!(s.frequencies_hz.last().is_some_and(|f| *f <= 2e4));
         for (t, row) in s.times.iter().zip(s.magnitudes.chunks(s.frequencies_hz.len())) {
             if (t - switch).abs() < 5e-4 {
@@ -123,13 +108,12 @@ mod tests {
 
     #[test]
     fn a_long_record_keeps_its_shortest_burst_in_few_rows() {
-        let mut x = vec![0.0; 500_000];
+        let mut x = vec![0.0; 2_000_000];
         for (j, v) in switching(5e5, 0.0, 400).into_iter().enumerate() {
             x[300_000 + j] = v;
         }
-        let options = SpectrogramOptions { most_rows: 100, ..SpectrogramOptions::default() };
-        let s = spectrogram(&x, 5e5, &options).unwrap();
-        assert!(s.times.len() <= 100);
+        let s = spectrogram(&x, 5e5, USUAL_WINDOW, f64::INFINITY).unwrap();
+        assert!(s.times.len() <= 4000);
         let top = s.magnitudes.iter().copied().fold(0.0, f64::max);
         assert!(top > 900.0, "{top}");
     }

@@ -21,7 +21,7 @@ fn analyse(bytes: &[u8]) {
         for channel in file.channels.iter().take(3) {
             let (x, rate) = (&channel.samples, file.sampling_rate);
             let _ = exponential_stage(x, rate);
-            let _ = spectrogram(x, rate, &SpectrogramOptions::default());
+            let _ = spectrogram(x, rate, USUAL_WINDOW, f64::INFINITY);
             if let Ok(resolution) = SpectralResolution::of(x.len(), rate, None) {
                 for line in spectral_lines(x, rate, resolution, 12).unwrap_or_default() {
                     assert!(line.frequency_hz.is_finite() && line.amplitude.is_finite());

@@ -7,7 +7,7 @@ use crate::charts::{
 };
 use crate::prelude::*;
 use frictionsim_chart::{prefixed, significant};
-use frictionsim_signal::{SpectrogramOptions, Window, averaged_spectrum, spectrogram};
+use frictionsim_signal::{USUAL_WINDOW, Window, averaged_spectrum, spectrogram};
 
 /// Decades of amplitudes below the largest that show growth.
 const GROWTH_DECADES: f64 = 7.0;
@@ -42,14 +42,11 @@ impl RecordedRun<'_> {
             let panel = signal_panel(axis, &times[first..], &signal[first..], unit, 0.9);
             panel.caption("end of the run")
         });
-        let usual = SpectrogramOptions::default();
         // A window holds a few periods of the vibration, however slow it is.
         let few = periods.unwrap_or(0.0).min(0.25 * (end - start));
-        let window_length = few.max(usual.window_length);
-        let (hop, max_frequency_hz) = (0.25 * window_length, 1.05 * top);
-        let options = SpectrogramOptions { window_length, hop, max_frequency_hz, ..usual };
+        let (window, rate) = (few.max(USUAL_WINDOW), 1.0 / self.interval().max(1e-12));
         // A run shorter than a window has no spectrogram, and needs none.
-        let map = spectrogram(&signal, 1.0 / self.interval().max(1e-12), &options).ok();
+        let map = spectrogram(&signal, rate, window, 1.05 * top).ok();
         let spectrograms = map.map_or(Vec::new(), |map| {
             spectrogram_panels(&axis, &map, start, top, &self.stage.references)
         });
