@@ -1,15 +1,12 @@
 //! `frictionsim mesh`: the mesh alone.
 
-use super::{Failure, RunOptions, Session};
-use crate::case::{AssemblyBody, Case, ModeLimit};
-use crate::chart::Figure;
+use super::prelude::*;
+use crate::case::{AssemblyBody, ModeLimit};
 use crate::mesh::{AnnulusMesh, SolidSector};
-use crate::results::OutputFolder;
 use crate::results::mesh::{
-    Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, plane_figure, solid_figure,
-    write_mesh, write_revolution,
+    MeshStatistics, MeshSummary, Roles, plane_figure, plane_roles, solid_figure, write_mesh,
+    write_revolution,
 };
-use std::collections::BTreeMap;
 
 pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     let session = Session::start("mesh", options)?;
@@ -26,7 +23,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     let solid = revolution.map(SolidSector::generate).transpose().map_err(Failure::usage)?;
     match &solid {
         Some(sector) => write_revolution(&folder, sector)?,
-        None => write_mesh(&folder, &mesh, mesh.contact_edge().nodes.iter().copied())?,
+        None => write_mesh(&folder, &mesh, &plane_roles(&mesh))?,
     }
     let mut statistics = MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case));
     if let Some(sector) = &solid {
@@ -43,19 +40,17 @@ fn run_solid(session: &Session, folder: OutputFolder, body: &AssemblyBody) -> Re
     let roles = roles(body);
     let materials = case.body.materials.iter();
     let densities: Vec<f64> = materials.map(|material| material.elastic.density).collect();
-    let contacts = roles.iter().filter(|role| *role.1 == "contact");
-    let contact_nodes = contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied());
-    write_mesh(&folder, mesh, contact_nodes)?;
-    let statistics = SolidMeshStatistics::new(mesh, &densities, &roles);
+    write_mesh(&folder, mesh, &roles)?;
+    let statistics = MeshStatistics::of_solids(mesh, &densities, &roles);
     let figures = || vec![solid_figure(mesh, &case.title, &roles)];
     finish(session, folder, (statistics, case.taken.notes.clone()), figures)
 }
 
 /// Draws, writes the summary and prints.
-fn finish<S: Measured>(
+fn finish(
     session: &Session,
     folder: OutputFolder,
-    (mesh, notes): (S, Vec<String>),
+    (mesh, notes): (MeshStatistics, Vec<String>),
     figures: impl FnOnce() -> Vec<Figure>,
 ) -> Result<(), Failure> {
     let summary = MeshSummary { mesh, notes, not_used: session.case.taken.not_used() };
@@ -63,8 +58,8 @@ fn finish<S: Measured>(
 }
 
 /// Boundaries that slide or are glued, in a word.
-fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
-    let mut roles: BTreeMap<usize, &'static str> = BTreeMap::new();
+fn roles(assembly: &AssemblyBody) -> Roles {
+    let mut roles = Roles::new();
     for tie in &assembly.ties {
         roles.extend([(tie.surface, "tie"), (tie.counter, "tie")]);
     }

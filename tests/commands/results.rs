@@ -179,7 +179,7 @@ fn a_vtu_file_gives_back_mesh_and_fields_bit_for_bit() {
         let field: Vec<f64> = (0..mesh.node_count()).map(|i| (i as f64).sin()).collect();
         let mut bytes = Vec::new();
         let fields = [Field::scalars("a < b", field.clone())];
-        let whole = [Field::number("time_s", 6250.0 * 2e-6)];
+        let whole = [("time_s", 6250.0 * 2e-6)];
         write_vtu(&mut bytes, &EncodedMesh::new(&mesh).unwrap(), &whole, &fields, &[]).unwrap();
         let head = String::from_utf8_lossy(&bytes[..400]).into_owned();
         has(&head, &["Name=\"time_s\" NumberOfTuples=\"1\" format=\"ascii\">0.0125 </"]);

@@ -1,11 +1,8 @@
 //! Results of a search for the boundary between two basins.
 
-use crate::parameter::parameter_axis;
 use crate::prelude::*;
 use crate::summary::Bounds;
 use crate::sweep::{FRICTION, PointRecord, SPEED, by_other_keys, swept_text};
-use crate::{Declaration, Finding};
-use frictionsim_chart::Scale;
 use frictionsim_physics::cycle::{BasinBoundary, BasinRun};
 
 keys! {

@@ -1,16 +1,10 @@
 //! Results of a fit to measured modes: tables, figure, page.
 
 use crate::cea::mode_name;
-use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::prelude::*;
-use crate::{Declaration, Finding};
-use std::fmt::Write as _;
 
-columns! {
-    /// Whether a mode grows.
-    pub(super) GROWS: mode as ModeSummary;
-    unstable: "whether the mode grows" = mode.is_unstable();
-}
+/// Column of whether a mode grows, and what it means.
+pub(super) const GROWS: (&str, &str) = ("unstable", "whether the mode grows");
 
 columns! {
     /// A fitted parameter.
@@ -36,7 +30,7 @@ impl Finding for FitSummary {
             .without_empty("mac");
         let modes = Table::new("modes.csv", "Modes of the fitted model")
             .columns(MODES, &self.modes)
-            .columns(GROWS, &self.modes);
+            .column(GROWS.0, None, self.modes.iter().map(ModeSummary::is_unstable));
         let fitted = format!(
             "Fitted to {} lines of {} at friction coefficient {}; the worst frequency differs by {:.3} %. {} of {} \
              searches, from the best of {} points, ended here.",

@@ -1,10 +1,7 @@
 //! Tables, figure and page of an identified damping.
 
-use crate::charts::palette::UNSTABLE;
 use crate::prelude::*;
-use crate::{FolderError, OutputFolder};
-use frictionsim_chart::{Fill, significant};
-use frictionsim_output::write_rows;
+use frictionsim_chart::significant;
 use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
     Estimate, FittedMode, FrequencyResponse, HalfPowerBand, Identification, ModalFit, RayleighFit,

@@ -1,12 +1,7 @@
 //! Results of `improve`: where a modification silences unstable modes, what it is predicted to do, and what it does.
 
-use crate::charts::{Disc, SolidView};
 use crate::prelude::*;
-use crate::{
-    Declaration, EncodedMesh, Extent, Field, FolderError, OutputFolder, declared, sorted, write_vtu,
-};
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// What `improve` finds.
 pub struct Improvement {
@@ -253,7 +248,7 @@ fn write_fields(folder: &OutputFolder, found: &Improvement) -> Result<(), Folder
     for own in &found.fields {
         let field = |what: &str, unit: &str, values: &[f64]| {
             let name = format!("mode_{}_growth_by_{what}_{unit}", own.mode.mode);
-            Field::scalars(&name, values.to_vec())
+            Field::scalars(&name, values.iter().copied())
         };
         nodal.extend([
             field("mass", "1_per_s_kg", &own.mass),

@@ -1,8 +1,6 @@
 //! Results of `mac`: modal assurance of measured shapes.
 
 use crate::prelude::*;
-use crate::{Declaration, Finding};
-use frictionsim_chart::Heat;
 
 keys! {
     /// `summary.json` of `mac`.

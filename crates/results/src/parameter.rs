@@ -1,7 +1,6 @@
 //! Names of case keys on the axes of figures.
 
 use crate::prelude::*;
-use frictionsim_chart::prefixed;
 
 /// Units that take a prefix.
 const PREFIXED: [&str; 6] = ["Pa", "Pa/m", "N/m", "m", "s", "Pa s/m"];

@@ -1,24 +1,45 @@
-//! What most tables and figures are made of, from other crates; what is of this one is named where it is used.
+//! What tables, fields and figures are made of; what one kind of result has alone is named where it is used.
 
-pub(crate) use crate::{keys::keys, plural};
+pub(crate) use crate::{
+    Declaration, EncodedMesh, Extent, Field, Finding, FolderError, Head, OutputFolder, PvdEntry,
+    ShownBody, cartesian_vectors,
+    charts::{
+        Disc, ModeLine, MovingBody, SolidView,
+        palette::{STABLE, UNSTABLE},
+    },
+    declared, distinct, grouped,
+    keys::keys,
+    parameter::{parameter_axis, parameter_name},
+    plural, sorted,
+    summary::{CriticalValue, MeanPowers, StatusFractions, present},
+    write_pvd, write_summary, write_table, write_vtu,
+};
 pub(crate) use frictionsim_chart::{
-    Axis, ColourMap, Figure, INK, Label, Line, MUTED, Marker, Motion, Panel, Points, Rule, SERIES,
-    Side, Stroke, extremes, literal, look, plain,
+    Axis, Bars, ColourMap, Figure, Fill, Heat, INK, Label, Line, MUTED, Marker, Motion, MotionKind,
+    MotionState, Panel, Points, Rule, SERIES, Scale, Shapes, Side, Stroke, TextStyle, extremes,
+    literal, look, plain, prefixed, signed,
 };
 pub(crate) use frictionsim_output::{
-    Column, Described, Document, Format, Section, Table, columns, fixed, parted, rounded,
-    significant,
+    Cell, Column, Described, Document, Format, Section, Table, columns, fixed, parted, rounded,
+    significant, unit_of, write_rows,
 };
 pub(crate) use frictionsim_physics::{
-    cea::ComplexMode,
+    cea::{ComplexMode, FrictionPoint},
     contact::{ContactInterface, ContactStatus},
     cycle::PhasePoint,
+    fem::MaterialField,
     linalg::c64,
-    mesh::{Mesh, SolidFace, SolidSector},
+    mesh::{BoundaryFace, Counterface, Mesh, SolidFace, SolidSector},
+    transient::EndState,
 };
+pub(crate) use nalgebra::Vector3;
 pub(crate) use serde::{Deserialize, Serialize};
-pub(crate) use serde_json::Value;
+pub(crate) use serde_json::{Map, Value};
 pub(crate) use std::{
     collections::{BTreeMap, BTreeSet},
     f64::consts::TAU,
+    fmt::Write as _,
+    io::{self, Write as _},
+    path::Path,
+    sync::Arc,
 };

@@ -1,27 +1,14 @@
 //! Every declared column of the tables and every key of `summary.json`, with unit and meaning.
 
-use super::ResponseSummary;
-use super::basin::{BasinSummary, RUNS};
-use super::cea::{self, CeaSummary};
-use super::compare::ComparisonSummary;
-use super::convergence::{self, ConvergenceSummary};
-use super::cycle::{self, CycleSummary};
-use super::fit::{self, FitSummary};
-use super::identification::{self, IdentificationSummary};
-use super::improve::{self, ImproveSummary};
-use super::mac::{self, MacSummary};
 use super::manifest::Manifest;
-use super::matrices::{self, MatricesSummary};
-use super::mesh::{MeshStatistics, MeshSummary, SolidMeshStatistics};
-use super::signal::{self, SignalSummary};
 use super::summary::STATUS as FRACTIONS;
-use super::sweep::{self, SweepSummary};
-use super::transient::{self, TransientSummary};
-use super::uncertainty::{self, UncertaintySummary};
+use super::{
+    ResponseSummary, basin, cea, compare, convergence, cycle, fit, identification, improve, mac,
+    matrices, mesh, signal, sweep, transient, uncertainty,
+};
 use crate::prelude::*;
-use frictionsim_output::{Entry, describe_field, entries, keys_of, unit_of};
+use frictionsim_output::{Entry, describe_field, entries, keys_of};
 use serde_json::json;
-use std::fmt::Write as _;
 
 /// What one file of a command holds.
 pub struct FileReference {
@@ -50,6 +37,13 @@ impl Listed for Vec<Entry> {
     }
 }
 
+/// Names and meanings.
+impl<const N: usize> Listed for [(&str, &str); N] {
+    fn listed(self) -> Vec<Entry> {
+        self.map(|(key, meaning)| Entry::new(key, meaning)).into()
+    }
+}
+
 /// A file of a command and what it holds, in its order.
 macro_rules! file {
     ($command:literal, $file:literal; $($group:expr),+) => {
@@ -64,148 +58,124 @@ macro_rules! file {
 /// The files of all commands whose columns are declared.
 pub fn reference() -> Vec<FileReference> {
     vec![
-        file!("basin", "basin.csv"; RUNS),
-        summary::<BasinSummary>("basin"),
-        file!("cea", "eigenvalues.csv"; cea::PLACES, cea::MODES, cea::AXIAL),
+        file!("basin", "basin.csv"; basin::RUNS),
+        summary::<basin::BasinSummary>("basin"),
+        file!("cea", "eigenvalues.csv"; cea::MODES),
         file!("cea", "stability.csv"; cea::ONSETS),
-        file!("cea", "prestress.csv"; cea::NODES, cea::RINGS, parted(cea::POINTS, "x_m").0,
-            cea::TRACTIONS, cea::STATUS, cea::PLANE, parted(cea::POINTS, "z_m").1),
-        file!("cea", "sensitivities.csv"; cea::ROWS, cea::EIGENVALUES, rates()),
+        file!("cea", "prestress.csv"; cea::NODES, cea::RINGS, cea::NAME, cea::TRACTIONS, cea::PLANE,
+            cea::SPACE),
+        file!("cea", "sensitivities.csv"; cea::ROWS, cea::EIGENVALUES, RATES),
         file!("cea", "contributions.csv"; cea::NAMES, cea::CONTRIBUTIONS),
         file!("cea", "coupling.csv"; cea::SHORT_NAMES, cea::COUPLINGS),
-        file!("cea", "feed.csv"; cea::NUMBERS, cea::FEED),
-        summary::<CeaSummary>("cea"),
-        file!("compare", "compare.csv"; pairs(&[
+        file!("cea", "feed.csv"; cea::NUMBERS, cea::POINTS, cea::FEED),
+        summary::<cea::CeaSummary>("cea"),
+        file!("compare", "compare.csv"; [
             ("quantity", "dotted path in the summaries of the runs"),
             ("unit", "its unit"),
             ("KEY", "its value in the run of that name"),
             ("difference KEY", "difference of that run from the first"),
             ("relative difference KEY", "the same over the magnitude of the first"),
-        ])),
-        summary::<ComparisonSummary>("compare"),
+        ]),
+        summary::<compare::ComparisonSummary>("compare"),
         file!("convergence", "convergence.csv"; convergence::ROWS),
-        summary::<ConvergenceSummary>("convergence"),
+        summary::<convergence::ConvergenceSummary>("convergence"),
         file!("cycle", "cycle.csv"; cycle::NAMES, cycle::MOTION, FRACTIONS, cycle::POWERS,
             cycle::BALANCE, cycle::KNOWN, cycle::ERRORS),
         file!("cycle", "cycle-N.csv"; cycle::HISTORY, cycle::WAVE_PATH, cycle::PATH),
         file!("cycle", "contact-N.csv"; cycle::CONTACT_NODES),
         file!("cycle", "harmonics-N.csv"; cycle::HARMONICS),
-        file!("cycle", "stability-N.csv"; parameter(), cycle::EXPONENTS),
-        file!("cycle", "branch-N.csv"; parameter(), cycle::BRANCH, FRACTIONS, cycle::POWERS,
+        file!("cycle", "stability-N.csv"; PARAMETER, cycle::EXPONENTS),
+        file!("cycle", "branch-N.csv"; PARAMETER, cycle::BRANCH, FRACTIONS, cycle::POWERS,
             cycle::ALONG),
-        file!("cycle", "two-waves-N.csv"; parameter(), cycle::TWO_WAVES),
-        summary::<CycleSummary>("cycle"),
+        file!("cycle", "two-waves-N.csv"; PARAMETER, cycle::TWO_WAVES),
+        summary::<cycle::CycleSummary>("cycle"),
         file!("fit", "fit.csv"; fit::MEASURED, entries("model_", fit::MODES), fit::DIFFERENCES),
-        file!("fit", "modes.csv"; fit::MODES, fit::GROWS),
-        summary::<FitSummary>("fit"),
+        file!("fit", "modes.csv"; fit::MODES, [fit::GROWS]),
+        summary::<fit::FitSummary>("fit"),
         file!("frf", "frf.csv";
-        pairs(&[
+        [
             ("frequency_hz", "frequency"),
             ("KEY_real", "real part of the accelerance, mobility or receptance"),
             ("KEY_imaginary", "its imaginary part"),
-        ])),
+        ]),
         summary::<ResponseSummary>("frf"),
         file!("identify", "modes.csv"; identification::MODES),
         file!("identify", "fit.csv"; identification::FITTED),
-        summary::<IdentificationSummary>("identify"),
+        summary::<identification::IdentificationSummary>("identify"),
         file!("improve", "candidates.csv"; improve::CANDIDATES, improve::EFFECTS,
             entries("predicted_", improve::PREDICTED), entries("confirmed_", improve::STATES),
             improve::VERDICTS),
-        summary::<ImproveSummary>("improve"),
+        summary::<improve::ImproveSummary>("improve"),
         file!("mac", "mac.csv"; mac::ROWS),
-        summary::<MacSummary>("mac"),
+        summary::<mac::MacSummary>("mac"),
         file!("matrices", "unknowns.csv"; matrices::UNKNOWN),
         file!("matrices", "contact.csv"; matrices::PLANE_POINT, matrices::SOLID_POINT),
-        summary::<MatricesSummary>("matrices"),
-        summary::<MeshSummary<AnyMesh>>("mesh"),
+        summary::<matrices::MatricesSummary>("matrices"),
+        summary::<mesh::MeshSummary>("mesh"),
         file!("signal", "peaks.csv"; signal::PEAKS),
         file!("signal", "spectrum-N.csv"; signal::SPECTRUM),
-        summary::<SignalSummary>("signal"),
-        file!("sweep", "points.csv"; swept(), one("KEY.KEY", "numbers of the summaries"), points()),
-        file!("sweep", "stability.csv"; swept(), cea::SWEPT_ONSETS, points()),
-        file!("sweep", "unstable_modes.csv"; swept(), cea::UNSTABLE, points()),
-        file!("sweep", "modes.csv"; swept(), cea::SWEPT_MODES, points()),
-        file!("sweep", "branches.csv"; swept(), sweep::BRANCHES, points()),
-        summary::<SweepSummary>("sweep"),
-        file!("transient", "probe-N.csv"; one("time_s", "time"),
-        pairs(&[
+        summary::<signal::SignalSummary>("signal"),
+        file!("sweep", "points.csv"; SWEPT, [("KEY.KEY", "numbers of the summaries")], POINTS),
+        file!("sweep", "stability.csv"; SWEPT, cea::SWEPT_ONSETS, POINTS),
+        file!("sweep", "unstable_modes.csv"; SWEPT, cea::UNSTABLE, POINTS),
+        file!("sweep", "modes.csv"; SWEPT, cea::SWEPT_MODES, POINTS),
+        file!("sweep", "branches.csv"; SWEPT, sweep::BRANCHES, POINTS),
+        summary::<sweep::SweepSummary>("sweep"),
+        file!("transient", "probe-N.csv"; [("time_s", "time")],
+        [
             ("u_KEY_m", "displacement in a direction: r, theta, x, y or z"),
             ("v_KEY_m_per_s", "velocity"),
             ("a_KEY_m_per_s2",
                 "acceleration: mean since the last sample, or with `step` of the step alone"),
-        ])),
+        ]),
         file!("transient", "energy.csv"; transient::ENERGY),
         file!("transient", "contact.csv"; transient::STATUS),
-        file!("transient", "harmonics.csv"; one("time_s", "time"),
-        pairs(&[
+        file!("transient", "harmonics.csv"; [("time_s", "time")],
+        [
             ("nKEY_real_m", "amplitude of a harmonic along the contact edge, real part"),
             ("nKEY_imaginary_m", "imaginary part"),
-        ])),
-        summary::<TransientSummary>("transient"),
-        file!("uncertainty", "samples.csv"; one("sample", "number of the sample, from 1"),
-            one("KEY", "value of an uncertain parameter, by its key"), uncertainty::SAMPLES,
+        ]),
+        summary::<transient::TransientSummary>("transient"),
+        file!("uncertainty", "samples.csv"; [("sample", "number of the sample, from 1")],
+            [("KEY", "value of an uncertain parameter, by its key")], uncertainty::SAMPLES,
             uncertainty::ONSETS, uncertainty::ERRORS),
-        summary::<UncertaintySummary>("uncertainty"),
+        summary::<uncertainty::UncertaintySummary>("uncertainty"),
     ]
 }
 
 /// A swept key.
-fn swept() -> Vec<Entry> {
-    one("KEY", "value of a swept key")
-}
+const SWEPT: [(&str, &str); 1] = [("KEY", "value of a swept key")];
 
 /// The number of a point, and why it failed.
-fn points() -> Vec<Entry> {
-    pairs(&[("point", "number of the point, from 1"), ("error", "why it failed, in `points.csv`")])
-}
+const POINTS: [(&str, &str); 2] =
+    [("point", "number of the point, from 1"), ("error", "why it failed, in `points.csv`")];
 
 /// The parameter of a branch.
-fn parameter() -> Vec<Entry> {
-    one("KEY", "value of the parameter of `cycle.continuation`; `point` without one")
-}
-
-fn pairs(columns: &[(&str, &str)]) -> Vec<Entry> {
-    columns.iter().map(|(key, meaning)| Entry::new(*key, meaning)).collect()
-}
-
-fn one(key: &str, meaning: &str) -> Vec<Entry> {
-    vec![Entry::new(key, meaning)]
-}
+const PARAMETER: [(&str, &str); 1] =
+    [("KEY", "value of the parameter of `cycle.continuation`; `point` without one")];
 
 /// The derivatives of `sensitivities.csv`.
-fn rates() -> Vec<Entry> {
-    pairs(&[
-        (
-            "growth_rate_per_KEY",
-            "derivative of the growth rate by a parameter, 1/s for each of its unit",
-        ),
-        ("frequency_hz_per_KEY", "derivative of the frequency, Hz for each unit of the parameter"),
-        ("critical_friction", "friction coefficient above which the branch is unstable first"),
-        ("critical_friction_per_KEY", "derivative of that by a parameter"),
-    ])
-}
+const RATES: [(&str, &str); 4] = [
+    (
+        "growth_rate_per_KEY",
+        "derivative of the growth rate by a parameter, 1/s for each of its unit",
+    ),
+    ("frequency_hz_per_KEY", "derivative of the frequency, Hz for each unit of the parameter"),
+    ("critical_friction", "friction coefficient above which the branch is unstable first"),
+    ("critical_friction_per_KEY", "derivative of that by a parameter"),
+];
 
 fn summary<T: Described>(command: &'static str) -> FileReference {
     let mut keys = keys_of::<T>();
     let manifest = ("manifest", "what it was made from", false);
     describe_field(Manifest::describe, "", manifest, &mut keys);
     keys.iter_mut().for_each(|own| own.meaning = plain(&own.meaning));
-    let head = pairs(&[
+    let head = [
         ("command", "the command"),
         ("title", "title of the case, of a command that runs one"),
         ("wall_s", "wall time, of a command that takes some"),
-    ]);
-    FileReference { command, file: "summary.json", entries: [head, keys].concat() }
-}
-
-/// The mesh of any body: what plane bodies and bodies of revolution have, and solid bodies.
-enum AnyMesh {}
-
-impl Described for AnyMesh {
-    fn describe(path: &str, keys: &mut Vec<Entry>) {
-        MeshStatistics::describe(path, keys);
-        SolidMeshStatistics::describe(path, keys);
-    }
+    ];
+    FileReference { command, file: "summary.json", entries: [head.listed(), keys].concat() }
 }
 
 /// The comment of a field as columns have their meaning: without its first capital and its full stop.

@@ -6,7 +6,7 @@ mod script;
 use super::drawing::{Declaration, File, REPORT, files_of};
 use super::manifest::Manifest;
 use super::record::{Record, read_record, write_record};
-use super::{DrawingError, DrawingOptions, FolderError, OutputFolder};
+use super::{DrawingError, DrawingOptions};
 use crate::prelude::*;
 use frictionsim_chart::ChartError;
 

@@ -2,10 +2,8 @@
 
 use super::identification::unit_of;
 use crate::prelude::*;
-use crate::{FolderError, OutputFolder, sorted, write_table};
 use frictionsim_signal::reader::{self, NamedResponse};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
-use std::io;
 
 keys! {
     /// `summary.json` of `frictionsim frf`.
@@ -23,10 +21,8 @@ keys! {
     }
 }
 
-/// Name of the table of a response in its folder; `frictionsim identify` reads it.
-const RESPONSE_TABLE: &str = "frf.csv";
-
-/// Writes frequency, real and imaginary part; as a universal file (dataset 58), too, where that is asked for.
+/// Writes frequency, real and imaginary part as `frf.csv`, which `frictionsim identify` reads; as a universal file
+/// (dataset 58), too, where that is asked for.
 pub fn write_response(
     folder: &OutputFolder,
     quantity: ResponseQuantity,
@@ -35,7 +31,7 @@ pub fn write_response(
     is_universal: bool,
 ) -> Result<(), FolderError> {
     let name = quantity.name();
-    let table = Table::new(RESPONSE_TABLE, "")
+    let table = Table::new("frf.csv", "")
         .column("frequency_hz", None, frequencies_hz.iter().copied())
         .column(&format!("{name}_real"), None, values.iter().map(|h| h.re))
         .column(&format!("{name}_imaginary"), None, values.iter().map(|h| h.im));

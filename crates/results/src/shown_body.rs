@@ -1,12 +1,10 @@
 //! A body as results show it.
 
-use super::{EncodedMesh, Field};
 use crate::prelude::*;
 use frictionsim_physics::fem::{
-    MaterialField, NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
+    NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
 };
 use std::borrow::Cow;
-use std::io;
 
 /// A body in tables, fields and figures.
 #[derive(Clone, Copy, Debug)]
@@ -83,13 +81,10 @@ impl<'a> ShownBody<'a> {
     /// Invariants and components of a stress at all nodes.
     pub fn stress_fields(&self, stress: &BodyStress) -> Vec<Field> {
         match stress {
-            BodyStress::Plane(stress) => {
-                let mut fields = Field::stresses(stress);
-                fields.extend(Field::cartesian_stresses(self.mesh, stress));
-                fields
-            }
+            BodyStress::Plane(stress) => Field::plane_stresses(self.mesh, stress),
             BodyStress::Solid(stress) => {
-                Field::solid_stresses(stress, if self.is_assembly() { "xyz" } else { "rtz" })
+                let axes = if self.is_assembly() { ["x", "y", "z"] } else { ["r", "t", "z"] };
+                Field::solid_stresses(stress, axes)
             }
         }
     }

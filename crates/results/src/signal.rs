@@ -3,10 +3,8 @@
 mod summary;
 
 use crate::cea::{BRANCH, DIRECTION};
-use crate::charts::{ModeLine, run_axis, signal_panel, spectrogram_panels, spectrum_panel};
+use crate::charts::{run_axis, signal_panel, spectrogram_panels, spectrum_panel};
 use crate::prelude::*;
-use crate::{FolderError, OutputFolder};
-use frictionsim_output::{unit_of, write_rows};
 use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
 use frictionsim_signal::{AmplitudeSpectrum, spectrogram};
@@ -14,8 +12,8 @@ pub use summary::{
     ChannelSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary, SignalSummary,
 };
 
-/// A peak of a channel, numbered from 1, and what it is.
-type Row = (String, usize, PeakSummary, String);
+/// A peak of a channel, numbered from 1.
+type Row = (String, usize, PeakSummary);
 
 columns! {
     /// A peak.
@@ -39,12 +37,6 @@ columns! {
 }
 
 columns! {
-    /// What a peak is, in words.
-    WORDS: row as Row;
-    what = row.3.clone(), IfAny "what it is" Plain;
-}
-
-columns! {
     /// A line of a spectrum.
     pub(super) SPECTRUM: line as (f64, f64);
     frequency_hz: "frequency" = line.0;
@@ -53,8 +45,7 @@ columns! {
 
 /// The peaks of a channel.
 fn rows(channel: &ChannelSummary) -> impl Iterator<Item = Row> {
-    let peaks = channel.peaks.iter().enumerate();
-    peaks.map(|(k, peak)| (channel.name.clone(), k + 1, peak.clone(), channel.peak_text(peak)))
+    (1..).zip(&channel.peaks).map(|(number, peak)| (channel.name.clone(), number, peak.clone()))
 }
 
 /// Tables and sentences.
@@ -67,7 +58,8 @@ pub fn document(summary: &SignalSummary) -> Document {
             channel.resolution_hz,
             plural(channel.averages, ["block", "blocks"])
         );
-        Table::new("", caption).columns(PEAKS, rows(channel)).columns(WORDS, rows(channel))
+        let words = channel.peaks.iter().map(|peak| channel.peak_text(peak));
+        Table::new("", caption).columns(PEAKS, rows(channel)).shown_column("what it is", words)
     };
     let said = |channel: &ChannelSummary| {
         let ([from, to], name) = (channel.interval_s, channel.name.clone());

@@ -8,12 +8,10 @@ use super::keys::keys;
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
 use crate::prelude::*;
-use crate::{FolderError, OutputFolder};
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::transient::ContactPowers;
 use serde::de::DeserializeOwned;
 use std::fmt;
-use std::path::Path;
 
 keys! {
     /// Where along a parameter steady sliding loses its stability.

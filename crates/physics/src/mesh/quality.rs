@@ -11,7 +11,7 @@ use serde::Serialize;
 ///
 /// The Jacobian determinants are those at the nodes and quadrature points: their ratio is 1 for parallelograms and
 /// straight triangles, not positive for elements that fold.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
 pub struct MeshQuality {
     /// Shortest edge of any element, m.
     pub smallest_edge_m: f64,

@@ -1,8 +1,7 @@
 //! The steady sliding state that the eigenvalues belong to.
 
+use crate::BodyStress;
 use crate::prelude::*;
-use crate::{BodyStress, Extent, Field, ShownBody, sorted};
-use frictionsim_physics::mesh::Counterface;
 use std::f64::consts::PI;
 
 keys! {
@@ -34,14 +33,6 @@ impl BaseState {
             }
             (None, None) => String::new(),
         }
-    }
-
-    /// Its numbers of the whole file.
-    pub(super) fn whole(&self) -> [Field; 2] {
-        [
-            Field::number("friction_coefficient", self.friction_coefficient),
-            Field::number("power_w", self.power_w),
-        ]
     }
 
     /// Whether nothing presses: the closed state of an analysis without prestress, or no contact at all.
@@ -107,33 +98,26 @@ columns! {
 columns! {
     /// A contact point of solid bodies.
     pub(crate) POINTS: own as ContactState;
-    contact: "name of the contact, of solid bodies" = own.place.contact.clone();
-    x_m: "place of the contact point" = own.place.position[0];
-    y_m: "place of the contact point" = own.place.position[1];
+    contact: "name of the contact" = own.place.contact.clone();
+    x_m: "place of the contact node or point" = own.place.position[0];
+    y_m: "place of the contact node or point" = own.place.position[1];
     z_m: "place of the contact point" = own.place.position[2];
     area_m2: "area that belongs to it" = own.place.area;
 }
 
 columns! {
-    /// Pressure and traction.
+    /// Pressure and traction, and whether it presses.
     pub(crate) TRACTIONS: own as ContactState;
     pressure_pa: "contact pressure" = own.pressure;
     shear_pa: "friction traction on the body: in the plane along `u_theta` or the normal towards the body turned \
         by +90 degrees, else along the sliding" = own.shear;
-}
-
-columns! {
-    /// Whether it presses.
-    pub(crate) STATUS: own as ContactState;
     status: "slip, or open" = own.status().name();
 }
 
-columns! {
-    /// Where it is in the plane.
-    pub(crate) PLANE: own as ContactState;
-    x_m: "place of the contact node" = own.place.position[0];
-    y_m: "place of the contact node" = own.place.position[1];
-}
+/// The name of a contact, its place in the plane, and what else there is in three dimensions.
+pub(crate) const NAME: &[Column<ContactState>] = parted(POINTS, "x_m").0;
+pub(crate) const PLANE: &[Column<ContactState>] = parted(parted(POINTS, "x_m").1, "z_m").0;
+pub(crate) const SPACE: &[Column<ContactState>] = parted(POINTS, "z_m").1;
 
 impl ContactState {
     /// The status of a contact that slides where it is pressed.
@@ -187,7 +171,7 @@ impl BaseField {
         let all = &self.contact;
         if body.is_solid() {
             let places = if body.is_assembly() { POINTS } else { RINGS };
-            return table.columns(places, all).columns(TRACTIONS, all).columns(STATUS, all);
+            return table.columns(places, all).columns(TRACTIONS, all);
         }
         let along = self.along_contact(body.mesh);
         let all = || along.iter().map(|own| &all[own.0]);
@@ -196,7 +180,7 @@ impl BaseField {
         let is_round = !matches!(body.mesh.counterface, Counterface::Plane { .. });
         let angles = along.iter().map(|own| is_round.then_some(own.1));
         let nodes = all().map(label).zip(angles);
-        let table = table.columns(NODES, nodes).columns(TRACTIONS, all()).columns(STATUS, all());
+        let table = table.columns(NODES, nodes).columns(TRACTIONS, all());
         // On an annulus the angle is the place.
         if has_harmonics { table } else { table.columns(PLANE, all()) }
     }

@@ -2,8 +2,7 @@
 
 use super::{CeaReport, direction_name};
 use crate::prelude::*;
-use crate::{distinct, sorted};
-use frictionsim_physics::cea::{FrictionPoint, FrictionSweep, UnstableInterval};
+use frictionsim_physics::cea::{FrictionSweep, UnstableInterval};
 
 keys! {
     /// A mode of one friction value, as its table numbers it.

@@ -1,12 +1,10 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
-use super::base::{ContactPlace, means_around, or_zero};
+use super::base::{ContactPlace, POINTS, means_around, or_zero};
 use super::branches::{ModeName, NUMBERS};
+use super::reading::kilohertz;
 use super::{BaseField, CeaReport};
-use crate::charts::SolidView;
 use crate::prelude::*;
-use crate::{EncodedMesh, Field, FolderError, OutputFolder, sorted, write_vtu};
-use frictionsim_physics::mesh::Counterface;
 
 /// Modes that the figure shows, the fastest first: of plane bodies as lines, of solid ones as pictures.
 const LINES: usize = 6;
@@ -21,27 +19,20 @@ pub struct ModeFeed {
     pub rates: Vec<f64>,
 }
 
-/// A contact point, and what it adds to the growth rate of a mode, 1/s.
-type FeedRow = (ContactPlace, f64);
-
 columns! {
-    /// What a contact point adds to the growth of a mode.
-    pub(crate) FEED: row as FeedRow;
-    contact: "name of the contact" = row.0.contact.clone();
-    x_m: "place of the contact point" = row.0.position[0];
-    y_m: "place of the contact point" = row.0.position[1];
-    z_m: "place of the contact point" = row.0.position[2];
-    area_m2: "area that belongs to it" = row.0.area;
-    growth_rate_per_s: "what it adds to the growth rate" = row.1;
-    growth_rate_per_s_m2: "the same over its area" = row.1 / row.0.area;
+    /// What a contact point adds to the growth of a mode: the rate, 1/s, of its area, m2.
+    pub(crate) FEED: row as (f64, f64);
+    growth_rate_per_s: "what it adds to the growth rate" = row.0;
+    growth_rate_per_s_m2: "the same over its area" = row.0 / row.1;
 }
 
 /// `feed.csv`: a row for each unstable mode and contact point.
 pub(super) fn table(field: &BaseField, modes: &[ModeFeed]) -> Table {
-    let places = || field.contact.iter().map(|own| own.place.clone());
+    let all = || modes.iter().flat_map(|own| field.contact.iter().zip(&own.rates));
     let names = modes.iter().flat_map(|own| field.contact.iter().map(|_| own.mode));
-    let rows = modes.iter().flat_map(|own| places().zip(own.rates.iter().copied()));
-    Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, rows)
+    let rates = all().map(|(point, &rate)| (rate, point.place.area));
+    let points = all().map(|(point, _)| point);
+    Table::new("feed.csv", "").columns(NUMBERS, names).columns(POINTS, points).columns(FEED, rates)
 }
 
 /// Writes `feed.vtu`, growth for each area of the contact surfaces, the mean of the points around each node, 0
@@ -159,11 +150,8 @@ fn pictures(mesh: &Mesh, field: &BaseField, modes: &[&ModeFeed], caption: String
     let panels: Vec<Panel> = panels.collect();
     Figure::new("feed", caption).columns(surfaces.len().clamp(1, 2)).panels(panels)
 }
+
 /// A mode for people.
 fn name(own: &ModeFeed) -> String {
-    let frequency = fixed(1e-3 * own.mode.frequency_hz, 3);
-    match own.mode.harmonic {
-        Some(harmonic) => format!("mode {}, *n* = {harmonic}, {frequency} kHz", own.mode.mode),
-        None => format!("mode {}, {frequency} kHz", own.mode.mode),
-    }
+    format!("mode {}, {}", own.mode.mode, kilohertz(&own.mode).replace("n =", "*n* ="))
 }

@@ -5,10 +5,7 @@ use super::locus::{NamedDamping, locus};
 use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::{BaseField, CeaReport, direction_name, feed, prestress};
-use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::prelude::*;
-use crate::{Declaration, declared, distinct};
-use frictionsim_chart::signed;
 
 /// Branches whose shape is followed over friction, at most.
 const FOLLOWED_BRANCHES: usize = 4;
@@ -41,7 +38,10 @@ pub fn figures(
         let friction = point.friction_coefficient;
         figures.push(Box::new(move || Some(shapes(report, friction))));
     }
-    for branch in followed_branches(report) {
+    // The first branches that turn unstable and have several shapes.
+    let branches = distinct(report.solution.sweep.intervals.iter().map(branch_of)).into_iter();
+    let followed = branches.filter(|branch| branch_points(report, *branch).len() > 1);
+    for branch in followed.take(FOLLOWED_BRANCHES) {
         figures.push(Box::new(move || Some(branch_shapes(report, branch))));
     }
     if let Some(reading) = &report.solution.reading {
@@ -169,13 +169,6 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         [first, format!("Re {} Hz", signed(shape.mode.real_hz(), 1)), shape.harmonic()]
     });
     if shapes.is_empty() { figure } else { figure.motion(moving(report, &shapes)) }
-}
-
-/// The first branches that turn unstable and have several shapes.
-fn followed_branches(report: &CeaReport<'_>) -> Vec<Branch> {
-    let branches = distinct(report.solution.sweep.intervals.iter().map(branch_of)).into_iter();
-    let followed = branches.filter(|branch| branch_points(report, *branch).len() > 1);
-    followed.take(FOLLOWED_BRANCHES).collect()
 }
 
 /// The shapes of a branch at every friction value; a degenerate pair stands at the start of both its waves.

@@ -3,11 +3,7 @@
 use super::shape::{ModeShape, size};
 use super::{BaseField, CeaReport, feed};
 use crate::prelude::*;
-use crate::{
-    EncodedMesh, Field, FolderError, OutputFolder, PvdEntry, write_pvd, write_universal_mesh,
-    write_universal_mode, write_vtu,
-};
-use std::io;
+use crate::{write_universal_mesh, write_universal_mode};
 
 /// Writes `prestress.vtu` (of a body that no mesh file gives in three dimensions also with friction coefficient and
 /// power of the whole), `feed.vtu` and the mode shapes.
@@ -16,7 +12,8 @@ pub fn write_fields(
     report: &CeaReport<'_>,
     field: &BaseField,
 ) -> Result<(), FolderError> {
-    let (body, state) = (&report.body, report.base.whole());
+    let (body, base) = (&report.body, &report.base);
+    let state = [("friction_coefficient", base.friction_coefficient), ("power_w", base.power_w)];
     let whole = if body.is_assembly() { &[][..] } else { &state[..] };
     folder.write_bulk("prestress.vtu", |out| {
         write_vtu(out, &body.encoded()?, whole, &field.fields(body), &[])
@@ -35,6 +32,7 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
         return Ok(());
     }
     let mesh = report.body.encoded();
+    let mesh = mesh.map_err(|error| FolderError::io("write", folder.path(), error))?;
     let mut entries = Vec::new();
     // Compression takes the time: a batch of files side by side, written in order.
     for batch in shapes.chunks(rayon::current_num_threads().max(1)) {
@@ -53,22 +51,19 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
     folder.write("modes.pvd", |out| write_pvd(out, &entries))
 }
 
-/// Name of the universal file of the mode shapes.
-pub const UNIVERSAL_MODES: &str = "modes.unv";
-
-/// Writes the mesh and the shapes that the modes carry as a universal file.
+/// Writes the mesh and the shapes that the modes carry as a universal file, `modes.unv`.
 ///
 /// # Errors
 /// Those of the folder; an element that universal files do not have.
 pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
     let mesh = report.body.whole();
-    folder.write_bulk(UNIVERSAL_MODES, |out| {
+    folder.write_bulk("modes.unv", |out| {
         write_universal_mesh(out, &mesh)?;
         for (k, ModeShape { friction, number, mode, .. }) in ModeShape::all(report).enumerate() {
             let name = format!("friction {friction}, mode {number}, {:.2} Hz", mode.frequency_hz());
-            let [real, imaginary, _] = shape_fields(report, mode);
-            let parts = [real.reals(), imaginary.reals()];
-            write_universal_mode(out, &mesh, (&name, k + 1), mode.eigenvalue, parts)?;
+            let parts = [|z: &c64| z.re, |z: &c64| z.im].map(|of| part_of(mode, of));
+            let [real, imaginary] = parts.map(|part| cartesian_vectors(&mesh, &part));
+            write_universal_mode(out, &mesh, (&name, k + 1), mode.eigenvalue, [&real, &imaginary])?;
         }
         Ok(())
     })
@@ -86,31 +81,28 @@ fn time_of(mode: &ComplexMode, before: &[PvdEntry]) -> f64 {
 
 fn encode_shape(
     report: &CeaReport<'_>,
-    mesh: &io::Result<EncodedMesh>,
+    mesh: &EncodedMesh,
     &ModeShape { friction, mode, .. }: &ModeShape<'_>,
 ) -> io::Result<Vec<u8>> {
-    let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;
-    let fields = shape_fields(report, mode);
+    let body = &report.body;
+    let dimension = if body.is_solid() { 3 } else { 2 };
+    let shape = mode.shape.as_deref().unwrap_or_default();
+    let fields = [
+        body.vectors("displacement_real", &part_of(mode, |z| z.re)),
+        body.vectors("displacement_imaginary", &part_of(mode, |z| z.im)),
+        Field::scalars("amplitude", shape.chunks_exact(dimension).map(size)),
+    ];
     let whole = [
-        Field::number("frequency_hz", mode.frequency_hz()),
-        Field::number("real_hz", mode.real_hz()),
-        Field::number("friction_coefficient", friction),
+        ("frequency_hz", mode.frequency_hz()),
+        ("real_hz", mode.real_hz()),
+        ("friction_coefficient", friction),
     ];
     let mut bytes = Vec::new();
     write_vtu(&mut bytes, mesh, &whole, &fields, &[])?;
     Ok(bytes)
 }
 
-fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
-    let shape = mode.shape.as_deref().unwrap_or_default();
-    let body = &report.body;
-    let part = |name: &str, of: fn(&c64) -> f64| {
-        body.vectors(name, &shape.iter().map(of).collect::<Vec<f64>>())
-    };
-    let dimension = if body.is_solid() { 3 } else { 2 };
-    [
-        part("displacement_real", |value| value.re),
-        part("displacement_imaginary", |value| value.im),
-        Field::scalars("amplitude", shape.chunks_exact(dimension).map(size).collect()),
-    ]
+/// One part of the shape of a mode, in nodal frames.
+fn part_of(mode: &ComplexMode, of: fn(&c64) -> f64) -> Vec<f64> {
+    mode.shape.as_deref().unwrap_or_default().iter().map(of).collect()
 }

@@ -2,12 +2,10 @@
 
 use crate::prelude::*;
 use crate::store::framed;
-use crate::{FolderError, OutputFolder};
 use frictionsim_bounds::{RESULT, read_file};
 use frictionsim_physics::cea::{SweepProgress, SweepWatch};
 use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// Where they are in the folder while the run goes on.
 const FOLDER: &str = "progress";
@@ -26,8 +24,6 @@ struct Step {
 pub struct KeptSteps<'a> {
     folder: &'a OutputFolder,
     heard: &'a (dyn Fn(SweepProgress) + Sync),
-    /// Names of all steps known.
-    names: Mutex<BTreeSet<String>>,
     has_failed: AtomicBool,
 }
 
@@ -39,14 +35,7 @@ impl<'a> KeptSteps<'a> {
         is_continued: bool,
         heard: &'a (dyn Fn(SweepProgress) + Sync),
     ) -> Result<Self, FolderError> {
-        let files = fs::read_dir(folder.path().join(FOLDER)).into_iter().flatten().flatten();
-        let names = files.filter_map(|entry| entry.file_name().into_string().ok());
-        let steps = Self {
-            folder,
-            heard,
-            names: Mutex::new(names.map(|name| format!("{FOLDER}/{name}")).collect()),
-            has_failed: AtomicBool::new(false),
-        };
+        let steps = Self { folder, heard, has_failed: AtomicBool::new(false) };
         if !is_continued {
             steps.discard()?;
         }
@@ -58,10 +47,13 @@ impl<'a> KeptSteps<'a> {
     /// # Errors
     /// A file that cannot be removed.
     pub fn discard(&self) -> Result<(), FolderError> {
-        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::take(&mut *names).iter().try_for_each(|name| self.folder.discard(name))?;
+        let path = self.folder.path().join(FOLDER);
+        let files = fs::read_dir(&path).into_iter().flatten().flatten();
+        let names = files.filter_map(|entry| entry.file_name().into_string().ok());
+        let names: Vec<String> = names.map(|name| format!("{FOLDER}/{name}")).collect();
+        names.iter().try_for_each(|name| self.folder.discard(name))?;
         // Anything else in there is not ours.
-        let _ = fs::remove_dir(self.folder.path().join(FOLDER));
+        let _ = fs::remove_dir(path);
         Ok(())
     }
 
@@ -84,12 +76,10 @@ impl SweepWatch for KeptSteps<'_> {
     }
 
     fn keep(&self, name: &str, bytes: Vec<u8>) {
-        let path = Self::path(name);
         let step = Step { program: env!("CARGO_PKG_VERSION").to_owned(), bytes };
-        let written =
-            self.folder.write_bulk(&path, |out| framed::write(out, MAGIC, VERSION, &step));
-        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
-        names.insert(path);
+        let written = self
+            .folder
+            .write_bulk(&Self::path(name), |out| framed::write(out, MAGIC, VERSION, &step));
         if let Err(error) = written
             && !self.has_failed.swap(true, Ordering::Relaxed)
         {

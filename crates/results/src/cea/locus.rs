@@ -2,9 +2,8 @@
 
 use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::{CeaReport, direction_name};
-use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::prelude::*;
-use frictionsim_chart::{Bars, Mark, Steps, TextStyle, signed, significant};
+use frictionsim_chart::{Mark, Steps, significant};
 use frictionsim_physics::fem::RayleighDamping;
 
 /// Damping that regions of a body have, with the mark-up that names it.
@@ -126,13 +125,11 @@ fn with_notes(figure: Figure, report: &CeaReport<'_>, hidden: usize) -> Figure {
     if !report.contact_changes.is_empty() {
         figure = figure.note("curves end where contact nodes open or close");
     }
-    match hidden {
-        0 => figure,
-        1 => figure.note("1 eigenvalue of a strongly damped mode lies further left"),
-        count => {
-            figure.note(format!("{count} eigenvalues of strongly damped modes lie further left"))
-        }
-    }
+    let words = [
+        "eigenvalue of a strongly damped mode lies further left",
+        "eigenvalues of strongly damped modes lie further left",
+    ];
+    if hidden > 0 { figure.note(plural(hidden, words)) } else { figure }
 }
 
 /// A mode in words: its name, friction, stability.

@@ -15,7 +15,7 @@ mod summary;
 mod tables;
 
 pub use base::{BaseField, BaseState, ContactPlace, ContactState};
-pub(super) use base::{NODES, PLANE, POINTS, RINGS, STATUS, TRACTIONS};
+pub(super) use base::{NAME, NODES, PLANE, POINTS, RINGS, SPACE, TRACTIONS};
 pub(super) use branches::{BRANCH, DIRECTION, HARMONIC, NAMES, NUMBERS, SHORT_NAMES, arrow};
 pub use branches::{Branch, ModeName, branch_of, branch_of_mode, mode_name};
 pub(super) use feed::FEED;
@@ -32,7 +32,7 @@ pub use summary::{
     CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
 };
 pub(super) use summary::{ONSETS, SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
-pub(super) use tables::{AXIAL, MODES, PLACES};
+pub(super) use tables::MODES;
 pub use tables::{View, document, page};
 
 use crate::ShownBody;

@@ -4,11 +4,9 @@ use super::CeaReport;
 use super::base::{BaseField, ContactState, closed_share};
 use super::shape::{Picture, size};
 use crate::BodyStress;
-use crate::charts::{Disc, contact_surfaces};
+use crate::charts::contact_surfaces;
 use crate::prelude::*;
 use frictionsim_physics::fem::NodalStress;
-use frictionsim_physics::mesh::Counterface;
-use nalgebra::Vector3;
 
 /// Half the length of the arrow of the sliding over the size of its surface.
 const ARROW: f64 = 0.15;
@@ -90,7 +88,7 @@ pub(super) fn revolution(sector: &SolidSector, field: &BaseField) -> Figure {
 pub(super) fn surfaces(
     report: &CeaReport<'_>,
     field: &BaseField,
-    (name, what): (&str, &'static str),
+    (name, what): (&str, &str),
     value: fn(&ContactState) -> f64,
 ) -> Option<Figure> {
     if report.base.is_free_of_stress() {
@@ -102,8 +100,6 @@ pub(super) fn surfaces(
     let nodes = tractions.iter().zip(&closed);
     let values: Vec<f64> =
         nodes.map(|(&traction, &closed)| if closed > 0.0 { traction } else { f64::NAN }).collect();
-    let largest = tractions.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let axis = || Axis::new(what, "Pa").prefixed().between(0.0, largest);
     let caption = format!(
         "Base state: {what} on each contact surface, seen from outside; grey where it is open. The other surface \
         slides over it along the arrow."
@@ -111,7 +107,7 @@ pub(super) fn surfaces(
     let arrows = field.surfaces.iter().map(|(contact, _)| arrow(field, contact));
     let arrows: Vec<[[f64; 3]; 2]> = arrows.collect();
     let surfaces = (mesh, &field.surfaces[..]);
-    Some(contact_surfaces((name, &caption), surfaces, (&values, &arrows), &axis))
+    Some(contact_surfaces((name, &caption), surfaces, (what, &values, &arrows)))
 }
 
 /// Ends of an arrow in the middle of a contact along the mean sliding of the other surface over it.

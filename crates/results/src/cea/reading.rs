@@ -3,8 +3,6 @@
 use super::branches::{Branch, ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, ModeFeed};
 use crate::prelude::*;
-use crate::{distinct, grouped, sorted};
-use frictionsim_output::Cell;
 
 /// What a contribution comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
@@ -151,7 +149,8 @@ const LEAST_RATE: f64 = 1e-3;
 /// Share from which on a mode is named.
 const NOTABLE: f64 = 0.05;
 
-fn kilohertz(mode: &ModeName) -> String {
+/// Nodal diameters, of a mode that has them, and frequency.
+pub(super) fn kilohertz(mode: &ModeName) -> String {
     let frequency = format!("{} kHz", fixed(1e-3 * mode.frequency_hz, 3));
     match mode.harmonic {
         Some(harmonic) => format!("n = {harmonic}, {frequency}"),

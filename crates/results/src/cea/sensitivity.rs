@@ -2,7 +2,6 @@
 
 use super::branches::travels;
 use crate::prelude::*;
-use crate::sorted;
 
 /// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,9 @@
 //! Mode shapes as pictures of the deformed body: in the plane, of revolution, or of solid bodies.
 
 use super::{CeaReport, arrow};
-use crate::charts::palette::UNSTABLE;
-use crate::charts::{Disc, MovingBody, SolidView};
 use crate::prelude::*;
-use frictionsim_chart::{Field, MotionKind, MotionState, signed};
+use frictionsim_chart::Field;
 use frictionsim_physics::mesh::SheetNode;
-use std::sync::Arc;
 
 /// One mode to draw.
 #[derive(Clone, Copy, Debug)]
@@ -27,11 +24,6 @@ impl<'a> ModeShape<'a> {
         let has_harmonics = report.has_harmonics;
         let shapes = report.modes().filter(|(.., mode)| mode.shape.is_some());
         shapes.map(move |(friction, number, mode)| Self { number, friction, has_harmonics, mode })
-    }
-
-    /// Colour of its headings.
-    fn colour(&self) -> &'static str {
-        if self.mode.is_unstable() { UNSTABLE } else { INK }
     }
 
     /// Harmonic, direction and stability in mark-up.
@@ -78,7 +70,8 @@ impl<'a> Body<'a> {
                 picture.panel(values, Axis::new("", "").between(0.0, 1.0)).height(170.0)
             }
         };
-        lines.iter().fold(panel, |panel, line| panel.heading_in(shape.colour(), line))
+        let colour = if shape.mode.is_unstable() { UNSTABLE } else { INK };
+        lines.iter().fold(panel, |panel, line| panel.heading_in(colour, line))
     }
 }
 
@@ -142,7 +135,7 @@ pub(super) fn moving(report: &CeaReport<'_>, shapes: &[ModeShape<'_>]) -> Motion
             kind: MotionKind::Harmonic { real: part(|z| z.re), imaginary: part(|z| z.im) },
         }
     });
-    Motion { states: states.collect(), ..body.at_rest() }
+    Motion { states: states.collect(), ..body.at_rest.clone() }
 }
 
 /// Unit factor that turns a shape to the instant drawn.

@@ -3,8 +3,7 @@
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
 use crate::prelude::*;
-use crate::summary::present;
-use frictionsim_physics::cea::{FrictionPoint, ModeCount, UnstableInterval};
+use frictionsim_physics::cea::{ModeCount, UnstableInterval};
 
 keys! {
     /// `summary.json` of `frictionsim cea`.

@@ -7,7 +7,6 @@ use super::{
     feed,
 };
 use crate::prelude::*;
-use frictionsim_physics::cea::FrictionPoint;
 
 /// Longest table of the modes at one friction value on the terminal.
 const MOST_MODES: usize = 40;
@@ -41,15 +40,10 @@ impl ModeRow {
 }
 
 columns! {
-    /// The friction value of a mode, and its place there.
-    pub(crate) PLACES: row as ModeRow;
+    /// The friction value of a mode, its place there, and what it is; the last of bodies of revolution.
+    pub(crate) MODES: row as ModeRow;
     friction_coefficient: "friction coefficient" = row.friction;
     mode: "number by frequency at that friction, from 1" = row.number, Always "mode" Count;
-}
-
-columns! {
-    /// What a mode is.
-    pub(crate) MODES: row as ModeRow;
     real_hz: "real part of the eigenvalue over 2 pi" = row.own.real_hz;
     frequency_hz: "imaginary part of the eigenvalue over 2 pi"
         = row.own.frequency_hz, Always "frequency" Fixed(2);
@@ -65,11 +59,6 @@ columns! {
     contact_share: "share of the kinetic energy at the contact" = row.own.contact_share;
     mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz"
         = row.own.mesh_error;
-}
-
-columns! {
-    /// What a mode of a body of revolution has besides.
-    pub(crate) AXIAL: row as ModeRow;
     axial_share: "share of the kinetic energy along the axis, of bodies of revolution"
         = row.own.axial_share;
 }
@@ -105,8 +94,9 @@ pub enum View {
 fn eigenvalues(report: &CeaReport<'_>) -> Table {
     let rows: Vec<ModeRow> =
         report.tabulated().flat_map(|point| ModeRow::all(report, point)).collect();
-    let table = Table::new("eigenvalues.csv", "").columns(PLACES, &rows).columns(MODES, &rows);
-    if report.body.sector.is_some() { table.columns(AXIAL, &rows) } else { table }
+    let is_revolution = report.body.sector.is_some();
+    let columns = if is_revolution { MODES } else { const { parted(MODES, "axial_share").0 } };
+    Table::new("eigenvalues.csv", "").columns(columns, &rows)
 }
 
 /// `stability.csv`: one row for each crossing into instability.
@@ -126,7 +116,7 @@ fn modes(caption: String, rows: &[ModeRow], with_friction: bool) -> Table {
     let friction = rows.iter().map(|row| row.friction);
     let look = Some(("friction", Format::Plain));
     let table = if with_friction { table.column("", look, friction) } else { table };
-    table.columns(PLACES, rows).columns(MODES, rows).columns(MODE_WORDS, rows)
+    table.columns(MODES, rows).columns(MODE_WORDS, rows)
 }
 
 /// All modes at the friction values that have shapes, or at the last value of the sweep.

@@ -5,10 +5,9 @@ use super::palette::{
     OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring, status_runs,
 };
 use super::solid::speeds_of_bodies;
-use crate::ShownBody;
 use crate::prelude::*;
-use frictionsim_chart::{Heat, Palette};
-use frictionsim_physics::fem::{MaterialField, nodal_stress};
+use frictionsim_chart::Palette;
+use frictionsim_physics::fem::nodal_stress;
 
 /// Columns of a status map: three for each point of a wide panel.
 const FINEST: usize = 900;

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use frictionsim_chart::{self, Field};
-use std::sync::Arc;
 
 /// A body as figures show it.
 #[derive(Clone)]
@@ -49,14 +48,9 @@ impl<'a> Disc<'a> {
         magnification: f64,
         axis: Axis,
     ) -> Field {
-        let frames = self.mesh.nodes.iter().zip(self.mesh.frame_angles());
-        let places = frames.zip(displacement.chunks_exact(2)).map(|((&[x, y, _], &angle), u)| {
-            let (sin, cos) = angle.sin_cos();
-            [
-                x + magnification * (cos * u[0] - sin * u[1]),
-                y + magnification * (sin * u[0] + cos * u[1]),
-            ]
-        });
+        let moves = cartesian_vectors(self.mesh, displacement);
+        let places = self.mesh.nodes.iter().zip(moves.chunks_exact(3));
+        let places = places.map(|(at, u)| [0, 1].map(|k| at[k] + magnification * u[k]));
         Field::new(self.shown.clone(), places.collect(), values, axis, ColourMap::Viridis).coarse()
     }
 

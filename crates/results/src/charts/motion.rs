@@ -1,9 +1,7 @@
 //! Bodies that move, for pages that animate them.
 
-use super::solid::SolidView;
+use super::solid::edge_paths;
 use crate::prelude::*;
-use frictionsim_chart::MotionKind;
-use frictionsim_physics::mesh::BoundaryFace;
 
 /// Most displacements of nodes that one page carries.
 const MOST_DISPLACEMENTS: usize = 100_000;
@@ -13,12 +11,10 @@ pub struct MovingBody<'a> {
     mesh: &'a Mesh,
     /// Nodes that are corners, ascending.
     corners: Vec<u32>,
-    /// Corners around each element or face, in order.
-    rings: Vec<Vec<u32>>,
-    /// Faces of the surface of a solid body, one for each ring.
+    /// Faces of the surface of a solid body, one for each cell.
     faces: Vec<BoundaryFace>,
-    /// Edges of a solid body that are drawn.
-    lines: Vec<[u32; 2]>,
+    /// The body without a motion yet.
+    pub at_rest: Motion,
 }
 
 impl<'a> MovingBody<'a> {
@@ -27,7 +23,7 @@ impl<'a> MovingBody<'a> {
         match mesh.dimension {
             2 => {
                 let rings = (0..mesh.element_count()).map(|element| corners_of(mesh, element));
-                Self::of_rings(mesh, rings.collect(), Vec::new(), Vec::new())
+                Self::of_rings(mesh, rings.collect(), Vec::new(), &[])
             }
             _ => Self::of_surface(mesh, false),
         }
@@ -38,45 +34,37 @@ impl<'a> MovingBody<'a> {
         let faces = mesh.outer_faces();
         let ring = |face: &BoundaryFace| face.nodes[..face.kind.corner_count()].to_vec();
         let rings = faces.iter().map(ring).collect();
-        let lines = SolidView::corner_edges(mesh, &faces, has_all_edges);
-        Self::of_rings(mesh, rings, faces, lines)
+        let edges = edge_paths(mesh, &faces, has_all_edges).into_iter();
+        let lines: Vec<[u32; 2]> = edges.map(|path| [path[0], path[path.len() - 1]]).collect();
+        Self::of_rings(mesh, rings, faces, &lines)
     }
 
     fn of_rings(
         mesh: &'a Mesh,
         rings: Vec<Vec<u32>>,
         faces: Vec<BoundaryFace>,
-        lines: Vec<[u32; 2]>,
+        lines: &[[u32; 2]],
     ) -> Self {
         let mut corners: Vec<u32> = rings.iter().flatten().copied().collect();
         corners.sort_unstable();
         corners.dedup();
-        Self { mesh, corners, rings, faces, lines }
+        let number = |node: &u32| corners.binary_search(node).ok().map(|at| at as u32);
+        let edge: &[u32] = if mesh.dimension == 2 { &mesh.contact_edge().nodes } else { &[] };
+        let line = |[start, end]: &[u32; 2]| Some([number(start)?, number(end)?]);
+        let at_rest = Motion {
+            dimension: mesh.dimension,
+            positions: corners.iter().map(|&node| mesh.nodes[node as usize]).collect(),
+            cells: rings.iter().map(|ring| ring.iter().filter_map(number).collect()).collect(),
+            edge: edge.iter().filter_map(number).collect(),
+            lines: lines.iter().filter_map(line).collect(),
+            states: Vec::new(),
+        };
+        Self { mesh, corners, faces, at_rest }
     }
 
     /// Most motions that a page should carry, one at least.
     pub fn most_states(&self) -> usize {
         (MOST_DISPLACEMENTS / self.corners.len().max(1)).clamp(1, 16)
-    }
-
-    /// The body without a motion yet.
-    pub fn at_rest(&self) -> Motion {
-        let number = |node: u32| self.corners.binary_search(&node).ok().map(|at| at as u32);
-        let ring = |ring: &Vec<u32>| ring.iter().filter_map(|&node| number(node)).collect();
-        let edge: &[u32] = match self.mesh.dimension {
-            2 => &self.mesh.contact_edge().nodes,
-            _ => &[],
-        };
-        let line = |&[start, end]: &[u32; 2]| Some([number(start)?, number(end)?]);
-        let places = self.corners.iter();
-        Motion {
-            dimension: self.mesh.dimension,
-            positions: places.map(|&node| self.mesh.nodes[node as usize]).collect(),
-            cells: self.rings.iter().map(ring).collect(),
-            edge: edge.iter().filter_map(|&node| number(node)).collect(),
-            lines: self.lines.iter().filter_map(line).collect(),
-            states: Vec::new(),
-        }
     }
 
     /// The surface of a solid body in the colours of parts; `parts` has colour and name of each in mark-up ("": not

@@ -2,9 +2,6 @@
 
 use crate::prelude::*;
 use frictionsim_chart::{Surface, SurfaceMesh};
-use frictionsim_physics::mesh::BoundaryFace;
-use nalgebra::Vector3;
-use std::sync::Arc;
 
 /// Cosine of the angle between two faces below which their common edge is drawn.
 const SHARP: f64 = 0.75;
@@ -23,7 +20,8 @@ pub struct SolidView<'a> {
 impl<'a> SolidView<'a> {
     /// All bodies from the front, the right and above, `z` upwards.
     pub fn new(mesh: &'a Mesh) -> Self {
-        Self::of(mesh, mesh.outer_faces(), Vector3::new(0.5, -0.72, 0.62))
+        let towards = Vector3::new(0.5, -0.72, 0.62).normalize();
+        Self::upright(mesh, mesh.outer_faces(), towards, Vector3::z())
     }
 
     /// The same turned over: from behind and below, `z` downwards.
@@ -35,12 +33,9 @@ impl<'a> SolidView<'a> {
     /// One boundary from outside, along its mean normal.
     pub fn of_boundary(mesh: &'a Mesh, boundary: usize) -> Self {
         let faces = mesh.boundaries[boundary].faces.clone();
-        let sum = mesh.nodal_normals(&faces).values().map(|&normal| Vector3::from(normal)).sum();
-        Self::of(mesh, faces, sum)
-    }
-
-    fn of(mesh: &'a Mesh, faces: Vec<BoundaryFace>, towards: Vector3<f64>) -> Self {
-        let towards = towards.try_normalize(0.0).unwrap_or(Vector3::z());
+        let normals = mesh.nodal_normals(&faces);
+        let sum: Vector3<f64> = normals.values().map(|&normal| Vector3::from(normal)).sum();
+        let towards = sum.try_normalize(0.0).unwrap_or(Vector3::z());
         // Upwards is z, but for what is seen along it.
         let up = if towards.z.abs() > 0.9 { Vector3::y() } else { Vector3::z() };
         Self::upright(mesh, faces, towards, up)
@@ -82,7 +77,7 @@ impl<'a> SolidView<'a> {
             if let Some(u) = displacement.get(3 * node..3 * node + 3) {
                 place += self.mesh.frame(node) * Vector3::from_column_slice(u) * magnification;
             }
-            self.axes.map(|axis| axis.dot(&place))
+            self.seen(place)
         };
         let value = |&node: &u32| values.get(node as usize).copied().unwrap_or(f64::NAN);
         let values = self.nodes.iter().map(value).collect();
@@ -101,10 +96,7 @@ impl<'a> SolidView<'a> {
             triangles: self.shown.triangles.clone(),
             edges: edges(self.mesh, &self.faces, &self.nodes, true),
         };
-        let place = |&node: &u32| {
-            let place = Vector3::from(self.mesh.nodes[node as usize]);
-            self.axes.map(|axis| axis.dot(&place))
-        };
+        let place = |&node: &u32| self.seen(Vector3::from(self.mesh.nodes[node as usize]));
         let positions = self.nodes.iter().map(place).collect();
         let of_face = |face: &BoundaryFace| vec![part_of(face); triangles(face).len()];
         let part_of = self.faces.iter().flat_map(of_face).collect();
@@ -118,17 +110,9 @@ impl<'a> SolidView<'a> {
         Panel::plane(surface.window(room)).height(150.0).layer(surface)
     }
 
-    /// Edges of faces between corners: where faces meet at an angle, between regions, at the rim of open surfaces; or
-    /// all.
-    pub(super) fn corner_edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
-        let edges = edge_paths(mesh, faces, all).into_iter();
-        edges.map(|path| [path[0], path[path.len() - 1]]).collect()
-    }
-
-    /// Where a place of the bodies lies in the picture, m to the right and upwards.
-    pub fn at(&self, place: [f64; 3]) -> (f64, f64) {
-        let place = Vector3::from(place);
-        (self.axes[0].dot(&place), self.axes[1].dot(&place))
+    /// Where a place of the bodies lies in the picture: m to the right, upwards and towards the viewer.
+    fn seen(&self, place: Vector3<f64>) -> [f64; 3] {
+        self.axes.map(|axis| axis.dot(&place))
     }
 
     /// Largest extent of the bodies along an axis, m.
@@ -141,20 +125,23 @@ impl<'a> SolidView<'a> {
     }
 }
 
-/// Values at nodes (NaN: grey) on each contact surface, seen from outside along its mean normal; `surfaces` has the
-/// name and the boundary of each, `axis` is common to all. `arrows` are ends of an arrow on the surface of the same
-/// place among them.
+/// A traction at nodes (Pa; NaN: grey) on each contact surface, seen from outside along its mean normal; `surfaces` has
+/// the name and the boundary of each. `arrows` are ends of an arrow on the surface of the same place among them.
 pub fn contact_surfaces(
     (name, caption): (&str, &str),
     (mesh, surfaces): (&Mesh, &[(String, usize)]),
-    (values, arrows): (&[f64], &[[[f64; 3]; 2]]),
-    axis: &dyn Fn() -> Axis,
+    (traction, values, arrows): (&str, &[f64], &[[[f64; 3]; 2]]),
 ) -> Figure {
+    let largest = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let axis = || Axis::new(traction, "Pa").prefixed().between(0.0, largest);
     let panels = surfaces.iter().enumerate().map(|(k, (name, boundary))| {
         let view = SolidView::of_boundary(mesh, *boundary);
-        let arrows = arrows
-            .get(k)
-            .map(|ends| Line::through(ends.map(|end| view.at(end))).solid("black", 1.2).arrows(1));
+        let at = |end: [f64; 3]| {
+            let [x, y, _] = view.seen(end.into());
+            (x, y)
+        };
+        let arrow = |ends: &[[f64; 3]; 2]| Line::through(ends.map(at)).solid("black", 1.2);
+        let arrows = arrows.get(k).map(|ends| arrow(ends).arrows(1));
         view.panel(values, axis(), ColourMap::Viridis, 0.05).caption(literal(name)).layers(arrows)
     });
     let figure = Figure::new(name, caption).columns(surfaces.len().clamp(1, 3)).panels(panels);
@@ -205,7 +192,7 @@ fn edges(mesh: &Mesh, faces: &[BoundaryFace], shown: &[u32], all: bool) -> Vec<[
 
 /// Nodes along each edge between faces that meet at an angle, between regions, and at the rim of open surfaces; or
 /// along all.
-fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
+pub(super) fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
     type Side = (Vector3<f64>, usize);
     let mut edges: BTreeMap<[u32; 2], (Vec<u32>, Vec<Side>)> = BTreeMap::new();
     for face in faces {

@@ -2,7 +2,6 @@
 
 use super::ComparedRun;
 use crate::prelude::*;
-use crate::{Declaration, declared, distinct};
 use frictionsim_chart::{PanelData, Series, SeriesKind};
 
 /// Most curves of one panel that are told apart.

@@ -6,8 +6,7 @@ pub use figures::overlaid;
 
 use super::sweep::{cell, join};
 use crate::prelude::*;
-use crate::{Manifest, Page, distinct, sorted};
-use frictionsim_output::{Cell, unit_of};
+use crate::{Manifest, Page};
 
 /// A finished run.
 pub struct ComparedRun {

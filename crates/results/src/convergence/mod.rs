@@ -3,8 +3,6 @@
 mod estimate;
 
 use crate::prelude::*;
-use crate::summary::present;
-use crate::{Declaration, Finding, distinct};
 pub use estimate::{Verdict, estimate};
 
 /// What is refined.

@@ -1,9 +1,10 @@
 //! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
 
 use super::record::CycleMotion;
-use crate::Extent;
+use crate::charts::palette::{
+    CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STICK_POWER,
+};
 use crate::prelude::*;
-use crate::summary::MeanPowers;
 use frictionsim_physics::cycle::{BranchEnd, Family, Parameter, Verdict};
 
 /// A cycle of a branch.
@@ -92,6 +93,18 @@ keys! {
     }
 }
 
+/// One of the powers.
+type Power = fn(&MeanPowers) -> Option<f64>;
+
+/// Name and colour of the powers in the order of a branch's shares, and each of them.
+pub(super) const SHARES: [(&str, &str, Power); 5] = [
+    ("stick", STICK_POWER, |own| own.stick),
+    ("slip", SLIDE_POWER, |own| own.slide),
+    ("dissipated in the contact", CONTACT_DISSIPATION, |own| own.contact_dissipated),
+    ("material damping", MATERIAL_DISSIPATION, |own| own.material_damping),
+    ("normal contact", NORMAL_POWER, |own| own.normal_contact),
+];
+
 impl FamilyRecord {
     /// Which limit cycles.
     pub fn family(&self) -> Family {
@@ -108,7 +121,7 @@ impl BranchRecord {
             rows.iter().map(|row| of(&row.motion).unwrap_or(f64::NAN)).collect()
         };
         let external = column(&|own| own.power_w.external);
-        let share = |of: fn(&MeanPowers) -> Option<f64>| {
+        let share = |of: Power| {
             let powers = column(&|own| of(&own.power_w));
             powers.iter().zip(&external).map(|(own, all)| own / all).collect()
         };
@@ -123,13 +136,7 @@ impl BranchRecord {
                 column(&|own| own.status.slip),
                 column(&|own| own.status.open),
             ],
-            shares: [
-                share(|powers| powers.stick),
-                share(|powers| powers.slide),
-                share(|powers| powers.contact_dissipated),
-                share(|powers| powers.material_damping),
-                share(|powers| powers.normal_contact),
-            ],
+            shares: SHARES.map(|(.., of)| share(of)),
             extent,
             stable: rows.iter().map(|row| row.verdict?.is_stable()).collect(),
             growth_rate: rows.iter().map(|row| row.growth_rate).collect(),

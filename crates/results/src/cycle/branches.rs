@@ -1,24 +1,10 @@
 //! Figures of branches of limit cycles, whose curves may turn back.
 
-use super::branch::{BranchRecord, FamilyRecord};
+use super::branch::{BranchRecord, FamilyRecord, SHARES};
 use super::two_waves::TwoWaveSummary;
-use crate::Extent;
-use crate::charts::palette::{
-    CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
-};
-use crate::parameter::parameter_axis;
+use crate::charts::palette::STATUSES;
 use crate::prelude::*;
-use frictionsim_chart::Scale;
 use frictionsim_physics::cycle::TwoWaveMotion;
-
-/// Names and colours of the powers in the order of a branch's shares.
-const POWERS: [(&str, &str); 5] = [
-    ("stick", STICK_POWER),
-    ("slip", SLIDE_POWER),
-    ("dissipated in the contact", CONTACT_DISSIPATION),
-    ("material damping", MATERIAL_DISSIPATION),
-    ("normal contact", NORMAL_POWER),
-];
 
 /// Draws frequency, amplitude, statuses and powers along the branches of several families, each with what its name says
 /// besides the harmonic.
@@ -178,7 +164,7 @@ fn shares(curves: &[Curve<'_>]) -> Figure {
     };
     let power = |curve: &Curve<'_>| {
         let axis = percent("share of external power").including(0.0).including(1.0);
-        panel(curve, axis, &curve.branch.shares, &POWERS)
+        panel(curve, axis, &curve.branch.shares, &SHARES.map(|(name, colour, _)| (name, colour)))
     };
     let mut figure = Figure::new(
         "branch-shares",

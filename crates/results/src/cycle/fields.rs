@@ -4,13 +4,8 @@ use super::found::encode_contact;
 use super::summary::CycleSummary;
 use super::two_waves::TwoWaveSummary;
 use crate::prelude::*;
-use crate::{
-    EncodedMesh, Field, FolderError, OutputFolder, PvdEntry, ShownBody, write_pvd, write_table,
-    write_vtu,
-};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use std::cell::OnceCell;
-use std::io;
 
 impl CycleSummary {
     /// Writes what its document has no table of: each cycle over its period and along its branch, and whole fields of
@@ -77,7 +72,7 @@ impl Fields<'_> {
             self.folder.write(&name, |out| {
                 let mesh = self.mesh.get_or_init(|| self.body.encoded());
                 let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;
-                let whole = [Field::number("time_s", frame.time)];
+                let whole = [("time_s", frame.time)];
                 write_vtu(out, mesh, &whole, &self.frame_fields(frame), &[])
             })?;
             entries.push(PvdEntry { time: frame.time, group: group.to_owned(), file: name });

@@ -5,13 +5,10 @@ use super::record::ShownCycle;
 use super::summary::{CycleSummary, SoughtCycle};
 use crate::charts::palette::status_ground;
 use crate::charts::{
-    ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
+    ContactInstant, ContactVelocity, contact_figure, contact_surfaces, place_axis,
     shear_stress_figure, status_curves, status_map, velocity_figure,
 };
 use crate::prelude::*;
-use crate::{Declaration, ShownBody, declared};
-use frictionsim_chart::{MotionKind, MotionState};
-use frictionsim_physics::fem::MaterialField;
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;
@@ -133,9 +130,6 @@ impl CycleFigures<'_> {
         for (&node, point) in closed.filter(|own| own.1.status != ContactStatus::Open) {
             values[node as usize] = point.pressure;
         }
-        let pressures = own.edge().iter().map(|point| point.pressure);
-        let largest = pressures.fold(f64::MIN_POSITIVE, f64::max);
-        let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
         let caption = format!(
             "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from \
             outside; grey where it is open.",
@@ -143,7 +137,7 @@ impl CycleFigures<'_> {
         );
         let name = format!("contact-{}", own.name.tag());
         let surfaces = (self.body.mesh, &self.surfaces[..]);
-        contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
+        contact_surfaces((&name, &caption), surfaces, ("contact pressure", &values, &[]))
     }
 
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
@@ -280,7 +274,7 @@ impl CycleFigures<'_> {
                 status: self.around(own).into_iter().map(|status| status as u8).collect(),
             },
         });
-        Motion { states: states.collect(), ..body.at_rest() }
+        Motion { states: states.collect(), ..body.at_rest.clone() }
     }
 
     fn velocity(&self) -> Figure {

@@ -8,7 +8,6 @@ use super::record::{
 };
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
-use crate::ShownBody;
 use crate::npz::NpzArchive;
 use crate::prelude::*;
 use frictionsim_physics::cycle::periodic::{
@@ -17,7 +16,6 @@ use frictionsim_physics::cycle::periodic::{
 use frictionsim_physics::cycle::{
     Confirmation, CycleBranch, FloquetMultipliers, LimitCycle, StabilityChange,
 };
-use std::io;
 
 /// A limit cycle and what is known of it.
 #[derive(Clone, Debug)]
@@ -36,16 +34,21 @@ pub struct FoundCycle {
     pub branch: Option<PeriodicBranch>,
 }
 
-/// What the search from one mode has led to.
+/// What the search for one limit cycle has led to.
 #[derive(Clone, Debug)]
-pub struct PeriodicResult {
-    /// The mode.
-    pub name: ModeOfCycle,
-    /// The cycle, or why there is none.
-    pub outcome: Result<FoundCycle, String>,
-    /// Wall time, s.
+pub struct Searched<Name, Cycle, Reason> {
+    /// What leads to the cycle.
+    pub name: Name,
+    /// The cycle at the case's own operating point, or why there is none.
+    pub outcome: Result<Cycle, Reason>,
+    /// Wall time of cycle and branch, s.
     pub wall_s: f64,
 }
+
+/// From one mode.
+pub type PeriodicResult = Searched<ModeOfCycle, FoundCycle, String>;
+/// Of one family of waves.
+pub type CycleResult = Searched<WaveOfCycle, FoundWave, Absence>;
 
 /// The body that the motions are of.
 #[derive(Clone, Copy, Debug)]
@@ -209,17 +212,6 @@ pub struct Absence {
     pub reason: String,
     /// Whether that is so because steady sliding is stable against its wave.
     pub is_stable: bool,
-}
-
-/// What the search for the limit cycle of one family has led to.
-#[derive(Clone, Debug)]
-pub struct CycleResult {
-    /// Which limit cycle.
-    pub name: WaveOfCycle,
-    /// The cycle at the case's own operating point, or why there is none.
-    pub outcome: Result<FoundWave, Absence>,
-    /// Wall time of cycle and branch, s.
-    pub wall_s: f64,
 }
 
 /// A limit cycle, its branch, and what is known of both.

@@ -17,7 +17,9 @@ pub use branch::{
     WaveBranch,
 };
 pub use branches::draw_branches;
-pub use found::{Absence, CycleResult, FoundCycle, FoundWave, MotionBody, PeriodicResult};
+pub use found::{
+    Absence, CycleResult, FoundCycle, FoundWave, MotionBody, PeriodicResult, Searched,
+};
 pub use record::{
     CycleMotion, CycleName, ModeOfCycle, ModeSummary, OnsetSummary, SteppedMotion, WaveOfCycle,
 };

@@ -3,7 +3,6 @@
 
 use super::verdicts::Perturbation;
 use crate::prelude::*;
-use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
 use frictionsim_physics::cycle::{Family, Onset};
 use std::fmt;

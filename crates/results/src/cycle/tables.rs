@@ -6,9 +6,8 @@ use super::record::{CONTACT_NODES, ContactNode, CycleMotion};
 use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
 use super::verdicts::EXPONENTS;
-use crate::ShownBody;
 use crate::prelude::*;
-use crate::summary::{MeanPowers, STATUS};
+use crate::summary::STATUS;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;
 
 columns! {

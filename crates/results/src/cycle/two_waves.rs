@@ -74,14 +74,6 @@ columns! {
     error = own.error.clone(), IfAny "why there is none" Plain;
 }
 
-/// Why a branch of two waves ends, in words.
-fn described(end: BranchEnd) -> &'static str {
-    match end {
-        BranchEnd::Birth => "one wave vanishes",
-        other => other.describe(),
-    }
-}
-
 impl TwoWaveSummary {
     /// Of two waves, by their harmonics, of whose motion nothing is known: an error says why.
     pub fn failed(harmonics: [usize; 2], error: String) -> Self {
@@ -123,6 +115,10 @@ impl TwoWaveSummary {
             own.key = Some(parameter.key());
             own.rows = branch.motions.iter().map(|own| row(value(own), own)).collect();
             own.births = branch.births.iter().map(|&value| in_units(value)).collect();
+            let described = |end: BranchEnd| match end {
+                BranchEnd::Birth => "one wave vanishes",
+                other => other.describe(),
+            };
             own.ends = Some(branch.ends.map(|end| described(end).to_owned()));
         }
         own

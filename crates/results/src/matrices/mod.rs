@@ -4,16 +4,13 @@ mod spectrum;
 
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
-use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
 use super::keys::keys;
 use super::npz::NpzArchive;
-use super::{Head, object};
+use super::object;
 use crate::prelude::*;
-use frictionsim_output::{Entry, write_rows};
+use frictionsim_output::Entry;
 use frictionsim_physics::linalg::MarketMatrix;
-use std::fmt::Write as _;
-use std::io;
 
 /// Table of the unknowns.
 pub const UNKNOWNS: &str = "unknowns.csv";

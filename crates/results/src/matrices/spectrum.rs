@@ -2,7 +2,6 @@
 
 use crate::cea::BRANCH;
 use crate::prelude::*;
-use crate::{FolderError, Head, OutputFolder, write_summary, write_table};
 use frictionsim_physics::cea::QuadraticMode;
 
 /// The modes of a superelement that stands free.

@@ -2,37 +2,27 @@
 
 mod plane;
 mod solid;
+mod statistics;
 
-pub use plane::figure as plane_figure;
-pub use plane::{BoundaryStatistics, MeshStatistics, RegionStatistics, write_revolution};
+pub use plane::{figure as plane_figure, write_revolution};
 pub use solid::figure as solid_figure;
-pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
+pub use statistics::{BoundaryStatistics, MeshStatistics, RegionStatistics};
 
-use super::folder::{FolderError, OutputFolder};
 use crate::prelude::*;
-use crate::{EncodedMesh, Field, write_vtu};
-use frictionsim_physics::mesh::{BoundaryCondition, MeshQuality};
+use frictionsim_physics::mesh::BoundaryCondition;
 
-/// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MeshSummary<S> {
-    /// Size and quality.
-    pub mesh: S,
-    /// How the mesh file of solid bodies was read, and what was taken from it.
-    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
-    pub notes: Vec<String>,
-    /// What of the mesh file is not used: keyword, place, count, reason.
-    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
-    pub not_used: Vec<String>,
+keys! {
+    /// `summary.json` of `frictionsim mesh`.
+    MeshSummary {
+        mesh: MeshStatistics = "size and quality";
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        notes: Vec<String> = "how the mesh file of solid bodies was read, and what was taken from it";
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        not_used: Vec<String> = "what of the mesh file is not used: keyword, place, count, reason";
+    }
 }
 
-/// Statistics of a mesh of any kind.
-pub trait Measured: Serialize + Described {
-    /// What there is to say of it.
-    fn section(&self) -> Section;
-}
-
-impl<S: Measured> MeshSummary<S> {
+impl MeshSummary {
     /// Tables and sentences.
     pub fn document(&self) -> Document {
         let not_used = self.not_used.iter().map(|line| format!("not used: {line}"));
@@ -42,26 +32,19 @@ impl<S: Measured> MeshSummary<S> {
     }
 }
 
-keys! {
-    /// Counts of a mesh.
-    MeshSize {
-        nodes: usize = "nodes";
-        elements: usize = "elements";
-        dofs: usize = "unknowns: two for each node in the plane, three in space";
-        contact_nodes: usize = "nodes of the contact edge, or of the surfaces that slide on others";
-    }
+/// Boundaries that slide, are slid on or glued, in a word.
+pub type Roles = BTreeMap<usize, &'static str>;
+
+/// Those of a plane body.
+pub fn plane_roles(mesh: &Mesh) -> Roles {
+    let counter = mesh.opposite.map(|boundary| (boundary, "counterface"));
+    counter.into_iter().chain([(mesh.contact, "contact")]).collect()
 }
 
-impl MeshSize {
-    /// Counts of a mesh with so many contact nodes.
-    fn new(mesh: &Mesh, contact_nodes: usize) -> Self {
-        Self {
-            nodes: mesh.node_count(),
-            elements: mesh.element_count(),
-            dofs: mesh.dof_count(),
-            contact_nodes,
-        }
-    }
+/// The nodes of the boundaries that slide on others.
+fn contact_nodes(mesh: &Mesh, roles: &Roles) -> BTreeSet<u32> {
+    let contacts = roles.iter().filter(|role| *role.1 == "contact");
+    contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied()).collect()
 }
 
 /// What a condition does, in a word.
@@ -76,8 +59,8 @@ fn condition_name(condition: BoundaryCondition) -> &'static str {
     }
 }
 
-/// What a boundary of solid bodies does, in a word: of one that slides or is glued that.
-fn role_of(mesh: &Mesh, boundary: usize, roles: &BTreeMap<usize, &'static str>) -> &'static str {
+/// What a boundary does, in a word: of one that slides or is glued that.
+fn role_of(mesh: &Mesh, boundary: usize, roles: &Roles) -> &'static str {
     let condition = || condition_name(mesh.boundaries[boundary].condition);
     roles.get(&boundary).copied().unwrap_or_else(condition)
 }
@@ -92,17 +75,13 @@ fn caption(title: &str) -> String {
 }
 
 /// Writes `mesh.vtu` with node numbers, the nodes of the contact marked, what is held, and the region of each element.
-pub fn write_mesh(
-    folder: &OutputFolder,
-    mesh: &Mesh,
-    contact: impl IntoIterator<Item = u32>,
-) -> Result<(), FolderError> {
+pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh, roles: &Roles) -> Result<(), FolderError> {
     let mut edge = vec![0; mesh.node_count()];
     mesh.held_dofs().for_each(|dof| edge[dof / mesh.dimension] = 2);
-    contact.into_iter().for_each(|node| edge[node as usize] = 1);
+    contact_nodes(mesh, roles).into_iter().for_each(|node| edge[node as usize] = 1);
     // Counted from 1 in the order in which the summary lists them.
     let regions = (0..mesh.element_count()).map(|element| mesh.region(element) as i64 + 1);
-    write_nodes(folder, mesh, edge, &[Field::integers("region_id", regions.collect())])
+    write_nodes(folder, mesh, edge, &[Field::integers("region_id", regions)])
 }
 
 /// Writes `mesh.vtu` with node numbers, `edge` (1 contact, 2 held, 0 elsewhere) and what is known of the elements.
@@ -113,23 +92,8 @@ fn write_nodes(
     of_elements: &[Field],
 ) -> Result<(), FolderError> {
     let ids = (0..mesh.node_count()).map(|node| mesh.node_label(node) as i64);
-    let fields = [Field::integers("node_id", ids.collect()), Field::integers("edge", edge)];
+    let fields = [Field::integers("node_id", ids), Field::integers("edge", edge)];
     folder.write("mesh.vtu", |out| {
         write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, of_elements)
     })
-}
-
-/// Sizes and quality.
-fn results(size: &MeshSize, shape: &MeshQuality) -> Section {
-    let metres = |value: f64| Format::Scientific(4).text(value, "m");
-    Section::new("Results").facts([
-        ("nodes", size.nodes.to_string()),
-        ("elements", size.elements.to_string()),
-        ("unknowns", size.dofs.to_string()),
-        ("contact nodes", size.contact_nodes.to_string()),
-        ("shortest edge", metres(shape.smallest_edge_m)),
-        ("longest edge", metres(shape.largest_edge_m)),
-        ("largest aspect ratio", fixed(shape.largest_aspect_ratio, 2)),
-        ("worst Jacobian", significant(shape.worst_jacobian, 5)),
-    ])
 }

@@ -3,7 +3,6 @@
 use super::{Page, script};
 use crate::prelude::*;
 use frictionsim_chart::{ID_PREFIX, escape};
-use std::fmt::Write;
 
 const STYLE: &str = include_str!("style.css");
 

@@ -6,13 +6,10 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use frictionsim_chart::{
-    Mark, MotionKind, PanelData, Ruler, Scale, Series, SeriesKind, Steps, common_length,
-    keep_extremes, levels, steps,
+    Mark, PanelData, Ruler, Series, SeriesKind, Steps, common_length, keep_extremes, levels, steps,
 };
 use serde_json::json;
 use std::collections::HashMap;
-use std::fmt::Write as _;
-use std::io::Write as _;
 
 /// Charts with axes and zoom, under the MIT licence.
 const LIBRARY: &str = include_str!("vendor/uPlot.iife.min.js");

@@ -6,14 +6,9 @@ use super::report::{TWO_FREQUENCY, UNSETTLED};
 use super::table::{FRICTION, SPEED, by_other_keys, printed};
 use crate::basin::basin_map;
 use crate::cea::{CriticalFriction, arrow};
-use crate::charts::ModeLine;
-use crate::charts::palette::{OPEN, SLIP, STABLE, STICK};
+use crate::charts::palette::{OPEN, SLIP, STICK};
 use crate::cycle::{FamilyRecord, draw_branches};
-use crate::parameter::{parameter_axis, parameter_name};
 use crate::prelude::*;
-use crate::{Declaration, declared, sorted};
-use frictionsim_chart::{Fill, Scale};
-use serde_json::Map;
 
 /// Most curves of one figure.
 const MOST_SERIES: usize = 12;
@@ -152,7 +147,10 @@ impl Study {
             let line =
                 Line::through(series.cycles.iter().map(|cycle| (cycle.value, cycle.frequency_hz)));
             panel = panel.layer(line.nth(index).name(series.name.clone()));
-            let selected = series.selection().filter(|_| self.key == SPEED);
+            // From where on one harmonic is selected for good.
+            let last = series.cycles.last().and_then(|cycle| cycle.harmonic);
+            let selected = last.filter(|_| self.key == SPEED);
+            let selected = selected.and_then(|_| series.end_of(|cycle| cycle.harmonic != last));
             panel = panel.layers(selected.map(|speed| {
                 Rule::vertical(speed)
                     .stroke(Stroke::dotted(look(index).0, 0.9))
@@ -194,7 +192,8 @@ impl Study {
             let all = column(&|cycle| cycle.status.iter().sum());
             let rows = known().chain(known()).map(|cycle| cycle.point).collect();
             let bounds = values.iter().zip(&stick).chain(values.iter().zip(&slip));
-            let no_stick = series.end_of_stick().filter(|_| self.key == SPEED);
+            let no_stick = series.end_of(|cycle| cycle.status[0] > NO_STICK);
+            let no_stick = no_stick.filter(|_| self.key == SPEED);
             Panel::new(
                 self.axis().tight(),
                 Axis::new("contact nodes", "%").times(100.0).between(0.0, 1.0),
@@ -229,17 +228,9 @@ impl Study {
 }
 
 impl Series {
-    /// The value from which on one harmonic is selected for good, where another was selected before.
-    fn selection(&self) -> Option<f64> {
-        let last = self.cycles.last()?.harmonic?;
-        let other = self.cycles.iter().rposition(|cycle| cycle.harmonic != Some(last))?;
-        Some(self.cycles.get(other + 1)?.value)
-    }
-
-    /// The value from which on no node sticks, where some did before.
-    fn end_of_stick(&self) -> Option<f64> {
-        let sticks = |cycle: &Cycle| cycle.status[0] > NO_STICK;
-        let last = self.cycles.iter().rposition(sticks)?;
+    /// The value from which on something is over that was before.
+    fn end_of(&self, is_so: impl Fn(&Cycle) -> bool) -> Option<f64> {
+        let last = self.cycles.iter().rposition(is_so)?;
         Some(self.cycles.get(last + 1)?.value)
     }
 }

@@ -7,24 +7,14 @@ use super::super::framed::{Defect, create_folder, is_temporary, read_sealed, wri
 use super::super::manifest::Manifest;
 use super::super::reopening::{Contents, MANIFEST, read_contents, read_existing};
 use super::super::store::lock::{Company, Lock, remove_remnants, share, try_lock};
-use super::{PointClock, PointRecord};
+use super::{PointClock, PointRecord, tables};
 use frictionsim_bounds::{RESULT, read_file};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Files over all points.
-const OVER_ALL: [&str; 9] = [
-    "points.csv",
-    "samples.csv",
-    "stability.csv",
-    "unstable_modes.csv",
-    "modes.csv",
-    "branches.csv",
-    "summary.json",
-    "report.html",
-    "figures.bin",
-];
+/// Files over all points, beside the tables of a sweep.
+const OVER_ALL: [&str; 4] = ["samples.csv", "summary.json", "report.html", "figures.bin"];
 /// Figures over all points.
 const FIGURES: [&str; 10] = [
     "uncertainty",
@@ -243,7 +233,8 @@ fn names_of(points: impl Iterator<Item = usize>) -> impl Iterator<Item = String>
     let figures = FIGURES.iter().flat_map(|name| {
         ["svg", "png", "pdf"].map(|extension| format!("figures/{name}.{extension}"))
     });
-    let over_all = OVER_ALL.iter().map(|name| (*name).to_owned()).chain(figures);
+    let tables = tables(&[], &["cea", "cycle"], &[]).into_iter().map(|table| table.file);
+    let over_all = tables.chain(OVER_ALL.map(str::to_owned)).chain(figures);
     points.flat_map(|point| [point_name(point), clock_name(point)]).chain(over_all)
 }
 

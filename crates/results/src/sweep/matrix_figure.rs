@@ -3,10 +3,8 @@
 use super::PointRecord;
 use super::report::{Condition, conditions, unstable};
 use super::table::{printed, swept_text};
-use crate::distinct;
-use crate::parameter::{in_unit, parameter_name, shared_unit};
+use crate::parameter::{in_unit, shared_unit};
 use crate::prelude::*;
-use frictionsim_chart::Shapes;
 
 /// Most panels of the figure.
 const PANELS: usize = 12;

@@ -1,7 +1,6 @@
 //! Record of one point of a sweep.
 
 use crate::prelude::*;
-use serde_json::Map;
 
 /// A finished point: what was swept to which values, and what came out of it.
 ///

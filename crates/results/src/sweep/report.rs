@@ -4,10 +4,8 @@
 use super::record::{PointRecord, listed};
 use super::table::{cell, heads, of_points, swept_text};
 use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
+use crate::number_ranges;
 use crate::prelude::*;
-use crate::{grouped, number_ranges};
-use frictionsim_output::Cell;
-use serde_json::Map;
 
 /// What the first summary of a point says that has it; nothing of a point that failed.
 fn first(point: &PointRecord, path: &str) -> Cell {
@@ -159,7 +157,9 @@ fn notes(records: &[PointRecord]) -> Vec<String> {
         (TWO_FREQUENCY, "in a vibration of two frequencies", two),
         (UNSETTLED, "before it has settled", unsettled),
     ] {
-        let points = ending_in(records, end);
+        let ends_so = |summary: &Value| summary["end_state"].as_str() == Some(end);
+        let points = records.iter().filter(|own| own.summaries.values().any(ends_so));
+        let points: Vec<usize> = points.map(|own| own.point).collect();
         if !points.is_empty() {
             notes.push(format!(
                 "the transient ends {how} at {} of {} points ({}): {so}",
@@ -170,15 +170,6 @@ fn notes(records: &[PointRecord]) -> Vec<String> {
         }
     }
     notes
-}
-
-/// Points whose transient ends in a state.
-fn ending_in(records: &[PointRecord], end: &str) -> Vec<usize> {
-    let ends_so = |record: &&PointRecord| {
-        let mut summaries = record.summaries.values();
-        summaries.any(|summary| summary["end_state"].as_str() == Some(end))
-    };
-    records.iter().filter(ends_so).map(|record| record.point).collect()
 }
 
 /// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.

@@ -4,11 +4,8 @@
 use super::record::{PointRecord, listed};
 use crate::cea::{SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 use crate::cycle::{BranchRecord, FamilyRecord};
-use crate::grouped;
 use crate::prelude::*;
-use frictionsim_output::Cell;
 use serde::de::DeserializeOwned;
-use serde_json::Map;
 
 /// Lists longer than this anywhere in a sweep stay in the points' own files.
 const LONGEST_LIST: usize = 16;

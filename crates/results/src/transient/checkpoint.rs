@@ -4,9 +4,7 @@ use crate::framed::{self, Defect};
 use crate::prelude::*;
 use crate::record::{Record, decoded};
 use crate::reopening::read_existing;
-use crate::{FolderError, OutputFolder};
 use frictionsim_physics::transient::{Recorder, TransientState};
-use std::path::Path;
 
 /// Name of the checkpoint in its folder.
 pub const CHECKPOINT: &str = "checkpoint.bin";

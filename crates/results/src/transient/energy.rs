@@ -1,14 +1,13 @@
 //! The energy figure of a transient: where the power of the drive goes.
 
 use super::run::RecordedRun;
-use crate::Extent;
 use crate::charts::palette::{
     CONTACT_DISSIPATION, EXTERNAL_POWER, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES,
     STICK_POWER,
 };
 use crate::charts::run_axis;
 use crate::prelude::*;
-use frictionsim_chart::{Fill, TextStyle, prefixed, significant};
+use frictionsim_chart::significant;
 use frictionsim_physics::transient::SampleRow;
 
 /// Time over which powers are averaged for the strong lines, s.

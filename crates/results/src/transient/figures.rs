@@ -7,8 +7,7 @@ use crate::charts::{
     velocity_figure,
 };
 use crate::prelude::*;
-use crate::{Declaration, declared};
-use frictionsim_physics::transient::{EndState, Snapshot};
+use frictionsim_physics::transient::Snapshot;
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;

@@ -5,11 +5,8 @@ use crate::charts::palette::status_of_code;
 use crate::npz::NpzArchive;
 use crate::prelude::*;
 use crate::record::write_record;
-use crate::{Field, FolderError, OutputFolder, PvdEntry, write_pvd, write_summary, write_vtu};
 use frictionsim_output::csv::{self, format_number};
-use frictionsim_output::write_rows;
 use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};
-use std::io::{self, Write};
 
 /// Writes all files of the transient and gives the summary, as it is and as an object.
 pub fn write(
@@ -39,7 +36,7 @@ type Group<'a> = (Vec<String>, Box<dyn Fn(usize) -> Vec<f64> + 'a>);
 
 /// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come behind
 /// them where they are kept, and motions along `x` and `y` last.
-fn write_probe(out: &mut dyn Write, run: &RecordedRun<'_>, probe: usize) -> io::Result<()> {
+fn write_probe(out: &mut dyn io::Write, run: &RecordedRun<'_>, probe: usize) -> io::Result<()> {
     let record = &run.solved.record;
     let (rows, axial) = (&record.probe_rows[probe], record.axial_rows.get(probe));
     let motions = |axes: &[&str]| -> Vec<String> {
@@ -62,7 +59,9 @@ fn write_probe(out: &mut dyn Write, run: &RecordedRun<'_>, probe: usize) -> io::
         let step = move |i: usize| raw[probe][i].into_iter().chain(axial.map(|rows| rows[i][3]));
         groups.push((names, Box::new(move |i| step(i).collect())));
     }
-    if let Some((sin, cos)) = run.turn_of_probe(probe) {
+    // Of a plane body that is no annulus about the origin.
+    if !run.body.is_solid() && !run.body.mesh.is_cyclic {
+        let (sin, cos) = run.body.mesh.frame_angles()[record.probes[probe] - 1].sin_cos();
         let along = move |i: usize, k: usize| {
             let [own, other] = [rows[i][k], rows[i][k + 1]];
             [cos * own - sin * other, sin * own + cos * other]
@@ -95,7 +94,7 @@ columns! {
     pressure_w: "power of the pressures on boundaries" = row.powers.pressure;
 }
 
-fn write_energy(out: &mut dyn Write, run: &RecordedRun<'_>) -> io::Result<()> {
+fn write_energy(out: &mut dyn io::Write, run: &RecordedRun<'_>) -> io::Result<()> {
     let (record, thickness) = (&run.solved.record, run.thickness);
     let of_whole_thickness = |row: &SampleRow| SampleRow {
         kinetic_energy: thickness * row.kinetic_energy,
@@ -124,7 +123,7 @@ columns! {
 
 /// Complex amplitude of each harmonic of the contact edge's tangential displacement: `n = 0..=8`, and of the higher
 /// ones those that matter.
-fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
+fn write_harmonics(out: &mut dyn io::Write, record: &Recorder) -> io::Result<()> {
     let harmonics = record.significant_harmonics();
     let parts =
         harmonics.iter().flat_map(|n| [format!("n{n}_real_m"), format!("n{n}_imaginary_m")]);
@@ -182,10 +181,7 @@ fn write_snapshots(folder: &OutputFolder, run: &RecordedRun<'_>) -> Result<(), F
     for (index, snapshot) in snapshots.iter().enumerate() {
         let file = format!("snapshots/snapshot-{:03}.vtu", index + 1);
         let fields = snapshot_fields(run, snapshot);
-        let whole = [
-            Field::number("time_s", snapshot.time),
-            Field::number("friction_coefficient", run.friction_coefficient),
-        ];
+        let whole = [("time_s", snapshot.time), ("friction_coefficient", run.friction_coefficient)];
         folder.write(&file, |out| write_vtu(out, &mesh, &whole, &fields, &[]))?;
         entries.push(PvdEntry { time: snapshot.time, group: String::new(), file });
     }

@@ -1,12 +1,9 @@
 //! A recorded run as its files, its report and its figures see it.
 
 use super::SolvedTransient;
-use crate::charts::{ModeLine, Stage};
+use crate::charts::Stage;
 use crate::prelude::*;
-use crate::{Extent, Head, ShownBody};
-use frictionsim_physics::fem::MaterialField;
-use frictionsim_physics::mesh::Counterface;
-use frictionsim_physics::transient::{EndState, SampleRow, TransientSettings};
+use frictionsim_physics::transient::{SampleRow, TransientSettings};
 
 /// What came of a run, the body that it is of, and what its figures show besides. Forces, powers and energies of the
 /// record are for one metre of thickness; tables and summary scale them by the thickness.
@@ -62,14 +59,6 @@ impl RecordedRun<'_> {
         let elements = (layers * body.mesh.element_count()) as f64;
         let stepping_s = solved.stepping_s.max(f64::MIN_POSITIVE);
         elements * solved.steps_timed as f64 / stepping_s
-    }
-
-    /// Sine and cosine of the angle of a probe's axes, of a plane body that is no annulus about the origin.
-    pub(super) fn turn_of_probe(&self, probe: usize) -> Option<(f64, f64)> {
-        let body = &self.body;
-        let has_axes = !body.is_solid() && !body.mesh.is_cyclic;
-        let node = self.solved.record.probes[probe] - 1;
-        has_axes.then(|| body.mesh.frame_angles()[node].sin_cos())
     }
 
     /// Number of a probe as the user knows it.

@@ -6,7 +6,7 @@ use crate::charts::{
     with_stages,
 };
 use crate::prelude::*;
-use frictionsim_chart::{prefixed, significant};
+use frictionsim_chart::significant;
 use frictionsim_signal::{USUAL_WINDOW, Window, averaged_spectrum, spectrogram};
 
 /// Decades of amplitudes below the largest that show growth.
@@ -203,7 +203,10 @@ impl RecordedRun<'_> {
         let panel = Panel::new(Axis::time().between(start, end), amplitude)
             .height(190.0)
             .layers(lines)
-            .layers(linear_end.map(nonlinear));
+            .layers(linear_end.map(|time| {
+                let rule = Rule::vertical(time).stroke(Stroke::dotted(MUTED, 0.7));
+                rule.beside("first stick or separation")
+            }));
         let figure = Figure::new("growth", caption).panel(panel);
         let note = format!("the run goes on to {} ms", significant(last * 1e3, 3));
         if end < last { figure.note(note) } else { figure }
@@ -225,9 +228,4 @@ fn predicted(
     let name = format!("rate of the eigenvalue analysis, {of}: {} s^{{−1}}", significant(rate, 4));
     let line = || Line::through([at(window.0), at(window.1)]).stroke(Stroke::dashed(INK, 1.1));
     (count > 0.0).then(|| line().name(name))
-}
-
-/// Where the linear stage ends.
-fn nonlinear(time: f64) -> Rule {
-    Rule::vertical(time).stroke(Stroke::dotted(MUTED, 0.7)).beside("first stick or separation")
 }

@@ -1,12 +1,8 @@
 //! `summary.json` of a transient.
 
 use super::RecordedRun;
-use crate::Extent;
 use crate::prelude::*;
-use crate::summary::{MeanPowers, StatusFractions, present};
-use frictionsim_physics::transient::{
-    Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis,
-};
+use frictionsim_physics::transient::{Drift, Growth, Perturbation, ProbeMotion, TransientAnalysis};
 
 keys! {
     /// `summary.json` of `frictionsim transient`.
@@ -57,8 +53,8 @@ keys! {
     /// The velocity that was added.
     PerturbationSummary {
         harmonics: Vec<usize> = "circumferential harmonics";
-        velocity: OneOrEach = "amplitude, m/s";
-        phase_deg: OneOrEach = "phase, degrees";
+        velocity: Value = "amplitude, m/s: one for all harmonics, or one for each";
+        phase_deg: Value = "phase, degrees, likewise";
         noise: f64 = "standard deviation of the random part, m/s";
         noise_seed: u64 = "its seed";
         at_s: f64 = "when it was added, s";
@@ -66,22 +62,11 @@ keys! {
 }
 
 /// One number for all harmonics, or one for each.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-#[serde(untagged)]
-pub enum OneOrEach {
-    /// For all.
-    One(f64),
-    /// For each.
-    Each(Vec<f64>),
-}
-
-impl OneOrEach {
-    fn of(values: impl Iterator<Item = f64>) -> Self {
-        let values: Vec<f64> = values.collect();
-        match values.as_slice() {
-            [first, others @ ..] if others.iter().all(|v| v == first) => Self::One(*first),
-            _ => Self::Each(values),
-        }
+fn one_or_each(values: impl Iterator<Item = f64>) -> Value {
+    let values: Vec<f64> = values.collect();
+    match values.as_slice() {
+        [first, others @ ..] if others.iter().all(|v| v == first) => Value::from(*first),
+        _ => Value::from(values),
     }
 }
 
@@ -225,8 +210,8 @@ impl PerturbationSummary {
         let waves = perturbation.waves.iter();
         Self {
             harmonics: perturbation.harmonics(),
-            velocity: OneOrEach::of(waves.clone().map(|wave| wave.velocity)),
-            phase_deg: OneOrEach::of(waves.map(|wave| wave.phase.to_degrees())),
+            velocity: one_or_each(waves.clone().map(|wave| wave.velocity)),
+            phase_deg: one_or_each(waves.map(|wave| wave.phase.to_degrees())),
             noise: perturbation.noise,
             noise_seed: perturbation.noise_seed,
             at_s: perturbation.time,

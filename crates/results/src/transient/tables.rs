@@ -3,7 +3,7 @@
 use super::RecordedRun;
 use super::summary::{GrowthSummary, TransientSummary};
 use crate::prelude::*;
-use frictionsim_physics::transient::{EndState, ProbeMotion};
+use frictionsim_physics::transient::ProbeMotion;
 
 /// Periods of the main vibration between two contact frames beyond which they do not show it.
 const COARSE_FRAMES: f64 = 0.25;

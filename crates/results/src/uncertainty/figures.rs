@@ -1,10 +1,7 @@
 //! The figures of an uncertainty analysis.
 
 use super::{DesignCurve, Index, RobustSummary, UncertaintySummary};
-use crate::parameter::{parameter_axis, parameter_name};
 use crate::prelude::*;
-use crate::sorted;
-use frictionsim_chart::{Bars, Fill};
 
 /// Distribution of critical friction, probability of squeal over friction, indices.
 pub fn uncertainty(summary: &UncertaintySummary) -> Figure {

@@ -4,7 +4,6 @@ mod figures;
 
 use crate::cea::arrow;
 use crate::prelude::*;
-use crate::{Declaration, Finding, sorted};
 use figures::{indices, robust, uncertainty};
 use frictionsim_signal::Estimate;
 
@@ -216,18 +215,9 @@ columns! {
     parameter = curve.key.clone(), Always "parameter" Plain;
     reached_at = curve.reaches_bound_at, Always "reached at" Significant(4);
     change_percent = curve.change_percent, Always "change" Signed(1);
-    effect = reach(curve), IfAny "remark" Plain;
-}
-
-/// Why a design does not reach the bound.
-fn reach(curve: &DesignCurve) -> Option<&'static str> {
-    match curve.reaches_bound_at {
-        _ if !curve.has_effect => {
-            Some("without effect: the onsets of the first sample are the same at all values")
-        }
-        None => Some("not reached"),
-        Some(_) => None,
-    }
+    effect = (!curve.has_effect)
+        .then_some("without effect: the onsets of the first sample are the same at all values")
+        .or(curve.reaches_bound_at.is_none().then_some("not reached")), IfAny "remark" Plain;
 }
 
 /// `samples.csv`: one row for each sample, a column for each uncertain parameter.
