@@ -4,6 +4,7 @@ use super::Window;
 use super::error::SignalError;
 use super::spectrum::{AmplitudeSpectrum, averaged_spectrum, check_signal, top_of};
 use super::statistics::{mean_power_exceeded, median, normal_exceeded};
+use super::window::HALF_LOBE;
 use frictionsim_output::Described;
 use serde::Serialize;
 use std::iter::successors;
@@ -29,7 +30,7 @@ const PADDING: usize = 4;
 const FEWEST_PERIODS: f64 = 36.0;
 const WINDOW: Window = Window::BlackmanHarris;
 /// Half the width of a line in such a spectrum, padded bins.
-const REACH: usize = 4 * PADDING;
+const REACH: usize = HALF_LOBE * PADDING;
 
 /// One line of a spectrum: a sinusoid, located between the bins.
 #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
@@ -70,7 +71,7 @@ impl SpectralResolution {
         sampling_rate: f64,
         asked_hz: Option<f64>,
     ) -> Result<Self, SignalError> {
-        let lobe = WINDOW.half_lobe_bins();
+        let lobe = HALF_LOBE as f64;
         let block = match asked_hz {
             Some(asked) => {
                 super::error::check_positive("resolution", asked, " (Hz): change --resolution")?;

@@ -2,10 +2,9 @@
 
 use super::Window;
 use super::spectrum::{signed_bin, top_of};
+use super::window::HALF_LOBE;
 use crate::forward_transform;
 use faer::c64;
-
-const WINDOW: Window = Window::BlackmanHarris;
 
 /// Fewest samples that lines are read from.
 const FEWEST: usize = 64;
@@ -30,7 +29,7 @@ pub fn rotating_lines(series: &[c64], sampling_rate: f64, weakest: f64) -> Vec<R
     if count < FEWEST {
         return Vec::new();
     }
-    let taper = WINDOW.coefficients(count);
+    let taper = Window::BlackmanHarris.coefficients(count);
     let sum: f64 = taper.iter().sum();
     let mean = series.iter().sum::<c64>() / count as f64;
     let weighted = series.iter().zip(&taper);
@@ -39,15 +38,14 @@ pub fn rotating_lines(series: &[c64], sampling_rate: f64, weakest: f64) -> Vec<R
     let size: Vec<f64> = spectrum.iter().map(|z| z.norm()).collect();
 
     // A peak is the largest value of a whole lobe to either side; the spectrum closes on itself.
-    let reach = WINDOW.half_lobe_bins() as usize;
     let around = |bin: usize, offset: isize| {
         size[(bin as isize + offset).rem_euclid(count as isize) as usize]
     };
     let is_peak = |&bin: &usize| {
-        let mut lobe = (1..=reach as isize).flat_map(|k| [-k, k]);
+        let mut lobe = (1..=HALF_LOBE as isize).flat_map(|k| [-k, k]);
         size[bin] >= weakest && size[bin] > 0.0 && lobe.all(|k| around(bin, k) < size[bin])
     };
-    let mut lines: Vec<RotatingLine> = (reach..=count - reach)
+    let mut lines: Vec<RotatingLine> = (HALF_LOBE..=count - HALF_LOBE)
         .filter(is_peak)
         .map(|bin| {
             let (offset, amplitude) = top_of([-1, 0, 1].map(|k| around(bin, k)));

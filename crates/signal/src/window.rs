@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 
+/// Half the width of the main lobe of [`Window::BlackmanHarris`], in bins of an unpadded transform.
+pub(crate) const HALF_LOBE: usize = 4;
+
 /// Taper applied to a block of samples before its Fourier transform.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Window {
     /// `w_j = (1 - cos(2 pi j / N)) / 2`: sidelobes -31 dB, 18 dB per octave.
-    #[default]
     Hann,
     /// Four-term Blackman-Harris: sidelobes below -92 dB, main lobe twice as wide as Hann's.
     BlackmanHarris,
@@ -28,13 +30,5 @@ impl Window {
                 a.iter().enumerate().map(|(m, c)| c * (m as f64 * x).cos()).sum()
             })
             .collect()
-    }
-
-    /// Half the width of the main lobe, in bins of an unpadded transform.
-    pub fn half_lobe_bins(self) -> f64 {
-        match self {
-            Window::Hann => 2.0,
-            Window::BlackmanHarris => 4.0,
-        }
     }
 }

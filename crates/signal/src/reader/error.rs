@@ -8,19 +8,16 @@ use std::fmt::Display;
 pub struct ReadError {
     /// Name of the source, as given to the reader.
     pub source_name: String,
-    /// 1-based line, where one is to blame.
-    pub line: Option<usize>,
-    /// 1-based character in that line, where one is to blame.
-    pub column: Option<usize>,
+    /// Line and character in it, from 1, where one is to blame.
+    pub place: Option<(usize, usize)>,
     /// What is wrong, and the remedy.
     pub problem: String,
 }
 
 impl Display for ReadError {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let place = |own: Option<usize>| own.map_or(String::new(), |own| format!(":{own}"));
-        let [line, column] = [self.line, self.column].map(place);
-        write!(out, "{}{line}{column}: {}", self.source_name, self.problem)
+        let place = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
+        write!(out, "{}{place}: {}", self.source_name, self.problem)
     }
 }
 
@@ -29,12 +26,12 @@ impl std::error::Error for ReadError {}
 impl ReadError {
     /// Of the file as a whole, which [`Self::of`] names.
     pub(super) fn whole(problem: impl Display) -> Self {
-        Self { source_name: String::new(), line: None, column: None, problem: problem.to_string() }
+        Self { source_name: String::new(), place: None, problem: problem.to_string() }
     }
 
     /// Of a place in it.
     pub(super) fn at(line: usize, column: usize, problem: impl Display) -> Self {
-        Self { line: Some(line), column: Some(column), ..Self::whole(problem) }
+        Self { place: Some((line, column)), ..Self::whole(problem) }
     }
 
     /// The same under the name of the source.

@@ -51,13 +51,6 @@ impl<const N: usize> Kind<N> {
     }
 }
 
-impl Table {
-    /// That it lacks a column.
-    pub(super) fn missing(&self, wanted: &str, remedy: &str) -> ReadError {
-        ReadError::missing(wanted, &self.described(), remedy)
-    }
-}
-
 const GAPS: Kind<4> = Kind {
     columns: [("x", &["x", "x_m"]), ("y", &["y", "y_m"]), ("z", &["z", "z_m"]), ("gap", &["gap"])],
     header: "name them in the first line: x, y, z, gap, all in m",

@@ -95,12 +95,13 @@ impl Table {
         ReadError::at(*line, at.map_or(1, |f| character(text, f)), problem)
     }
 
-    /// The column names for a message.
-    pub fn described(&self) -> String {
-        if self.titles.is_empty() {
-            return format!("{} without names", self.columns.len());
-        }
-        first_of(&self.titles)
+    /// That it lacks a column.
+    pub fn missing(&self, wanted: &str, remedy: &str) -> ReadError {
+        let columns = match self.titles.len() {
+            0 => format!("{} without names", self.columns.len()),
+            _ => first_of(&self.titles),
+        };
+        ReadError::missing(wanted, &columns, remedy)
     }
 }
 
