@@ -1,7 +1,10 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
 use super::contacts::{NamedContact, contact, short_form, unit};
+use super::description::Description;
 use super::imported::{FileParts, near_name};
+use super::value::quote;
+use super::{Contact, Diagnostic};
 use crate::prelude::*;
 use frictionsim_physics::prestress::{Assembly, PrestressError, TiedSurfaces};
 
@@ -135,11 +138,11 @@ pub(super) fn motion(section: &Section<'_>) -> Motion {
     }
 }
 
-/// The solid bodies of a mesh file; no error where a name is missing, which has been told.
+/// The solid bodies of a mesh file, and their materials; no error where a name is missing, which has been told.
 pub(super) fn assemble(
     file: &FileParts<'_>,
     parts: AssemblyParts,
-) -> Result<Body, Option<Diagnostic>> {
+) -> Result<(Vec<RegionMaterial>, AssemblyBody), Option<Diagnostic>> {
     let own = file.own;
     let (read, _) = file.shaped("")?;
     let mesh = Mesh::from_solids(&read, own.scale, &own.conditions);
@@ -208,8 +211,7 @@ pub(super) fn assemble(
         contacts.push(surfaces);
     }
     let (mesh, base) = (Arc::new(mesh), parts.base);
-    let kind = BodyKind::Assembly(AssemblyBody { mesh, ties, contacts, motions, base });
-    Ok(Body { materials, kind })
+    Ok((materials, AssemblyBody { mesh, ties, contacts, motions, base }))
 }
 
 impl Case {

@@ -1,6 +1,6 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
-use super::CeaMethod;
+use super::{Body, CeaMethod};
 use crate::prelude::*;
 use frictionsim_physics::cea::ModeLimit;
 

@@ -1,8 +1,9 @@
 //! The section `[contact]`: what presses, the springs and how they stiffen with pressure, friction.
 
 use super::elastic::loss_factor;
-use super::solid;
+use super::value::quote;
 use super::words::{BaseContact, NormalLawWord, word_of};
+use super::{imported, solid};
 use crate::prelude::*;
 use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 

@@ -6,6 +6,7 @@
 mod estimate;
 
 use super::sweep::evenly;
+use super::{Analysis, CaseErrors};
 use crate::prelude::*;
 use estimate::Size;
 use serde::{Serialize, Serializer};

@@ -1,6 +1,6 @@
 //! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
-use super::{OnsetChoice, range_values};
+use super::{Body, CaseErrors, CaseKey, OnsetChoice, Spacing, StabilityChoice, keys, range_values};
 use crate::prelude::*;
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 

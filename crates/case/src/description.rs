@@ -1,10 +1,11 @@
 //! The sections that describe the body of a case, of whichever kind it is.
 
+use super::boundaries::NamedCondition;
 use super::elastic::elastic;
 use super::modifications::Modification;
 use super::tables::{TableFiles, modulus_table};
 use super::words::FilePart;
-use super::{boundaries, modifications};
+use super::{RawCase, UnitsWord, boundaries, modifications};
 use crate::prelude::*;
 
 /// `[damping]`.

@@ -1,5 +1,7 @@
 //! What a mesh file holds beside the mesh, as the sections that a case would have for it, in SI units.
 
+use super::value::quote;
+use super::{Location, RawItem, RawValue, UnitsWord, keys};
 use crate::prelude::*;
 use frictionsim_physics::mesh::{
     FileConditionKind, FileContact, FileMaterial, MaterialAxes, ModelData,
@@ -178,10 +180,8 @@ fn common_material(file: &FileMesh, own: &[FileSection]) -> Option<FileSection> 
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     file.elements.iter().for_each(|element| *counts.entry(&element.region).or_default() += 1);
     let of = |region: &str| own.iter().find(|section| section.path.1 == region);
-    let is_isotropic = |section: &FileSection| {
-        let has = |key: &str| section.keys.iter().any(|known| known.0 == key);
-        has("young_modulus") && has("poisson_ratio") && has("density")
-    };
+    let common = ["young_modulus", "poisson_ratio", "density"];
+    let is_isotropic = |own: &FileSection| common.iter().all(|key| own.get(key).is_some());
     let formulation = match (file.dimension, file.model.is_plane_strain) {
         (3, _) => Some("three-dimensional"),
         (_, Some(true)) => Some("plane-strain"),
@@ -194,7 +194,6 @@ fn common_material(file: &FileMesh, own: &[FileSection]) -> Option<FileSection> 
     if let (true, Some((region, _))) = (counts.keys().all(|region| of(region).is_some()), largest) {
         let isotropic = of(region).filter(|section| is_isotropic(section));
         let isotropic = isotropic.or_else(|| own.iter().find(|section| is_isotropic(section)))?;
-        let common = ["young_modulus", "poisson_ratio", "density"];
         keys = isotropic.keys.iter().filter(|key| common.contains(&key.0)).cloned().collect();
         place.clone_from(&isotropic.place);
     }
@@ -204,6 +203,19 @@ fn common_material(file: &FileMesh, own: &[FileSection]) -> Option<FileSection> 
 }
 
 impl FileSection {
+    /// The value of a key.
+    pub(super) fn get(&self, key: &str) -> Option<&RawValue> {
+        self.keys.iter().find(|own| own.0 == key).map(|own| &own.1)
+    }
+
+    /// Its dotted name in a case.
+    pub(super) fn dotted(&self) -> String {
+        match self.path.0 {
+            "material" => "material".to_owned(),
+            group => format!("{group}.{}", self.path.1),
+        }
+    }
+
     /// Its head as TOML.
     pub fn head(&self) -> String {
         match self.path.0 {
@@ -213,11 +225,11 @@ impl FileSection {
     }
 }
 
-fn text(text: &str) -> RawValue {
+pub(super) fn text(text: &str) -> RawValue {
     RawValue::String(text.to_owned())
 }
 
-fn list(values: Vec<RawValue>) -> RawValue {
+pub(super) fn list(values: Vec<RawValue>) -> RawValue {
     let at = Location::default();
     RawValue::Array(values.into_iter().map(|value| RawItem::at(value, &at)).collect())
 }

@@ -2,6 +2,7 @@
 
 use super::parameters::{number, only, read_all};
 use super::words::choice_of;
+use super::{RawItem, RawValue, Spacing, VariedKey};
 use crate::prelude::*;
 
 /// A parameter with the bounds between which it is sought.

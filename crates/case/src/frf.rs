@@ -1,6 +1,6 @@
 //! `[frf]`: a frequency response of the model.
 
-use super::FrfMethod;
+use super::{Body, FrfMethod};
 use crate::prelude::*;
 use frictionsim_physics::frf::{Direction, Terminal};
 

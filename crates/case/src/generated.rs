@@ -3,9 +3,11 @@
 
 use super::body::node_count;
 use super::contact::contact;
+use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
+use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
-use super::{assembly, boundaries, modifications, solid};
+use super::{Body, BodyKind, Contact, assembly, attachments, boundaries, imported, solid};
 use crate::prelude::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 
@@ -114,7 +116,7 @@ fn plane_annulus(
     if own.modifications.is_empty() || node_count(&annulus) > 1 << 24 {
         return Some(Body { materials, kind: BodyKind::Annulus(annulus) });
     }
-    let whole = modifications::reshaped_annulus(&annulus, &own.modifications);
+    let whole = attachments::reshaped_annulus(&annulus, &own.modifications);
     let kind = fitting(own.root, whole, "the disc").map(BodyKind::Imported)?;
     Some(Body { materials, kind })
 }

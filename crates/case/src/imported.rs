@@ -1,11 +1,12 @@
 //! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
-use super::description::has_common_constants;
+use super::description::{Description, has_common_constants};
 use super::elastic::elastic;
-use super::inclusion;
-use super::modifications::reshaped;
+use super::modifications::{Misfit, reshaped};
 use super::tables::modulus_table;
+use super::value::quote;
 use super::words::CounterfaceWord;
+use super::{Diagnostic, MeshBytes, RawCase, inclusion, suggestion};
 use crate::prelude::*;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::mesh::{BodyPart, CyclicSymmetry, refined_file, repeated_file};
@@ -215,12 +216,12 @@ pub(super) fn near_name(name: &str, known: &[String]) -> String {
     near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"))
 }
 
-/// The plane body that a mesh file describes, with its contact curves and counterface at `place`.
+/// The plane body that a mesh file describes, with its contact curves and counterface at `place`, and its materials.
 pub(super) fn import(
     parts: &FileParts<'_>,
     place: BodySpecification,
     interference: f64,
-) -> Result<Body, Option<Diagnostic>> {
+) -> Result<(Vec<RegionMaterial>, ImportedBody), Option<Diagnostic>> {
     let own = parts.own;
     let (read, way) = parts.shaped(&place.contact)?;
     let specification = BodySpecification {
@@ -246,8 +247,7 @@ pub(super) fn import(
         })
     };
     let materials = parts.materials_of(&mesh.regions, find)?;
-    let kind = BodyKind::Imported(ImportedBody::new(mesh, read, specification));
-    Ok(Body { materials, kind })
+    Ok((materials, ImportedBody::new(mesh, read, specification)))
 }
 
 /// The counterface of a body whose contact curve is moved.

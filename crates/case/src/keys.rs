@@ -2,6 +2,7 @@
 //! `frictionsim keys`, the JSON schema and the commented template are made from. Of a key it says kind of value, bound,
 //! unit, default and meaning.
 
+use super::RawValue;
 use super::words::words_named;
 use crate::prelude::*;
 use std::sync::LazyLock;
@@ -208,6 +209,14 @@ impl CaseKey {
     /// Whether the value is a single number, as a parameter study or a branch varies it.
     pub fn is_numeric(&self) -> bool {
         matches!(self.kind, Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node)
+    }
+
+    /// Where the value of a continuous parameter may lie; none of what is no such parameter.
+    pub(super) fn continuous(&self) -> Option<Bound> {
+        match self.kind {
+            Kind::Number(bound) | Kind::NumberOr(bound, _) => Some(bound),
+            _ => None,
+        }
     }
 
     /// Whether it may have a value of this kind: a number, or anything else but a section.

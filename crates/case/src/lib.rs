@@ -8,6 +8,7 @@
 mod diagnostic;
 
 mod assembly;
+mod attachments;
 mod body;
 mod boundaries;
 mod cea;
@@ -160,7 +161,7 @@ impl Case {
         let root = Section::root(&findings, &effective, raw.end());
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
         let mut described = description::Description::read(&root, &raw);
-        let (body, contact, mesh) = model::body(&mut described);
+        let (body, contact) = model::body(&mut described);
         let (material, thickness) = (described.common.elastic, described.thickness);
         let tables = described.tables.read.into_inner();
         let damping = root.section("damping", false).closed(description::damping);
@@ -204,7 +205,6 @@ impl Case {
             errors.insert(0, lack);
         }
         warnings.extend(taken.warning(&at_file));
-        raw.mesh = mesh;
         raw.tables = tables;
         let Some(body) = body.filter(|_| errors.is_empty()) else { return Err(raw.errors(errors)) };
         let mut case = Self {

@@ -2,31 +2,27 @@
 
 use super::assembly::AssemblyParts;
 use super::contact::contact;
-use super::description::has_common_constants;
+use super::description::{Description, has_common_constants};
 use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
 use super::imported::FileParts;
-use super::{assembly, modifications};
+use super::{Body, BodyKind, Contact, assembly, attachments, imported};
 use crate::prelude::*;
 
-/// The body with its modifications, its contact, and the mesh file that it is of; no body where a mesh file makes none,
-/// which is an error already.
-pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact, Option<MeshBytes>) {
-    let (mut body, contact, mesh) = match own.file.clone() {
-        None => {
-            let (body, contact) = generated(own);
-            (body, contact, None)
-        }
+/// The body with its modifications, and its contact; no body where a mesh file makes none, which is an error already.
+pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact) {
+    let (mut body, contact) = match own.file.clone() {
+        None => generated(own),
         Some(file) => of_file(own, &file),
     };
     if let Some(body) = &mut body {
-        modifications::attach(own.root, &own.modifications, body, own.thickness);
+        attachments::attach(own.root, &own.modifications, body, own.thickness);
         let held = body.imported().map_or(Ok(()), |own| own.mesh.check_held());
         if let Err(error) = held {
             own.root.findings.push(own.unusable(error));
         }
     }
-    (body, contact, mesh)
+    (body, contact)
 }
 
 /// What of a case is particular to plane bodies of a mesh file, or to solid ones.
@@ -35,8 +31,8 @@ enum Joints {
     Solids(AssemblyParts),
 }
 
-/// The body of a mesh file with what modifications take away or move, its contact, and the file.
-fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Option<MeshBytes>) {
+/// The body of a mesh file with what modifications take away or move, and its contact.
+fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact) {
     let root = own.root;
     // What describes a generated body has no effect beside `mesh.file`.
     let radii = "inner_radius outer_radius shaft_inner_radius";
@@ -79,18 +75,19 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
     let symmetry = imported::symmetry(&own.mesh, axes[0]);
     let materials = materials(own, &surroundings);
     let reject = |message: String| own.mesh.reject("file", message, "not readable", None);
-    let bytes = bytes.map_err(reject).ok();
-    let body = bytes.as_ref().and_then(|bytes| {
-        let parts = FileParts { bytes, own, symmetry, materials };
+    let body = bytes.map_err(reject).ok().and_then(|bytes| {
+        let parts = FileParts { bytes: &bytes, own, symmetry, materials };
         let pushed = contact.sliding.interference;
         let made = match joints {
-            Joints::Plane(place) => imported::import(&parts, place, pushed),
-            Joints::Solids(joints) => assembly::assemble(&parts, joints),
+            Joints::Plane(place) => imported::import(&parts, place, pushed)
+                .map(|(materials, own)| Body { materials, kind: BodyKind::Imported(own) }),
+            Joints::Solids(joints) => assembly::assemble(&parts, joints)
+                .map(|(materials, own)| Body { materials, kind: BodyKind::Assembly(own) }),
         };
         made.map_err(|error| error.map(|error| root.findings.push(error))).ok()
     });
     own.mesh.close();
-    (body, contact, bytes)
+    (body, contact)
 }
 
 /// `[contacts.*]`, `[ties.*]` and `[motion.*]` of solid bodies, or their `[contact]`.

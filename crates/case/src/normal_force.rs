@@ -3,6 +3,7 @@
 //! Without friction the summed normal force of a contact rises with its interference, by straight pieces where contact
 //! is rigid. The interference that belongs to a force is the one root of their difference.
 
+use super::{BodyKind, CaseErrors};
 use crate::prelude::*;
 use frictionsim_physics::linalg::{Bracket, newton_root};
 use frictionsim_physics::mesh::Strip;
@@ -42,7 +43,10 @@ pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
 /// Pushes contacts in alike until the sum of their forces is reached, then each by Newton's method, and says how far:
 /// they lean on each other, and forces have straight pieces or rise ever faster.
 fn solve(case: &mut Case, wanted: &[Wanted]) -> Result<(), CaseErrors> {
-    let own = |own: &Wanted| interference_of(case, own.contact);
+    let own = |own: &Wanted| {
+        let of_body = case.body.assembly().and_then(|body| body.contacts.get(own.contact));
+        of_body.map_or(case.contact.sliding.interference, |own| own.counter.interference())
+    };
     let mut places: Vec<f64> = wanted.iter().map(own).collect();
     let is_met = |left: &[f64]| left.iter().all(|own| own.abs() <= TOLERANCE);
     if !is_met(&excesses(case, wanted, &places)?) {
@@ -97,13 +101,6 @@ fn excesses(case: &mut Case, wanted: &[Wanted], places: &[f64]) -> Result<Vec<f6
     let forces = case.normal_forces();
     let forces = forces.map_err(|why| case.error_at(&wanted[0].key, why, "no base state", None))?;
     Ok(wanted.iter().map(|own| forces[own.contact] / own.force - 1.0).collect())
-}
-
-fn interference_of(case: &Case, contact: usize) -> f64 {
-    match case.body.assembly().and_then(|body| body.contacts.get(contact)) {
-        Some(own) => own.counter.interference(),
-        None => case.contact.sliding.interference,
-    }
 }
 
 fn set_interference(case: &mut Case, contact: usize, interference: f64) {

@@ -1,9 +1,8 @@
 //! `--set KEY=VALUE` and `--unset KEY`: assignments laid over the case, keys taken away.
 
-use super::Source;
 use super::suggestion::Scope;
 use super::value::{convert, cut};
-use crate::prelude::*;
+use super::{Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys};
 use toml::de::{DeTable, DeValue};
 
 /// Path of an override: each key with its place.

@@ -1,6 +1,7 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
 use super::value::collect_leaves;
+use super::{Bound, CaseErrors, CaseKey, Location, RawItem, RawTable, RawValue, keys};
 use crate::prelude::*;
 
 /// Sections that make the model.
@@ -37,10 +38,7 @@ impl VariedKey {
 
     /// Where the value of a continuous parameter may lie.
     pub(super) fn bound(&self) -> Bound {
-        match keys::find(&self.key).map(|key| key.kind) {
-            Some(Kind::Number(bound) | Kind::NumberOr(bound, _)) => bound,
-            _ => Bound::Finite,
-        }
+        keys::find(&self.key).and_then(CaseKey::continuous).unwrap_or(Bound::Finite)
     }
 }
 
@@ -59,12 +57,10 @@ pub(super) fn known(
 /// Whether a key is a continuous parameter of the model; else why not.
 fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
     let key = known(section, name, CaseKey::is_numeric)?;
-    match key.kind {
-        Kind::Number(_) | Kind::NumberOr(..) if is_of_model(name) => Ok(()),
-        Kind::Number(_) | Kind::NumberOr(..) => {
-            Err(format!("it is no parameter of the model, which has {MODEL}"))
-        }
-        _ => Err(format!("its values are {}: what varies must be continuous", key.values())),
+    match key.continuous() {
+        Some(_) if is_of_model(name) => Ok(()),
+        Some(_) => Err(format!("it is no parameter of the model, which has {MODEL}")),
+        None => Err(format!("its values are {}: what varies must be continuous", key.values())),
     }
 }
 
@@ -208,9 +204,8 @@ impl super::Case {
             value => vec![(key, value)],
         });
         let numbers = entries.filter_map(|(key, value)| {
-            let kind = keys::find(&key).map(|known| known.kind);
-            let is_continuous = matches!(kind, Some(Kind::Number(_) | Kind::NumberOr(..)));
-            let is_varied = is_continuous && is_of_model(&key) && !is_left_out(&key);
+            keys::find(&key)?.continuous()?;
+            let is_varied = is_of_model(&key) && !is_left_out(&key);
             value.number().filter(|_| is_varied).map(|number| (key, number))
         });
         numbers.collect()

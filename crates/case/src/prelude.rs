@@ -1,16 +1,6 @@
 //! What most sections of a case are read with; what one of them has alone is named where it is used.
 
-pub(crate) use crate::{
-    Analysis, AssemblyBody, Body, BodyKind, Bound, Case, CaseErrors, CaseKey, Contact, Diagnostic,
-    ImportedBody, KEYS, Kind, Location, MeshBytes, ModeLimit, RawCase, RawItem, RawTable, RawValue,
-    Section, Spacing, StabilityChoice, UnitsWord, VariedKey,
-    boundaries::NamedCondition,
-    description::Description,
-    imported, keys,
-    modifications::Misfit,
-    suggestion,
-    value::{quote, table_of},
-};
+pub(crate) use crate::{Case, Section};
 pub(crate) use frictionsim_bounds::first_of;
 pub(crate) use frictionsim_output::rounded;
 pub(crate) use frictionsim_physics::{

@@ -1,8 +1,10 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
 use super::diagnostic::BACKSLASH;
-use super::value::{collect_leaves, convert_table, with_point};
-use super::{Source, overrides};
+use super::value::{collect_leaves, convert_table, quote, table_of, with_point};
+use super::{
+    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides,
+};
 use crate::prelude::*;
 use frictionsim_physics::mesh::MeshFileError;
 use sha2::{Digest, Sha256};
@@ -278,14 +280,13 @@ fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) 
 /// What a text is that is no TOML at all.
 fn foreign(text: &str) -> Option<&'static str> {
     let begin = text.trim_start();
-    if begin.starts_with("$MeshFormat") {
-        return Some("a Gmsh mesh (a case names it as mesh.file)");
-    }
-    if begin.starts_with('{') {
-        return Some("a JSON file");
-    }
-    if begin.starts_with('<') {
-        return Some("an XML or HTML file");
+    let known = [
+        ("$MeshFormat", "a Gmsh mesh (a case names it as mesh.file)"),
+        ("{", "a JSON file"),
+        ("<", "an XML or HTML file"),
+    ];
+    if let Some((_, what)) = known.iter().find(|(head, _)| begin.starts_with(head)) {
+        return Some(what);
     }
     let mut rows = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let is_row = |line: &str| {

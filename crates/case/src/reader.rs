@@ -5,7 +5,10 @@ mod lists;
 
 use super::value::{cut, with_point};
 use super::words::Choice;
-use super::{Default, words};
+use super::{
+    Bound, CaseKey, Default, Diagnostic, Kind, Location, RawItem, RawTable, RawValue, keys,
+    suggestion, words,
+};
 use crate::prelude::*;
 pub(super) use lists::NodePlace;
 pub use lists::range_values;

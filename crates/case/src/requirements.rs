@@ -2,7 +2,8 @@
 //! section and says what to add.
 
 use super::checks::material_key;
-use super::{Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
+use super::value::table_of;
+use super::{Analysis, BodyKind, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
 use crate::prelude::*;
 
 impl Case {

@@ -1,5 +1,8 @@
 //! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
 
+use super::boundaries::NamedCondition;
+use super::description::Description;
+use super::{imported, suggestion};
 use crate::prelude::*;
 use frictionsim_physics::mesh::SolidPart;
 

@@ -1,9 +1,11 @@
 //! The case to start from that a mesh file suggests: everything that it holds, as sections with their places in the
 //! file.
 
-use super::file_sections::sections;
+use super::file_sections::{sections, text};
 use super::taken::drop_key;
-use super::{FileSection, inclusion};
+use super::value::quote;
+use super::words::word_of;
+use super::{FileSection, RawValue, UnitsWord, inclusion};
 use crate::prelude::*;
 use frictionsim_physics::mesh::{FileElement, SurfaceFace};
 
@@ -36,13 +38,13 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
     let title = file.model.title.clone().filter(|title| !title.is_empty());
     let title = title.unwrap_or_else(|| format!("Bodies of {shown}"));
     let title = RawValue::String(title.chars().filter(|c| !c.is_control()).take(80).collect());
-    let word = ["m-kg-s", "mm-t-s"][usize::from(units == UnitsWord::MmTS)];
     let _ = write!(
         out,
         "# Made from {shown} by `frictionsim init --from`. Values are in SI units; what stands \
         here wins over the file.\n\
-         title = {title}\n\n[mesh]\nfile = {}\nunits = \"{word}\"    # of the file: {reason}\n",
-        RawValue::String(shown.to_owned())
+         title = {title}\n\n[mesh]\nfile = {}\nunits = \"{}\"    # of the file: {reason}\n",
+        text(shown),
+        word_of(units)
     );
     let lost: Vec<LeftOut> = left_out.iter().filter(|own| own.is_part).cloned().collect();
     if !lost.is_empty() {
@@ -92,9 +94,8 @@ fn units_of(file: &FileMesh) -> (UnitsWord, String) {
         return judged(stiffest <= STIFFEST_MPA, format!("modulus {stiffest:e} of a material"));
     }
     let extent = (0..3).map(|axis| {
-        let coordinates = || file.points.iter().map(|point| point[axis]);
-        coordinates().fold(f64::NEG_INFINITY, f64::max)
-            - coordinates().fold(f64::INFINITY, f64::min)
+        let own = || file.points.iter().map(|point| point[axis]);
+        own().fold(f64::NEG_INFINITY, f64::max) - own().fold(f64::INFINITY, f64::min)
     });
     let extent = extent.fold(0.0, f64::max);
     judged(extent > MILLIMETRES, format!("extent {extent:.4}"))
@@ -137,11 +138,11 @@ fn write_section(section: &FileSection, shown: &str, out: &mut String) {
             _ => writeln!(out, "{key} = {value}{unit}"),
         };
     }
-    let has = |key: &str| section.keys.iter().any(|known| known.0 == key);
-    if section.path.0 == "contacts" && !has("friction_coefficient") {
+    let lacks = |key: &str| section.get(key).is_none();
+    if section.path.0 == "contacts" && lacks("friction_coefficient") {
         let _ = writeln!(out, "friction_coefficient = {FRICTION}    # CHOOSE: the file gives none");
     }
-    if section.path.0 == "materials" && !has("density") {
+    if section.path.0 == "materials" && lacks("density") {
         out.push_str("density = 7850.0    # CHOOSE: the file gives none\n");
     }
 }
@@ -194,8 +195,8 @@ fn plane_contact(file: &FileMesh) -> String {
             "\n[contact]\nboundary = {}\ncounterface = \"body\"\ncounter_boundary = {}\nfriction_coefficient = {}\n\
              interference = 1e-6    # CHOOSE\nspeed = 1.0    # CHOOSE: m/s along a straight \
              contact, or rotation_speed_rpm\n",
-            RawValue::String(contact.surface.clone()),
-            RawValue::String(contact.counter.clone()),
+            text(&contact.surface),
+            text(&contact.counter),
             friction(contact.friction_coefficient)
         ),
         None => format!(
@@ -203,7 +204,7 @@ fn plane_contact(file: &FileMesh) -> String {
             on\nboundary = {}\ncounterface = \"plane\"\n\
              friction_coefficient = {FRICTION}\ninterference = 1e-6\nspeed = 1.0\n",
             names.join(", "),
-            RawValue::String(names.first().copied().unwrap_or_default().to_owned())
+            text(names.first().copied().unwrap_or_default())
         ),
     }
 }

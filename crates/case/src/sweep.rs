@@ -1,7 +1,9 @@
 //! `[sweep]`: any case key over several values.
 
 use super::value::range_count;
-use super::{Combination, parameters};
+use super::{
+    Analysis, Bound, CaseErrors, Combination, Diagnostic, RawItem, RawValue, VariedKey, parameters,
+};
 use crate::prelude::*;
 
 /// A swept key and its values.
@@ -116,15 +118,13 @@ fn fits(section: &Section<'_>, how: Combination, entries: &[(VariedKey, &RawItem
         Combination::Grid => (lengths.fold(1, usize::saturating_mul), "points"),
         Combination::Zip => (lengths.fold(0, usize::saturating_add), "values"),
     };
-    if count <= MOST_POINTS {
-        return true;
-    }
-    if let Some((varied, entry)) = entries.iter().max_by_key(|(_, entry)| length(entry)) {
+    let most = entries.iter().max_by_key(|(_, entry)| length(entry));
+    if let Some((varied, entry)) = most.filter(|_| count > MOST_POINTS) {
         refuse_at!(section, &entry.at,
             "[sweep] has {count} {what}, most of them for \"{}\"", varied.key;
             "at most {MOST_POINTS}"; "sweep fewer values");
     }
-    false
+    count <= MOST_POINTS
 }
 
 /// The values of a swept key.

@@ -5,10 +5,14 @@
 //! one there. The same holds for a contact or a tie whose surfaces it names, and for a motion whose axis it gives.
 //! Elastic constants are taken together, and so are the two coefficients of Rayleigh's damping.
 
-use super::FileSection;
 use super::elastic::ORTHOTROPIC;
-use super::file_sections::sections;
+use super::file_sections::{list, sections, text};
+use super::value::table_of;
 use super::words::choice_of;
+use super::{
+    Diagnostic, FileSection, Location, MeshBytes, RawCase, RawItem, RawTable, RawValue, UnitsWord,
+    imported,
+};
 use crate::prelude::*;
 
 /// Entries that a warning names.
@@ -38,13 +42,14 @@ pub struct Taken {
 pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     let table = raw.root.clone();
     let text = |key: &str| raw.find(key)?.value.text();
-    let Some(name) = text("mesh.file").map(str::to_owned) else { return (table, Taken::default()) };
-    let units = text("mesh.units").and_then(choice_of);
+    let (name, units) = (text("mesh.file").map(str::to_owned), text("mesh.units"));
+    let units = units.and_then(choice_of).unwrap_or(UnitsWord::MKgS);
+    raw.mesh = name.as_ref().and_then(|name| imported::mesh_bytes(raw, name).ok());
+    let Some(name) = name else { return (table, Taken::default()) };
     // A file that cannot be read is told where the body is made of it.
-    let unread = Taken { is_unread: true, ..Taken::default() };
-    let Ok(bytes) = imported::mesh_bytes(raw, &name) else { return (table, unread) };
-    raw.mesh = Some(bytes.clone());
-    let Ok(file) = bytes.read() else { return (table, unread) };
+    let Some(Ok(file)) = raw.mesh.as_ref().map(MeshBytes::read) else {
+        return (table, Taken { is_unread: true, ..Taken::default() });
+    };
     let at = raw.place("mesh.file");
     let mut taken = Taken {
         file: name,
@@ -52,7 +57,7 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
         notes: file.model.remarks.clone(),
         ..Taken::default()
     };
-    let sections = sections(&file, units.unwrap_or(UnitsWord::MKgS), &mut taken.left_out);
+    let sections = sections(&file, units, &mut taken.left_out);
     let (takes_all, parts) = (raw.find("mesh.take").is_none(), texts(raw, "mesh.take"));
     let mut merged = table;
     for section in sections {
@@ -60,11 +65,9 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
         // A part is called as its sections are; the common material is one of the materials.
         let part = if is_named { section.path.0 } else { "materials" };
         if !takes_all && !parts.iter().any(|own| own == part) {
-            if !is_named {
-                continue;
-            }
             let keyword = format!("{} {}", section.path.0, section.path.1);
-            taken.left_out.push(LeftOut::once(keyword, section.place, "mesh.take leaves it out"));
+            let left_out = LeftOut::once(keyword, section.place, "mesh.take leaves it out");
+            taken.left_out.extend(Some(left_out).filter(|_| is_named));
         } else if let Some(section) = merge(&mut merged, section, &at) {
             taken.sections.push(section);
         }
@@ -91,7 +94,7 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
         } else if ["contacts", "ties"].contains(&group) && of_group.values().any(is_known) {
             return None;
         }
-    } else if group == "material" && !section.keys.iter().any(|key| key.0 == "density") {
+    } else if group == "material" && section.get("density").is_none() {
         // A formulation alone makes no material.
         return None;
     } else if group == "contacts"
@@ -124,7 +127,7 @@ fn has_sides(entry: &RawItem, section: &FileSection) -> bool {
     let sides = ["surface", "counter"];
     let table = entry.value.table();
     let of_case = sides.map(|key| Some(&table?.get(key)?.value));
-    let of_file = sides.map(|key| section.keys.iter().find(|k| k.0 == key).map(|k| &k.1));
+    let of_file = sides.map(|key| section.get(key));
     of_case == of_file || of_case == [of_file[1], of_file[0]]
 }
 
@@ -136,11 +139,7 @@ fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
         || match (section, key) {
             ("boundaries", _) => has(&["condition"]),
             // Another law has no linear stiffness; the inertia that a case leaves out has no frame.
-            ("contacts", "normal_stiffness")
-                if is("normal_law", RawValue::String("exponential".to_owned())) =>
-            {
-                true
-            }
+            ("contacts", "normal_stiffness") if is("normal_law", text("exponential")) => true,
             ("motion", "frame") if is("rotation_terms", RawValue::Boolean(false)) => true,
             ("contacts" | "ties", _) => has(&["surface", "counter"]),
             ("motion", _) => has(&["axis"]),
@@ -182,11 +181,8 @@ fn first_parts(parts: &[impl ToString]) -> String {
 
 /// The key that leaves out parts of a file, as a line of a case.
 pub(super) fn drop_key(parts: &[LeftOut]) -> String {
-    let mut cards: Vec<&str> = parts.iter().map(LeftOut::card).collect();
-    cards.sort_unstable();
-    cards.dedup();
-    let cards = cards.into_iter().map(|card| RawValue::String(card.to_owned()).to_string());
-    format!("drop = [{}]", cards.collect::<Vec<_>>().join(", "))
+    let cards: BTreeSet<&str> = parts.iter().map(LeftOut::card).collect();
+    format!("drop = {}", list(cards.into_iter().map(text).collect()))
 }
 
 impl Taken {
@@ -255,9 +251,8 @@ impl Taken {
             errors.retain(|error| !is_asked(error));
         }
         for error in errors {
-            let is_meant = |section: &&FileSection| {
-                let path = format!("{}.{}", section.path.0, section.path.1);
-                section.path.0 != "material" && error.message.contains(&path)
+            let is_meant = |own: &&FileSection| {
+                own.path.0 != "material" && error.message.contains(&own.dotted())
             };
             if let Some(section) = self.sections.iter().find(is_meant) {
                 let _ = write!(error.message, " ({}, {})", self.file, section.place);
@@ -268,13 +263,6 @@ impl Taken {
     /// The number that the file gives a dotted key of the case.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
         let (path, key) = key.rsplit_once('.')?;
-        let mut sections = self.sections.iter();
-        let section = sections.find(|section| match section.path.0 {
-            "material" => path == "material",
-            group => {
-                path.strip_prefix(group).and_then(|p| p.strip_prefix('.')) == Some(&section.path.1)
-            }
-        })?;
-        section.keys.iter().find(|known| known.0 == key)?.1.number()
+        self.sections.iter().find(|own| own.dotted() == path)?.get(key)?.number()
     }
 }

@@ -1,7 +1,8 @@
 //! A body of revolution in three dimensions on its whole mesh: what it is where something breaks the symmetry that its
 //! harmonics are solved by.
 
-use super::modifications::{Modification, reshaped};
+use super::modifications::{Misfit, Modification, reshaped};
+use super::{AssemblyBody, Body, BodyKind, CaseErrors, Contact};
 use crate::prelude::*;
 
 impl Case {

@@ -2,6 +2,7 @@
 
 use super::Limit;
 use crate::prelude::*;
+use crate::{Diagnostic, ModeLimit};
 use std::ops::RangeInclusive;
 
 /// Speeds of waves in a bar, m/s: soft rubber to ceramics.

@@ -2,7 +2,10 @@
 
 use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
 use crate::prelude::*;
-use crate::{Cea, CeaMethod, Cycle, Frf, FrfMethod, TimeStep, Transient};
+use crate::{
+    BodyKind, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeLimit, StabilityChoice, TimeStep,
+    Transient,
+};
 use frictionsim_physics::cycle::BasinRequest;
 use frictionsim_physics::linalg::SparsityPattern;
 use frictionsim_physics::transient::stable_step_limit;
@@ -376,10 +379,13 @@ fn shaft_frequency(grid: &AnnulusSpecification, material: Option<&ElasticMateria
     })
 }
 
-/// The highest of all elements of a mesh.
+/// The highest of all elements of a mesh, of which one gives its own for a number times the speed of its waves.
 fn highest(mesh: &Mesh, materials: &[RegionMaterial], of: fn(&Mesh, usize, f64) -> f64) -> f64 {
-    let speed = |element| pressure_wave_speed(&materials[mesh.region(element)].elastic);
-    let each = (0..mesh.element_count()).map(|element| of(mesh, element, speed(element)));
+    let each = (0..mesh.element_count()).map(|element| {
+        let order = if mesh.element_kind(element).is_quadratic() { QUADRATIC } else { 1.0 };
+        let speed = pressure_wave_speed(&materials[mesh.region(element)].elastic);
+        of(mesh, element, 2.0 * order * speed)
+    });
     each.fold(0.0, f64::max)
 }
 
@@ -394,8 +400,7 @@ fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
     };
     let long = (0..corners.len()).map(side).fold(0.0, f64::max);
     let short = mesh.element_measure(element) / long;
-    let order = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
-    2.0 * order * speed * (1.0 / short).hypot(1.0 / long)
+    speed * (1.0 / short).hypot(1.0 / long)
 }
 
 /// The same of one solid element, as of a cube of its shortest edge.
@@ -404,6 +409,5 @@ fn solid_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
     let place = |corner: usize| nalgebra::Vector3::from(mesh.nodes[nodes[corner] as usize]);
     let lengths = kind.edges().iter().map(|&[a, b]| (place(a) - place(b)).norm());
     let shortest = lengths.fold(f64::INFINITY, f64::min);
-    let finer = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
-    2.0 * finer * speed * 3.0_f64.sqrt() / shortest
+    speed * 3.0_f64.sqrt() / shortest
 }
