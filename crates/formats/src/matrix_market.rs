@@ -19,19 +19,11 @@ pub struct MarketMatrix {
 #[error("{0}")]
 pub struct MatrixMarketError(String);
 
-/// Which triangle stands for which.
-#[derive(Clone, Copy, PartialEq)]
-enum Symmetry {
-    General,
-    Symmetric,
-    Skew,
-}
+/// What an entry below the diagonal is times in the place that mirrors it; none where that has its own.
+type Mirrored = Option<f64>;
 
-const SYMMETRIES: [(&str, Symmetry); 3] = [
-    ("general", Symmetry::General),
-    ("symmetric", Symmetry::Symmetric),
-    ("skew-symmetric", Symmetry::Skew),
-];
+const SYMMETRIES: [(&str, Mirrored); 3] =
+    [("general", None), ("symmetric", Some(1.0)), ("skew-symmetric", Some(-1.0))];
 
 /// What comes of reading a matrix.
 type Result<T, E = MatrixMarketError> = std::result::Result<T, E>;
@@ -60,7 +52,7 @@ impl MarketMatrix {
     /// # Errors
     /// [`MatrixMarketError`] with the line.
     pub fn read(text: &str, most: usize) -> Result<Self> {
-        let (is_coordinate, symmetry) = read_banner(text.lines().next().unwrap_or_default())?;
+        let (is_coordinate, mirrored) = read_banner(text.lines().next().unwrap_or_default())?;
         let lines = (1..).zip(text.lines()).skip(1).map(|(k, line)| Line(k, line.trim()));
         let mut lines = lines.filter(|line| !line.1.is_empty() && !line.1.starts_with('%'));
         let expected = match is_coordinate {
@@ -76,10 +68,9 @@ impl MarketMatrix {
             "a matrix of {rows} x {columns} is larger than {most} x {most}");
         let mut matrix = Self { rows, columns, entries: Vec::new() };
         // Of arrays column by column; of a symmetric one the lower triangle alone.
-        let first = |column: usize| match symmetry {
-            Symmetry::General => 0,
-            Symmetry::Symmetric => column,
-            Symmetry::Skew => column + 1,
+        let first = |column: usize| match mirrored {
+            None => 0,
+            Some(sign) => column + usize::from(sign < 0.0),
         };
         let places = |column: usize| (first(column)..rows).map(move |row| (row, column));
         let mut places = (0..columns).flat_map(places);
@@ -90,7 +81,7 @@ impl MarketMatrix {
             if !is_coordinate {
                 for word in words {
                     let (value, place) = (line.finite(word)?, places.next());
-                    place.into_iter().for_each(|place| matrix.add(place, value, symmetry));
+                    place.into_iter().for_each(|place| matrix.add(place, value, mirrored));
                     found += 1;
                 }
                 continue;
@@ -104,19 +95,17 @@ impl MarketMatrix {
             let value = line.finite(value)?;
             ensure!((1..=rows).contains(&row) && (1..=columns).contains(&column); line;
                 "entry ({row}, {column}) lies outside a matrix of {rows} x {columns}");
-            matrix.add((row - 1, column - 1), value, symmetry);
+            matrix.add((row - 1, column - 1), value, mirrored);
             found += 1;
         }
         let text = || format!("the size line promises {promised} entries, the file has {found}");
         if found == promised { Ok(matrix) } else { Err(MatrixMarketError(text())) }
     }
 
-    fn add(&mut self, (row, column): (usize, usize), value: f64, symmetry: Symmetry) {
+    fn add(&mut self, (row, column): (usize, usize), value: f64, mirrored: Mirrored) {
+        let mirrored = mirrored.filter(|_| row != column);
         self.entries.push((row, column, value));
-        if row != column && symmetry != Symmetry::General {
-            let mirrored = if symmetry == Symmetry::Skew { -value } else { value };
-            self.entries.push((column, row, mirrored));
-        }
+        self.entries.extend(mirrored.map(|sign| (column, row, sign * value)));
     }
 
     /// Writes it as `coordinate real general`, every number in the shortest form that reads back as the same bits.
@@ -153,7 +142,8 @@ impl MarketMatrix {
     }
 }
 
-fn read_banner(banner: &str) -> Result<(bool, Symmetry)> {
+/// Whether a matrix is given by its entries, and its symmetry.
+fn read_banner(banner: &str) -> Result<(bool, Mirrored)> {
     let lower = banner.to_lowercase();
     let words: Vec<&str> = lower.split_whitespace().collect();
     let symmetry = match words[..] {
@@ -166,8 +156,7 @@ fn read_banner(banner: &str) -> Result<(bool, Symmetry)> {
         ] => SYMMETRIES.iter().find(|known| known.0 == own),
         _ => None,
     };
-    let known = symmetry.map(|symmetry| (words[2] == "coordinate", symmetry.1));
-    known.ok_or_else(|| {
+    symmetry.map(|symmetry| (words[2] == "coordinate", symmetry.1)).ok_or_else(|| {
         MatrixMarketError(format!(
             "line 1 is no Matrix Market banner of a real matrix: \"{}\"; expected \
              \"%%MatrixMarket matrix coordinate real general\" (or array, integer, symmetric, \
