@@ -53,13 +53,8 @@ pub(super) fn prism(section: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<Qua
 
 /// A rule of the square in each section of a pyramid times one over the distance `c` to the apex, whose weight is `c^2`.
 pub(super) fn pyramid(section: &[(f64, f64)], to_apex: &[(f64, f64)]) -> Vec<QuadraturePoint> {
-    to_apex
-        .iter()
-        .flat_map(|&(c, v)| {
-            let shrunk = move |([x, y, _], w): QuadraturePoint| ([c * x, c * y, 1.0 - c], w * v);
-            square(section).into_iter().map(shrunk)
-        })
-        .collect()
+    let shrunk = |([x, y, c], w): QuadraturePoint| ([c * x, c * y, 1.0 - c], w);
+    prism(&square(section), to_apex).into_iter().map(shrunk).collect()
 }
 
 /// The places of a rule.
