@@ -1,9 +1,6 @@
 //! Numbers of a mesh file, from text or from bytes.
 
-use super::{MeshFileError, Result};
-use crate::deck::quoted;
-use frictionsim_bounds::{MESSAGE, shortened};
-
+use crate::prelude::*;
 /// A position in the bytes of a file, with what it takes to name it.
 #[derive(Default)]
 pub(super) struct Cursor<'a> {
@@ -111,27 +108,28 @@ impl<'a> Cursor<'a> {
         Ok(word)
     }
 
-    fn parsed<T: std::str::FromStr>(&mut self, what: &str) -> Result<T> {
-        let word = self.word(what)?;
-        Ok(found!(word.parse().ok(); self; "{what} expected, found {}", quoted(word)))
-    }
-
-    fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N]> {
+    /// A number of so many bytes, or of a word.
+    fn value<T: std::str::FromStr, const N: usize>(
+        &mut self,
+        what: &str,
+        of_bytes: fn([u8; N]) -> T,
+    ) -> Result<T> {
+        if !self.is_binary {
+            let word = self.word(what)?;
+            return Ok(found!(word.parse().ok(); self; "{what} expected, found {}", quoted(word)));
+        }
         let found = self.bytes.get(self.at..).and_then(|rest| rest.first_chunk().copied());
         let mut bytes: [u8; N] = found!(found; self; "{what} expected: the file is truncated");
         self.at += N;
         if self.is_swapped {
             bytes.reverse();
         }
-        Ok(bytes)
+        Ok(of_bytes(bytes))
     }
 
     /// An integer of 32 bits.
     pub fn int(&mut self, what: &str) -> Result<i64> {
-        match self.is_binary {
-            true => Ok(i64::from(i32::from_le_bytes(self.raw(what)?))),
-            false => self.parsed(what),
-        }
+        self.value(what, |bytes| i64::from(i32::from_le_bytes(bytes)))
     }
 
     /// So many of them.
@@ -141,10 +139,7 @@ impl<'a> Cursor<'a> {
 
     /// A count or a tag of 64 bits.
     pub fn size(&mut self, what: &str) -> Result<usize> {
-        if !self.is_binary {
-            return self.parsed(what);
-        }
-        let value = u64::from_le_bytes(self.raw(what)?);
+        let value = self.value(what, u64::from_le_bytes)?;
         Ok(found!(usize::try_from(value).ok(); self; "{what} {value} is too large"))
     }
 
@@ -166,10 +161,7 @@ impl<'a> Cursor<'a> {
 
     /// A finite coordinate.
     pub fn number(&mut self, what: &str) -> Result<f64> {
-        let value = match self.is_binary {
-            true => f64::from_le_bytes(self.raw(what)?),
-            false => self.parsed(what)?,
-        };
+        let value = self.value(what, f64::from_le_bytes)?;
         ensure!(value.is_finite(); self; "{what} {value} is not finite");
         Ok(value)
     }
