@@ -1,31 +1,18 @@
 //! Elements and sets of nodes of a text file on their way to a mesh file.
 
-use super::ElementKind;
-use super::file_mesh::{CurveEdge, FileElement, FileMesh, SurfaceFace};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::sync::Arc;
-
+use crate::prelude::*;
 /// Region of elements that the file gives none.
 const NO_REGION: &str = "body";
 
-/// An element whose region may not be known yet. Its nodes are known by their places.
-#[derive(Debug)]
-pub(super) struct CollectedElement {
-    pub label: usize,
-    pub kind: ElementKind,
-    pub nodes: Vec<u32>,
-    pub region: Option<Arc<str>>,
-}
-
-impl CollectedElement {
+impl FileElement {
     /// Its faces with their nodes.
-    pub fn faces(&self) -> impl Iterator<Item = SurfaceFace> + '_ {
+    pub(super) fn faces(&self) -> impl Iterator<Item = SurfaceFace> + '_ {
         let faces = self.kind.faces().iter();
         faces.map(|(kind, locals)| (*kind, locals.iter().map(|&l| self.nodes[l]).collect()))
     }
 
     /// The face on which all the given nodes are corners.
-    pub fn face_with(&self, corners: &[u32]) -> Option<SurfaceFace> {
+    pub(super) fn face_with(&self, corners: &[u32]) -> Option<SurfaceFace> {
         let has = |face: &SurfaceFace, node| face.1[..face.0.corner_count()].contains(node);
         self.faces().find(|face| corners.iter().all(|node| has(face, node)))
     }
@@ -48,19 +35,19 @@ fn corners_of((kind, nodes): &SurfaceFace) -> Vec<u32> {
 }
 
 /// 3 where there are solid elements, else 2.
-pub(super) fn dimension(elements: &[CollectedElement]) -> usize {
+pub(super) fn dimension(elements: &[FileElement]) -> usize {
     elements.iter().map(|element| element.kind.dimension()).max().unwrap_or(2)
 }
 
 /// Nodes of elements.
-pub(super) fn used_nodes(elements: &[CollectedElement]) -> BTreeSet<u32> {
+pub(super) fn used_nodes(elements: &[FileElement]) -> BTreeSet<u32> {
     elements.iter().flat_map(|element| element.nodes.iter().copied()).collect()
 }
 
 /// Faces that belong to one of the elements `among` alone: all elements where it is empty.
-pub(super) fn free_faces(elements: &[CollectedElement], among: &[usize]) -> Vec<SurfaceFace> {
+pub(super) fn free_faces(elements: &[FileElement], among: &[usize]) -> Vec<SurfaceFace> {
     let mut faces: HashMap<Vec<u32>, (usize, SurfaceFace)> = HashMap::new();
-    let all = elements.iter().flat_map(CollectedElement::faces);
+    let all = elements.iter().flat_map(FileElement::faces);
     for (order, face) in all.enumerate() {
         let known = faces.entry(corners_of(&face)).and_modify(|known| known.0 = usize::MAX);
         known.or_insert((order, face));
@@ -77,7 +64,7 @@ pub(super) fn free_faces(elements: &[CollectedElement], among: &[usize]) -> Vec<
 }
 
 /// Outer faces by what names them in a file: the corners of a shell, all nodes of a beam.
-pub(super) fn outer_faces(elements: &[CollectedElement]) -> HashMap<Vec<u32>, SurfaceFace> {
+pub(super) fn outer_faces(elements: &[FileElement]) -> HashMap<Vec<u32>, SurfaceFace> {
     let named = free_faces(elements, &[]).into_iter().map(|face| match face.0.corner_count() {
         2 => (sorted(&face.1), face),
         _ => (corners_of(&face), face),
@@ -85,10 +72,12 @@ pub(super) fn outer_faces(elements: &[CollectedElement]) -> HashMap<Vec<u32>, Su
     named.collect()
 }
 
-/// The mesh file of some elements; nodes of no element are dropped, node sets whose nodes are all nodes of faces become surfaces.
-pub(super) fn finished(mut file: FileMesh, mut elements: Vec<CollectedElement>) -> FileMesh {
-    drop_unused_nodes(&mut file, &mut elements);
-    let outer = if file.node_sets.is_empty() { Vec::new() } else { free_faces(&elements, &[]) };
+/// The mesh file whose elements are all there, those without a region in one of their own; nodes of no element are dropped, node
+/// sets whose nodes are all nodes of faces become surfaces.
+pub(super) fn finished(mut file: FileMesh) -> FileMesh {
+    drop_unused_nodes(&mut file);
+    let has_sets = !file.node_sets.is_empty();
+    let outer = if has_sets { free_faces(&file.elements, &[]) } else { Vec::new() };
     for (name, nodes) in std::mem::take(&mut file.node_sets) {
         let set: BTreeSet<u32> = nodes.iter().copied().collect();
         let faces = outer.iter().filter(|face| face.1.iter().all(|node| set.contains(node)));
@@ -100,7 +89,7 @@ pub(super) fn finished(mut file: FileMesh, mut elements: Vec<CollectedElement>) 
         }
     }
     file.is_used = vec![true; file.points.len()];
-    file.dimension = dimension(&elements);
+    file.dimension = dimension(&file.elements);
     if file.dimension == 2 {
         let edges = |faces: Vec<SurfaceFace>| faces.iter().map(|face| edge_of(&face.1)).collect();
         let surfaces = std::mem::take(&mut file.surfaces).into_iter();
@@ -109,23 +98,21 @@ pub(super) fn finished(mut file: FileMesh, mut elements: Vec<CollectedElement>) 
     }
     let mut regions: BTreeMap<Arc<str>, i64> = BTreeMap::new();
     let none: Arc<str> = NO_REGION.into();
-    let numbered = elements.into_iter().map(|CollectedElement { label, kind, nodes, region }| {
-        let region = region.unwrap_or_else(|| Arc::clone(&none));
+    for element in &mut file.elements {
+        if element.region.is_empty() {
+            element.region = Arc::clone(&none);
+        }
         let next = regions.len() as i64 + 1;
-        let entity = *regions.entry(Arc::clone(&region)).or_insert(next);
-        FileElement { label, kind, region, entity, nodes }
-    });
-    file.elements = numbered.collect();
+        element.entity = *regions.entry(Arc::clone(&element.region)).or_insert(next);
+    }
     file
 }
 
 /// Drops nodes that belong to no element, and says how many.
-fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
+fn drop_unused_nodes(file: &mut FileMesh) {
     let mut place = vec![None; file.points.len()];
-    for element in &*elements {
-        for &node in &element.nodes {
-            place[node as usize] = Some(0);
-        }
+    for node in used_nodes(&file.elements) {
+        place[node as usize] = Some(0);
     }
     let mut count = 0; // New numbers, in the old order.
     for place in place.iter_mut().flatten() {
@@ -148,7 +135,7 @@ fn drop_unused_nodes(file: &mut FileMesh, elements: &mut [CollectedElement]) {
     file.points.retain(|_| used[0].next() == Some(true)); // Nodes, and all that names them by number.
     file.labels.retain(|_| used[1].next() == Some(true));
     let moved = |node: &u32| place[*node as usize];
-    let of_elements = elements.iter_mut().map(|element| &mut element.nodes);
+    let of_elements = file.elements.iter_mut().map(|element| &mut element.nodes);
     let of_faces = file.surfaces.values_mut().flatten().map(|face| &mut face.1);
     for nodes in of_elements.chain(of_faces).chain(file.node_sets.values_mut()) {
         *nodes = nodes.iter().filter_map(moved).collect();

@@ -1,8 +1,6 @@
 //! Lines of a text file with their places, the files that it includes among them.
 
-use super::file_mesh::{MeshFileError, Result};
-use frictionsim_bounds::{Budget, MESH, MESSAGE, shortened};
-
+use crate::prelude::*;
 /// What marks the begin and the end of included text, behind the sign of a comment.
 const BEGIN: &str = " >>> included: ";
 const END: &str = " <<< end of included text";

@@ -1,10 +1,6 @@
 //! What a mesh file holds, of whatever format.
 
-use super::model_data::ModelData;
-use super::{CyclicSymmetry, ElementKind, Equation};
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
+use crate::prelude::*;
 /// A mesh file that is not what its format says.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {message}")]

@@ -1,8 +1,7 @@
 //! Formats of mesh files, told by their content and their names.
 
-use super::file_mesh::{FileMesh, MeshFileError};
 use super::{abaqus, nastran, universal};
-use frictionsim_bounds::LARGEST_COORDINATE;
+use crate::prelude::*;
 
 /// A format of mesh files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -17,6 +17,7 @@ mod matrix_market;
 mod model_data;
 mod modification;
 mod nastran;
+mod prelude;
 mod symmetry;
 mod universal;
 

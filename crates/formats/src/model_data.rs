@@ -3,10 +3,7 @@
 //!
 //! Values are in the units of the file, whatever those are.
 
-use frictionsim_bounds::shortened;
-use nalgebra::Matrix3;
-use std::collections::BTreeMap;
-
+use crate::prelude::*;
 /// Everything beside the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModelData {

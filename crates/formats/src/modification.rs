@@ -1,8 +1,6 @@
 //! What changes a mesh file before it becomes a body: elements taken away, a curve moved.
 
-use super::file_mesh::{CurveEdge, FileElement, FileMesh};
-use std::collections::{BTreeMap, BTreeSet};
-
+use crate::prelude::*;
 impl FileMesh {
     /// Mean of an element's corners, in the unit of the file.
     pub fn element_middle(&self, element: &FileElement) -> [f64; 3] {

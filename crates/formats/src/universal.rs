@@ -5,13 +5,8 @@
 //!
 //! Source: Siemens SDRC, universal file format, datasets 164, 2411, 2412, 2467.
 
-use super::collection::{CollectedElement, dimension, finished, outer_faces, sorted};
-use super::deck::{Deck, Place, quoted, real};
-use super::file_mesh::{FileMesh, Result};
-use super::{ElementKind, SurfaceFace};
-use std::collections::{BTreeSet, HashMap};
+use crate::prelude::*;
 use std::ops::{Range, RangeInclusive};
-use std::sync::Arc;
 
 /// Datasets of groups.
 const GROUPS: [usize; 9] = [2417, 2429, 2430, 2432, 2435, 2452, 2467, 2477, 752];
@@ -42,7 +37,6 @@ struct Reader<'d, 'a> {
     /// Position of the next line.
     at: usize,
     file: FileMesh,
-    collected: Vec<CollectedElement>,
     nodes: HashMap<usize, u32>,
     entities: HashMap<usize, Entity>,
     /// Elements whose first group is known.
@@ -65,23 +59,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
         deck: &deck,
         at: 0,
         file: FileMesh::default(),
-        collected: Vec::new(),
         nodes: HashMap::new(),
         entities: HashMap::new(),
         is_grouped: BTreeSet::new(),
         groups: Vec::new(),
     };
     reader.datasets()?;
-    ensure!(!reader.collected.is_empty(); deck, deck.end();
+    ensure!(!reader.file.elements.is_empty(); deck, deck.end();
         "the file has no solid or plane elements (dataset 2412)");
-    if dimension(&reader.collected) == 3 {
+    if dimension(&reader.file.elements) == 3 {
         reader.shells_to_skins();
     }
-    let outer = outer_faces(&reader.collected);
+    let outer = outer_faces(&reader.file.elements);
     for group in std::mem::take(&mut reader.groups) {
         reader.group(&group, &outer)?;
     }
-    Ok(finished(reader.file, reader.collected))
+    Ok(finished(reader.file))
 }
 
 impl<'a> Reader<'_, 'a> {
@@ -207,8 +200,9 @@ impl<'a> Reader<'_, 'a> {
                     "element {label} has {} nodes, its kind {descriptor} ({}) has {}",
                     nodes.len(), kind.name(), kind.node_count());
                 let nodes = kind.row().universal.arranged(nodes);
-                self.collected.push(CollectedElement { label, kind, nodes, region: None });
-                Entity::Element(self.collected.len() - 1)
+                let region = Arc::default();
+                self.file.elements.push(FileElement { label, kind, region, entity: 0, nodes });
+                Entity::Element(self.file.elements.len() - 1)
             }
             None if BEAMS.contains(&descriptor) && nodes.len() >= 2 => Entity::Skin(sorted(nodes)),
             None if (101..121).contains(&descriptor) => refuse!(self.deck, place;
@@ -226,14 +220,14 @@ impl<'a> Reader<'_, 'a> {
 
     /// Beside solids, shells are faces only.
     fn shells_to_skins(&mut self) {
-        for element in std::mem::take(&mut self.collected) {
+        for element in std::mem::take(&mut self.file.elements) {
             let is_solid = element.kind.dimension() == 3;
             let entity = match is_solid {
-                true => Entity::Element(self.collected.len()),
+                true => Entity::Element(self.file.elements.len()),
                 false => Entity::Skin(sorted(&element.nodes[..element.kind.corner_count()])),
             };
             self.entities.insert(element.label, entity);
-            self.collected.extend(is_solid.then_some(element));
+            self.file.elements.extend(is_solid.then_some(element));
         }
     }
 
@@ -277,7 +271,7 @@ impl<'a> Reader<'_, 'a> {
                     Entity::Element(place) => {
                         is_region = true;
                         if self.is_grouped.insert(*place) {
-                            self.collected[*place].region = Some(Arc::clone(&region));
+                            self.file.elements[*place].region = Arc::clone(&region);
                         }
                     }
                     Entity::Skin(corners) => match outer.get(corners) {

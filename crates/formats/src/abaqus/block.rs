@@ -1,7 +1,6 @@
 //! Keyword lines of an input file, each with its data lines.
 
-use crate::deck::{Deck, Place, quoted, real};
-use crate::file_mesh::{MeshFileError, Result};
+use crate::prelude::*;
 use std::ops::Deref;
 
 /// A keyword with its parameters and its data.

@@ -3,12 +3,7 @@
 use super::Reader;
 use super::block::{Row, Scoped};
 use super::interactions::unique;
-use crate::collection::{dimension, used_nodes};
-use crate::deck::{Place, quoted, real};
-use crate::file_mesh::Result;
-use crate::model_data::{FileCondition, FileConditionKind, FileMotion};
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use crate::prelude::*;
 
 /// Directions that words of `*BOUNDARY` hold; rotations mean nothing to solid elements.
 const WORDS: [(&str, [bool; 3]); 8] = [
@@ -146,8 +141,8 @@ impl Reader<'_, '_> {
 
     /// Conditions of the sets that are held; what has no meaning here is left out.
     fn take_held(&mut self, held: Held, transformed: &BTreeSet<u32>, referred: &BTreeSet<u32>) {
-        let in_plane = dimension(&self.collected) == 2;
-        let used = used_nodes(&self.collected);
+        let in_plane = dimension(&self.file.elements) == 2;
+        let used = used_nodes(&self.file.elements);
         for (key, (mut axes, place)) in held {
             let Some(set) = self.nodes.sets.get(&key).cloned() else {
                 continue;
@@ -240,7 +235,7 @@ impl Reader<'_, '_> {
                 "a speed and two points of the axis (3 + 3 numbers) expected");
             let nodes = self.items(&self.nodes, row, row.field(0))?;
             let nodes: BTreeSet<u32> = nodes.into_iter().collect();
-            let elements = self.collected.iter();
+            let elements = self.file.elements.iter();
             let is_inside = elements.map(|e| e.nodes.iter().all(|node| nodes.contains(node)));
             let is_inside: Vec<bool> = is_inside.collect();
             if !self.turn_regions(&is_inside, row, ([[a, b, c], [d, e, f]], speed, false)) {
@@ -259,19 +254,18 @@ impl Reader<'_, '_> {
         row: Row<'_>,
         (axis, angular_velocity, is_load): ([[f64; 3]; 2], f64, bool),
     ) -> bool {
-        let mut covers: BTreeMap<Option<Arc<str>>, bool> = BTreeMap::new();
-        for (element, is_inside) in self.collected.iter().zip(is_inside) {
+        let mut covers: BTreeMap<Arc<str>, bool> = BTreeMap::new();
+        for (element, is_inside) in self.file.elements.iter().zip(is_inside) {
             *covers.entry(element.region.clone()).or_insert(true) &= is_inside;
         }
-        let regions = covers.into_iter().filter(|c| c.1).filter_map(|c| c.0);
-        let regions: Vec<Arc<str>> = regions.collect();
-        for region in &regions {
+        covers.retain(|region, is_covered| *is_covered && !region.is_empty());
+        for region in covers.keys() {
             let motions = &mut self.file.model.motions;
             motions.retain(|motion| *motion.region != **region);
             let (region, place) = (region.to_string(), self.deck.name(row.place));
             motions.push(FileMotion { region, axis, angular_velocity, is_load, place });
         }
-        !regions.is_empty()
+        !covers.is_empty()
     }
 
     /// `*DLOAD`, `CENTRIF`: the squared speed at which elements turn, a point of the axis and its direction.
@@ -279,7 +273,7 @@ impl Reader<'_, '_> {
         let [square, a, b, c, d, e, f] = found!(row.all_numbers(2); row;
             "CENTRIF: the square of a speed, a point of the axis and its direction (1 + 3 + 3 numbers) expected");
         ensure!(square >= 0.0; row; "CENTRIF: the square of a speed is not negative");
-        let mut is_inside = vec![false; self.collected.len()];
+        let mut is_inside = vec![false; self.file.elements.len()];
         for element in self.items(&self.elements, row, row.field(0))? {
             is_inside[element] = true;
         }

@@ -3,10 +3,7 @@
 use super::Reader;
 use super::block::{Row, Scoped};
 use super::conditions::Held;
-use crate::collection::{dimension, used_nodes};
-use crate::deck::real;
-use crate::file_mesh::Result;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 /// A node or a set of them, an axis, a coefficient.
 type Term<N> = (N, usize, f64);
@@ -18,7 +15,7 @@ impl Reader<'_, '_> {
     /// Reads the equations, and returns the nodes without elements that are part of them. Those that are held vanish; nothing resists
     /// the others: the first equation says where one is, and those behind hold with that.
     pub(super) fn read_equations(&mut self, held: &Held) -> Result<BTreeSet<u32>> {
-        let used = used_nodes(&self.collected);
+        let used = used_nodes(&self.file.elements);
         let is_held = |reader: &Self, node: u32, axis: usize| {
             held.iter()
                 .any(|(set, own)| own.0[axis] && reader.nodes.sets[set].items.contains(&node))
@@ -57,7 +54,7 @@ impl Reader<'_, '_> {
             }
         }
         // A plane body has no use for them.
-        if dimension(&self.collected) == 2 && !self.file.equations.is_empty() {
+        if dimension(&self.file.elements) == 2 && !self.file.equations.is_empty() {
             self.file.equations.clear();
             let place =
                 self.blocks_of("EQUATION").next().map_or(self.deck.end(), |block| block.place);

@@ -2,10 +2,7 @@
 
 use super::Reader;
 use super::block::{Block, Row, Scoped};
-use crate::deck::quoted;
-use crate::file_mesh::Result;
-use crate::model_data::{FileContact, FileTie};
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 impl Reader<'_, '_> {
     /// Reads ties and contact pairs.

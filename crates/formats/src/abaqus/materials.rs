@@ -2,19 +2,14 @@
 
 use super::Reader;
 use super::block::Block;
-use crate::deck::real;
-use crate::file_mesh::Result;
-use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use crate::prelude::*;
 
 impl Reader<'_, '_> {
     /// Reads materials and sections: each element gets its region, each region its material.
     pub(super) fn read_materials(&mut self) -> Result<()> {
         let definitions = self.definitions()?;
         let orientations = self.orientations()?;
-        let mut is_sectioned = vec![false; self.collected.len()];
+        let mut is_sectioned = vec![false; self.file.elements.len()];
         for block in self.blocks_of("SOLID SECTION") {
             let name = block.required("ELSET")?;
             let set = self.elements.sets.get(&self.key(block.scope, name)).cloned();
@@ -22,10 +17,10 @@ impl Reader<'_, '_> {
             // The set is the region of its elements, each of which has one section.
             let region: Arc<str> = set.name.as_str().into();
             for &element in &set.items.iter().copied().collect::<BTreeSet<usize>>() {
-                let known = &mut self.collected[element];
+                let known = &mut self.file.elements[element];
                 ensure!(!std::mem::replace(&mut is_sectioned[element], true); block;
                     "element {} has two sections, the second by element set {name}", known.label);
-                known.region = Some(Arc::clone(&region));
+                known.region = Arc::clone(&region);
             }
             // Its material by name, in any case of letters.
             let Some(material) = block.parameter("MATERIAL") else {
@@ -159,48 +154,34 @@ fn turned_axes(a: Vector3<f64>, b: Vector3<f64>, extra: &[f64]) -> Option<[Vecto
 fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool> {
     let kind = block.parameter("TYPE").unwrap_or("ISOTROPIC").to_uppercase();
     let numbers = block.numbers(usize::MAX)?;
-    let name = &definition.name;
-    let few = |count: usize| {
-        let what = format!("*ELASTIC, TYPE={kind} of material {name}");
-        fault!(block; "{what} needs {count} numbers")
-    };
+    let what = format!("*ELASTIC, TYPE={kind} of material {}", definition.name);
     // What one temperature takes: one line, or two of more than eight numbers.
-    let (elasticity, lines) = match kind.as_str() {
-        "ISOTROPIC" | "ISO" => {
-            let &[young_modulus, poisson_ratio, ..] = numbers.as_slice() else {
-                return Err(few(2));
-            };
-            (FileElasticity::Isotropic { young_modulus, poisson_ratio }, 1)
+    let (count, lines) = match kind.as_str() {
+        "ISOTROPIC" | "ISO" => (2, 1),
+        "ENGINEERING CONSTANTS" | "ORTHOTROPIC" | "ORTHO" => (9, 2),
+        _ => refuse!(block; "{what} is not supported: give ENGINEERING CONSTANTS"),
+    };
+    let elasticity = match numbers.get(..count) {
+        Some(&[young_modulus, poisson_ratio]) => {
+            Some(FileElasticity::Isotropic { young_modulus, poisson_ratio })
         }
-        "ENGINEERING CONSTANTS" => {
-            let &[e1, e2, e3, n12, n13, n23, g12, g13, g23, ..] = numbers.as_slice() else {
-                return Err(few(9));
-            };
-            // E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
-            let constants = FileElasticity::Orthotropic {
+        // E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
+        Some(&[e1, e2, e3, n12, n13, n23, g12, g13, g23]) if kind == "ENGINEERING CONSTANTS" => {
+            Some(FileElasticity::Orthotropic {
                 young_moduli: [e1, e2, e3],
                 poisson_ratios: [n12, n13, n23],
                 shear_moduli: [g12, g13, g23],
                 axes: MaterialAxes::Global,
-            };
-            (constants, 2)
+            })
         }
-        "ORTHOTROPIC" | "ORTHO" => {
-            // D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323.
-            let &[d11, d12, d22, d13, d23, d33, g12, g13, g23, ..] = numbers.as_slice() else {
-                return Err(few(9));
-            };
+        // D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323.
+        Some(&[d11, d12, d22, d13, d23, d33, g12, g13, g23]) => {
             let normal = Matrix3::new(d11, d12, d13, d12, d22, d23, d13, d23, d33);
-            let shear_moduli = [g12, g13, g23];
-            let constants =
-                FileElasticity::of_stiffness(normal, shear_moduli, MaterialAxes::Global);
-            let constants = found!(constants; block;
-                "*ELASTIC, TYPE={kind} of material {name} is no stiffness: it is singular");
-            (constants, 2)
+            FileElasticity::of_stiffness(normal, [g12, g13, g23], MaterialAxes::Global)
         }
-        _ => refuse!(block;
-            "*ELASTIC, TYPE={kind} of material {name} is not supported: give ENGINEERING CONSTANTS"),
+        _ => refuse!(block; "{what} needs {count} numbers"),
     };
+    let elasticity = found!(elasticity; block; "{what} is no stiffness: it is singular");
     definition.elasticity = Some(elasticity); // Further lines are of other temperatures.
     Ok(block.data.len() > lines)
 }

@@ -19,14 +19,10 @@ mod scope;
 mod sets;
 mod surfaces;
 
-use super::collection::{CollectedElement, finished};
-use super::deck::{Deck, Place};
-use super::file_mesh::{FileMesh, MeshFileError, Result};
+use crate::prelude::*;
 use block::{Scoped, blocks};
-use frictionsim_bounds::Budget;
 use scope::{Layout, Scope, layout};
 use std::cell::RefCell;
-use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hash;
 
 /// A set under the name with which it was defined.
@@ -72,7 +68,6 @@ struct Reader<'d, 'a> {
     budget: RefCell<Budget>,
     scopes: Vec<Scope>,
     file: FileMesh,
-    collected: Vec<CollectedElement>,
     nodes: Numbered<u32>,
     elements: Numbered<usize>,
     /// Names of surfaces among those of the mesh file; none of one that was left out.
@@ -131,7 +126,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
         budget: RefCell::new(deck.budget.clone()),
         scopes,
         file: FileMesh::default(),
-        collected: Vec::new(),
         nodes: Numbered { what: "node", ..Numbered::default() },
         elements: Numbered { what: "element", ..Numbered::default() },
         surfaces: BTreeMap::new(),
@@ -148,10 +142,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     reader.read_materials()?;
     reader.read_interactions()?;
     reader.read_conditions()?;
-    ensure!(!reader.collected.is_empty(); deck, deck.end();
+    ensure!(!reader.file.elements.is_empty(); deck, deck.end();
         "the file has no solid or plane elements (*ELEMENT, TYPE=C3D10, C3D8, CPE4, ...)");
     reader.keep_node_sets();
-    Ok(finished(reader.file, reader.collected))
+    Ok(finished(reader.file))
 }
 
 impl<'d, 'a> Reader<'d, 'a> {

@@ -2,10 +2,7 @@
 
 use super::Reader;
 use super::block::{Row, Scoped};
-use crate::ElementKind;
-use crate::collection::CollectedElement;
-use crate::file_mesh::Result;
-use std::sync::Arc;
+use crate::prelude::*;
 
 /// An element type that has a counterpart here.
 struct ElementType {
@@ -157,8 +154,8 @@ impl Reader<'_, '_> {
         self.note_type(block, name, known)?;
         let region = block.parameter("ELSET");
         let region = region.map(|name| self.scopes[block.scope].full_name(name));
-        let region: Option<Arc<str>> = region.map(Into::into);
-        let first = self.collected.len();
+        let region: Arc<str> = region.map(Into::into).unwrap_or_default();
+        let first = self.file.elements.len();
         let (kind, count) = (known.kind, known.kind.node_count());
         let mut largest = 0;
         let mut rows = block.rows();
@@ -179,9 +176,10 @@ impl Reader<'_, '_> {
             largest = largest.max(numbers[0]);
             let nodes = self.element_nodes(start, &numbers)?;
             let label = numbers[0].saturating_add(offset);
-            self.collected.push(CollectedElement { label, kind, nodes, region: region.clone() });
+            let region = Arc::clone(&region);
+            self.file.elements.push(FileElement { label, kind, region, entity: 0, nodes });
         }
-        let items = (first..self.collected.len()).collect();
+        let items = (first..self.file.elements.len()).collect();
         self.elements.add(self.named_by(block, "ELSET"), items, false);
         Ok(largest)
     }
@@ -193,7 +191,7 @@ impl Reader<'_, '_> {
             nodes.push(*found!(self.nodes.known.get(&(row.scope, *node)); row;
                 "element {label} names node {node}, which the file does not have"));
         }
-        let known = self.elements.known.insert((row.scope, label), self.collected.len());
+        let known = self.elements.known.insert((row.scope, label), self.file.elements.len());
         ensure!(known.is_none(); row; "element {label} is given twice");
         Ok(nodes)
     }

@@ -1,10 +1,7 @@
 //! Parts, their instances, and the blocks that belong to each.
 
 use super::block::{Block, Row, Scoped};
-use crate::deck::{Deck, Place, quoted};
-use crate::file_mesh::Result;
-use nalgebra::{Rotation3, Unit, Vector3};
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 /// Copies of parts in one file: more are a mistake.
 const MOST_INSTANCES: usize = 10_000;

@@ -2,9 +2,7 @@
 
 use super::block::{Row, Scoped};
 use super::{Numbered, Reader};
-use crate::deck::{Place, quoted};
-use crate::file_mesh::Result;
-use std::collections::{BTreeSet, HashMap};
+use crate::prelude::*;
 
 /// The members of a set, or what it names before that is defined.
 type Members<T> = Result<Vec<T>, (Place, String)>;
@@ -63,7 +61,7 @@ impl Reader<'_, '_> {
         let Some(elements) = self.elements.sets.get(&self.key(block.scope, set)) else {
             return Ok(Err((block.place, set.to_owned())));
         };
-        let nodes = elements.items.iter().flat_map(|&e| &self.collected[e].nodes);
+        let nodes = elements.items.iter().flat_map(|&e| &self.file.elements[e].nodes);
         let nodes: BTreeSet<u32> = nodes.copied().collect();
         Ok(Ok(nodes.into_iter().collect()))
     }

@@ -2,10 +2,7 @@
 
 use super::Reader;
 use super::block::{Row, Scoped};
-use crate::SurfaceFace;
-use crate::collection::free_faces;
-use crate::deck::quoted;
-use crate::file_mesh::Result;
+use crate::prelude::*;
 
 impl Reader<'_, '_> {
     /// Reads all surfaces: faces of elements, and sets of nodes.
@@ -53,12 +50,12 @@ impl Reader<'_, '_> {
         let mut faces = Vec::new();
         for row in block.rows() {
             let elements = match row.field(0) {
-                "" => (0..self.collected.len()).collect(),
+                "" => (0..self.file.elements.len()).collect(),
                 set => self.items(&self.elements, row, set)?,
             };
             match row.field(1).to_uppercase().as_str() {
                 "" | "SPOS" | "SNEG" if elements.is_empty() => {}
-                "" => faces.extend(free_faces(&self.collected, &elements)),
+                "" => faces.extend(free_faces(&self.file.elements, &elements)),
                 side => {
                     for &element in &elements {
                         faces.push(self.side(element, side, row)?);
@@ -71,7 +68,7 @@ impl Reader<'_, '_> {
 
     /// Face `S<number>` of an element (`P<number>` in loads).
     pub(super) fn side(&self, element: usize, side: &str, row: Row<'_>) -> Result<SurfaceFace> {
-        let element = &self.collected[element];
+        let element = &self.file.elements[element];
         let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse::<usize>().ok());
         let face = number.and_then(|number| element.faces().nth(number.checked_sub(1)?));
         Ok(found!(face; row;

@@ -5,12 +5,8 @@
 mod cursor;
 mod versions;
 
-use super::ElementKind;
-use super::collection::edge_of;
-use super::file_mesh::{FileElement, FileMesh, MeshFileError, Result, SurfaceFace};
+use crate::prelude::*;
 use cursor::Cursor;
-use std::collections::BTreeMap;
-use std::sync::Arc;
 
 impl FileMesh {
     /// Reads a file.

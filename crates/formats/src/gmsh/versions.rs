@@ -1,6 +1,7 @@
 //! Entities, nodes and elements of MSH 2.2 and 4.1.
 
-use super::{Reader, Result};
+use super::Reader;
+use crate::prelude::*;
 
 /// Physical groups that one entity may belong to: every element of it is kept in each.
 const MOST_GROUPS: usize = 64;

@@ -1,9 +1,6 @@
 //! Cards of bulk data in small, large and free fields, and the case control before them.
 
-use crate::deck::{Deck, Place, quoted, real};
-use crate::file_mesh::{MeshFileError, Result};
-use std::collections::BTreeMap;
-
+use crate::prelude::*;
 /// One card: its name in capitals and its fields behind it, eight for each of its lines.
 pub(super) struct Card<'a> {
     deck: &'a Deck<'a>,

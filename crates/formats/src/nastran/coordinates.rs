@@ -1,10 +1,7 @@
 //! Coordinate systems: `CORD1R`, `CORD1C`, `CORD1S`, `CORD2R`, `CORD2C`, `CORD2S`.
 
 use super::card::Card;
-use crate::deck::{Deck, Place};
-use crate::file_mesh::Result;
-use nalgebra::{Matrix3, Vector3};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 /// How a system measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

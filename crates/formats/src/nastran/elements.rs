@@ -2,10 +2,7 @@
 
 use super::Reader;
 use super::card::Card;
-use crate::ElementKind;
-use crate::collection::{CollectedElement, outer_faces, sorted};
-use crate::file_mesh::{Result, SurfaceFace};
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 impl Reader<'_, '_> {
     pub(super) fn read_elements(&mut self) -> Result<()> {
@@ -41,11 +38,11 @@ impl Reader<'_, '_> {
         }
         let mut beyond = fields.iter().skip(count);
         ensure!(beyond.all(|field| field.is_empty()); card; "{owner} has more than {count} nodes");
-        let known = self.elements.insert(label, self.collected.len());
+        let known = self.elements.insert(label, self.file.elements.len());
         ensure!(known.is_none(); card; "element {label} is given twice");
-        let region = Some(self.region(property.unsigned_abs() as usize).into());
+        let region = self.region(property.unsigned_abs() as usize).into();
         let nodes = kind.row().nastran.arranged(&listed);
-        self.collected.push(CollectedElement { label, kind, nodes, region });
+        self.file.elements.push(FileElement { label, kind, region, entity: 0, nodes });
         Ok(())
     }
 
@@ -68,7 +65,7 @@ impl Reader<'_, '_> {
         };
         let skins = self.cards.iter().filter_map(|card| Some((card, corners_of(card)?)));
         let mut skins = skins.peekable();
-        let faces = skins.peek().map(|_| outer_faces(&self.collected)).unwrap_or_default();
+        let faces = skins.peek().map(|_| outer_faces(&self.file.elements)).unwrap_or_default();
         let mut surfaces: BTreeMap<usize, Vec<SurfaceFace>> = BTreeMap::new();
         for (card, count) in skins {
             let owner = format!("{} {}", card.name, card.number(0)?);
@@ -100,7 +97,7 @@ impl Reader<'_, '_> {
             for first in entries.filter(|&first| !card.field(first).is_empty()) {
                 let element = self.solid(card, first)?;
                 let node = |k: usize| self.node(card, first + k, &name);
-                let face = self.collected[element].face_with(&[node(1)?, node(2)?, node(3)?]);
+                let face = self.file.elements[element].face_with(&[node(1)?, node(2)?, node(3)?]);
                 let face = found!(face; card; "{name}: its nodes are on no face of the element");
                 self.file.surfaces.entry(name.clone()).or_default().push(face);
             }

@@ -2,11 +2,7 @@
 
 use super::Reader;
 use super::card::Card;
-use crate::collection::{CollectedElement, used_nodes};
-use crate::deck::{Place, quoted};
-use crate::file_mesh::{Result, SurfaceFace};
-use crate::model_data::{FileCondition, FileConditionKind};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 /// Sets of constraints or loads by their numbers.
 type Sets = BTreeSet<usize>;
@@ -86,7 +82,7 @@ impl Reader<'_, '_> {
     }
 
     fn take_held(&mut self, held: Held, active: Option<&Sets>) {
-        let used = used_nodes(&self.collected);
+        let used = used_nodes(&self.file.elements);
         for ((set, directions), (nodes, place)) in held {
             let nodes: Vec<u32> = nodes.into_iter().filter(|node| used.contains(node)).collect();
             let name = format!("SPC_{set}_{directions}");
@@ -175,7 +171,7 @@ impl Reader<'_, '_> {
     /// The face that `G1` and `G3` or `G4` name: opposite corners of a quadrilateral; of a triangular face of a wedge `G1` alone,
     /// of a pyramid its two corners on the base; of a tetrahedron a corner of the face and the corner that is not on it.
     fn loaded_face(&self, card: &Card<'_>, element: usize) -> Result<SurfaceFace> {
-        let element = &self.collected[element];
+        let element = &self.file.elements[element];
         let first = self.node(card, 6, "PLOAD4")?;
         let has_second = card.optional_int(7)?.is_some();
         let second = has_second.then(|| self.node(card, 7, "PLOAD4")).transpose()?;
@@ -200,7 +196,7 @@ fn directions(card: &Card<'_>, field: usize) -> Result<String> {
 }
 
 /// The face on which two nodes are opposite corners.
-fn with_diagonal(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFace> {
+fn with_diagonal(element: &FileElement, ends: [u32; 2]) -> Option<SurfaceFace> {
     element.face_with(&ends).filter(|face| {
         let corners = &face.1[..face.0.corner_count()];
         let place = |node| corners.iter().position(|&corner| corner == node);
@@ -210,21 +206,21 @@ fn with_diagonal(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFa
 }
 
 /// The triangular face of a pyramid that stands on an edge of its base.
-fn sloping(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFace> {
+fn sloping(element: &FileElement, ends: [u32; 2]) -> Option<SurfaceFace> {
     let apex = element.nodes[4];
     let face = element.face_with(&[ends[0], ends[1], apex]);
     face.filter(|_| ends[0] != ends[1] && !ends.contains(&apex))
 }
 
 /// The face of a tetrahedron that lies opposite a corner.
-fn opposite(element: &CollectedElement, apex: u32) -> Option<SurfaceFace> {
+fn opposite(element: &FileElement, apex: u32) -> Option<SurfaceFace> {
     let corners = element.nodes[..4].iter().copied();
     let others: Vec<u32> = corners.filter(|&node| node != apex).collect();
     (others.len() == 3).then(|| element.face_with(&others)).flatten()
 }
 
 /// The triangular face of a wedge on which a corner lies.
-fn triangle(element: &CollectedElement, corner: u32) -> Option<SurfaceFace> {
+fn triangle(element: &FileElement, corner: u32) -> Option<SurfaceFace> {
     let nodes = &element.nodes;
     let end = [&nodes[..3], &nodes[3..6]].into_iter().find(|end| end.contains(&corner))?;
     element.face_with(end)

@@ -14,12 +14,9 @@ mod elements;
 mod loads;
 mod properties;
 
-use super::collection::{CollectedElement, finished};
-use super::deck::{Deck, Place};
-use super::file_mesh::{FileMesh, Result};
+use crate::prelude::*;
 use card::{Card, Control, cards, without_tabs};
 use coordinates::Coordinates;
-use std::collections::{BTreeSet, HashMap};
 
 /// Cards that are read here, and those that say nothing about the model.
 const KNOWN: [&str; 28] = [
@@ -43,7 +40,6 @@ struct Reader<'d, 'a> {
     control: Control,
     coordinates: Coordinates<'d, 'a>,
     file: FileMesh,
-    collected: Vec<CollectedElement>,
     nodes: HashMap<usize, u32>,
     elements: HashMap<usize, usize>,
     /// Numbers of nodes whose degrees of freedom are along axes of their own.
@@ -64,7 +60,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
         control,
         coordinates: Coordinates::new(&deck, &cards)?,
         file: FileMesh::default(),
-        collected: Vec::new(),
         nodes: HashMap::new(),
         elements: HashMap::new(),
         turned: BTreeSet::new(),
@@ -73,13 +68,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh> {
     reader.list_unknown();
     reader.read_nodes()?;
     reader.read_elements()?;
-    ensure!(!reader.collected.is_empty(); deck, deck.end();
+    ensure!(!reader.file.elements.is_empty(); deck, deck.end();
         "the file has no solid elements (CTETRA, CHEXA, CPENTA, CPYRAM)");
     reader.read_properties()?;
     reader.read_skins()?;
     reader.read_supports()?;
     reader.read_pressures()?;
-    Ok(finished(reader.file, reader.collected))
+    Ok(finished(reader.file))
 }
 
 /// The file that a line includes.

@@ -2,9 +2,7 @@
 
 use super::Reader;
 use super::card::Card;
-use crate::file_mesh::Result;
-use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
-use nalgebra::Matrix3;
+use crate::prelude::*;
 
 impl Reader<'_, '_> {
     /// Materials of the regions that have elements.
@@ -13,8 +11,7 @@ impl Reader<'_, '_> {
             let property = card.number(0)?;
             let number = card.number(1)?;
             let region = self.region(property); // Of no elements that are read there is no region.
-            let elements = self.collected.iter();
-            if !elements.filter_map(|e| e.region.as_deref()).any(|other| other == region) {
+            if self.file.elements.iter().all(|element| *element.region != *region) {
                 continue;
             }
             // CORDM says along which axes MAT9 has its stiffness.
