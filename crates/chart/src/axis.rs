@@ -1,8 +1,6 @@
 //! Specification of an axis, before the data are known.
 
-use super::ruler::Tick;
-use super::{Ruler, Scale, extremes, prefixed};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// How the ends of an axis follow from the data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -1,12 +1,6 @@
 //! Ranges of values shown by colours, and the bars that tell which colour is which value.
 
-use super::frame::{on_sheet, vertical_count};
-use super::ruler::widest;
-use super::{
-    Anchor, Axis, ColourMap, INK, IndexedImage, LABEL_SIZE, Palette, Rect, Ruler, Stroke, Svg,
-    TITLE_SIZE, TextStyle, extremes,
-};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// Room that a flat bar needs below its top, points.
 pub(super) const FLAT_BAR_HEIGHT: f64 = LABEL_SIZE + TITLE_SIZE + 14.0;
@@ -91,9 +85,7 @@ impl Colours {
             svg.text(x, bar.bottom() + LABEL_SIZE + 3.0, &tick.label, &style);
         }
         let baseline = bar.bottom() + LABEL_SIZE + TITLE_SIZE + 6.0;
-        let style = TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle);
-        let title = ruler.full_title();
-        let middle = on_sheet(svg, bar.x + 0.5 * bar.width, &title, TITLE_SIZE);
-        svg.text(middle, baseline, &title, &style);
+        let (middle, title) = (bar.x + 0.5 * bar.width, ruler.full_title());
+        svg.centred(middle, baseline, &title, &TextStyle::new(TITLE_SIZE));
     }
 }

@@ -1,8 +1,6 @@
 //! The numbers behind a figure, for readers who can do more than look: zoom, values under the pointer, tables, motion.
 
-use super::packed::{Levels, lists, whole};
-use super::{Colour, Ruler};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// The numbers of a panel.
 #[derive(Clone, Debug)]

@@ -80,8 +80,6 @@ pub fn simplify(points: &[(f64, f64)], tolerance: f64) -> Vec<(f64, f64)> {
         return points.to_vec();
     }
     let mut keep = vec![false; points.len()];
-    keep[0] = true;
-    keep[points.len() - 1] = true;
     // Blocks bound the cost on long, tightly wound curves.
     const BLOCK: usize = 256;
     let mut stack: Vec<(usize, usize)> = (0..points.len() - 1)

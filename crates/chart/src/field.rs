@@ -1,13 +1,6 @@
 //! A nodal field over a (deformed) mesh as a small image with sharp outlines.
 
-use super::decimation::{INVISIBLE, simplify};
-use super::packed::{Levels, lists};
-use super::{
-    Axis, ColourMap, Colours, Frame, INK, IndexedImage, Layer, Palette, Path, Series, SeriesKind,
-    Stroke, Svg, extremes, plain,
-};
-use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use crate::prelude::*;
 
 /// What a field is drawn over: elements and boundary curves, by the nodes they have.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -131,23 +124,18 @@ impl Layer for Field {
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
         let palette = Palette::of_map(self.colours.map, self.levels);
         self.rasterize(frame, &palette).draw(svg, &frame.area, &palette, false);
-        let mut lines = Path::new();
-        for line in &self.mesh.lines {
-            // A fine bright line needs no hundredths.
-            let tenths =
-                |(x, y): (f64, f64)| ((10.0 * x).round() / 10.0, (10.0 * y).round() / 10.0);
-            lines.extend(simplify(&self.curve(line, frame), 0.12).into_iter().map(tenths));
-        }
-        svg.path(&lines, &Stroke::solid("#ffffff", 0.3).with_opacity(0.45));
+        // A fine bright line needs no hundredths.
+        let tenths = |(x, y): (f64, f64)| ((10.0 * x).round() / 10.0, (10.0 * y).round() / 10.0);
+        let lines = self.mesh.lines.iter();
+        let lines =
+            lines.map(|line| simplify(&self.curve(line, frame), 0.12).into_iter().map(tenths));
+        svg.path(&Path::of(lines, false), &Stroke::solid("#ffffff", 0.3).with_opacity(0.45));
     }
 
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
-        let mut outlines = Path::new();
-        for outline in self.mesh.outlines.iter().filter(|outline| !outline.is_empty()) {
-            outlines.extend(simplify(&self.curve(outline, frame), INVISIBLE));
-            outlines.close();
-        }
-        svg.path(&outlines, &Stroke::solid(INK, 0.6));
+        let outlines = self.mesh.outlines.iter();
+        let outlines = outlines.map(|outline| simplify(&self.curve(outline, frame), INVISIBLE));
+        svg.path(&Path::of(outlines, true), &Stroke::solid(INK, 0.6));
     }
 
     fn colours(&self) -> Option<&Colours> {

@@ -1,9 +1,7 @@
 //! A figure: panels in a grid, in reading order.
 
 use super::layout::{Grid, Layout, letter};
-use super::svg::POINTS_PER_MM;
-use super::{Axis, ChartError, ColourMap, Colours, Motion, Panel, PanelData, Steps, Svg, plain};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// Width across two columns of a journal page, mm.
 const TWO_COLUMNS: f64 = 178.0;

@@ -1,7 +1,6 @@
 //! Frame of a panel: the area of the data and the axes around it.
 
-use super::ruler::Tick;
-use super::{Anchor, GRID, INK, Path, Rect, Ruler, Stroke, Svg, TextStyle, text};
+use crate::prelude::*;
 
 /// Size of axis titles, points.
 pub const TITLE_SIZE: f64 = 7.5;
@@ -30,6 +29,16 @@ impl Frame {
     /// Vertical position of a value.
     pub fn at_y(&self, value: f64) -> f64 {
         self.area.bottom() - self.area.height * bounded(self.y.fraction(value))
+    }
+
+    /// Horizontal position of a value in the unit shown.
+    fn along_x(&self, value: f64) -> f64 {
+        self.area.x + self.area.width * self.x.place(value)
+    }
+
+    /// Vertical position of a value in the unit shown.
+    fn along_y(&self, value: f64) -> f64 {
+        self.area.bottom() - self.area.height * self.y.place(value)
     }
 
     /// Position of a point.
@@ -67,16 +76,12 @@ pub(super) fn vertical_count(height: f64) -> usize {
 }
 
 pub(super) fn draw_grid(svg: &mut Svg, frame: &Frame, [x, y]: &[Vec<Tick>; 2]) {
-    let (area, mut lines) = (&frame.area, Path::new());
-    for tick in x {
-        let x = area.x + area.width * frame.x.place(tick.value);
-        lines.extend([(x, area.y), (x, area.bottom())]);
-    }
-    for tick in y {
-        let y = area.bottom() - area.height * frame.y.place(tick.value);
-        lines.extend([(area.x, y), (area.right(), y)]);
-    }
-    svg.path(&lines, &Stroke::solid(GRID, 0.4));
+    let area = &frame.area;
+    let upright = x.iter().map(|tick| frame.along_x(tick.value));
+    let upright = upright.map(|x| [(x, area.y), (x, area.bottom())]);
+    let flat = y.iter().map(|tick| frame.along_y(tick.value));
+    let flat = flat.map(|y| [(area.x, y), (area.right(), y)]);
+    svg.path(&Path::of(upright.chain(flat), false), &Stroke::solid(GRID, 0.4));
 }
 
 /// Draws small ticks and those with labels, each as `mark` has it for a value in the unit shown and a length.
@@ -86,11 +91,9 @@ fn draw_ticks(
     ticks: &[Tick],
     mark: impl Fn(f64, f64) -> [(f64, f64); 2],
 ) {
-    let mut marks = Path::new();
     let minor = ruler.minor_ticks().into_iter().map(|value| mark(value, 0.6 * TICK));
     let labelled = ticks.iter().map(|tick| mark(tick.value, TICK));
-    minor.chain(labelled).for_each(|ends| marks.extend(ends));
-    svg.path(&marks, &Stroke::solid(INK, 0.6));
+    svg.path(&Path::of(minor.chain(labelled), false), &Stroke::solid(INK, 0.6));
 }
 
 /// Most that the title of an axis may shrink to stay beside it.
@@ -98,40 +101,33 @@ const SMALLEST_TITLE: f64 = 0.7;
 
 pub(super) fn draw_x_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], labels: bool) {
     let (area, bottom) = (&frame.area, frame.area.bottom());
-    let at = |value: f64| area.x + area.width * frame.x.place(value);
-    let mark = |value: f64, length: f64| [(at(value), bottom), (at(value), bottom + length)];
-    draw_ticks(svg, &frame.x, ticks, mark);
+    draw_ticks(svg, &frame.x, ticks, |value, length| {
+        [bottom, bottom + length].map(|y| (frame.along_x(value), y))
+    });
     if !labels {
         return;
     }
-    let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::Middle);
+    let style = TextStyle::new(LABEL_SIZE);
     for tick in ticks {
-        let place = on_sheet(svg, at(tick.value), &tick.label, LABEL_SIZE);
-        svg.text(place, bottom + TICK + LABEL_SIZE + 1.0, &tick.label, &style);
+        let baseline = bottom + TICK + LABEL_SIZE + 1.0;
+        svg.centred(frame.along_x(tick.value), baseline, &tick.label, &style);
     }
     let baseline = bottom + TICK + LABEL_SIZE + TITLE_SIZE + 4.0;
-    let style = TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle);
-    let title = frame.x.full_title();
-    let middle = on_sheet(svg, area.x + 0.5 * area.width, &title, TITLE_SIZE);
-    svg.text(middle, baseline, &title, &style);
-}
-
-/// The middle of a text, moved as little as keeps the text on the sheet.
-pub(super) fn on_sheet(svg: &Svg, middle: f64, markup: &str, size: f64) -> f64 {
-    let half = 0.5 * text::width(markup, size, false) + 1.0;
-    middle.min(svg.width() - half).max(half)
+    let (middle, title) = (area.x + 0.5 * area.width, frame.x.full_title());
+    svg.centred(middle, baseline, &title, &TextStyle::new(TITLE_SIZE));
 }
 
 /// Draws the vertical axis, with labels where its title has a distance.
 pub(super) fn draw_y_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], title: Option<f64>) {
     let (area, left) = (&frame.area, frame.area.x);
-    let at = |value: f64| area.bottom() - area.height * frame.y.place(value);
-    let mark = |value: f64, length: f64| [(left, at(value)), (left - length, at(value))];
-    draw_ticks(svg, &frame.y, ticks, mark);
+    draw_ticks(svg, &frame.y, ticks, |value, length| {
+        [left, left - length].map(|x| (x, frame.along_y(value)))
+    });
     let Some(distance) = title else { return };
     let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::End);
     for tick in ticks {
-        svg.text(left - TICK - 1.8, at(tick.value) + 0.36 * LABEL_SIZE, &tick.label, &style);
+        let baseline = frame.along_y(tick.value) + 0.36 * LABEL_SIZE;
+        svg.text(left - TICK - 1.8, baseline, &tick.label, &style);
     }
     // A title that is longer than its axis would run into that of the panel below.
     let title = frame.y.full_title();

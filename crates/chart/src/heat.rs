@@ -1,7 +1,6 @@
 //! Heat maps, maps of states.
 
-use super::{Axis, ColourMap, Colours, Frame, IndexedImage, Key, Layer, Palette, Svg};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// Values over a grid of equal cells, as colours.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

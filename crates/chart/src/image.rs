@@ -1,7 +1,6 @@
 //! Small images inside drawings: palettes, and pixels in their colours.
 
-use super::{Colour, ColourMap, Frame, Rect, Svg};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// Colours of an image by index; one index more is transparent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

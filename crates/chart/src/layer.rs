@@ -1,10 +1,6 @@
 //! Layers drawn between two axes.
 
-use super::{
-    Bars, Colours, Field, Fill, Frame, Heat, Key, Label, Line, Points, Rule, Series, Shapes,
-    Surface, Svg,
-};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// A side of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

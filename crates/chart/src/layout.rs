@@ -1,13 +1,8 @@
 //! Layout of the panels of a figure: a grid whose data areas line up.
 
-use serde::{Deserialize, Serialize};
-
 mod placed;
 
-use super::colour_bar::FLAT_BAR_HEIGHT;
-use super::legend::Legend;
-use super::svg::POINTS_PER_MM;
-use super::{Colours, Frame, MUTED, Panel, Rect, Ruler, Svg, TITLE_SIZE, TextStyle, text};
+use crate::prelude::*;
 
 /// Distance of everything from the rim, points.
 const RIM: f64 = 4.0;
@@ -88,7 +83,7 @@ pub(super) struct Layout<'a> {
     /// Whether panels stand one below the other that were meant to stand side by side.
     is_stacked: bool,
     legend: Legend,
-    legend_place: (f64, f64),
+    legend_left: f64,
     bottom: f64,
     width: f64,
 }
@@ -106,14 +101,14 @@ impl<'a> Layout<'a> {
         let columns = columns.max(if are_pictures { 2 } else { 1 });
         // Panels that were not meant to stand below each other have axes of their own.
         let shares = [grid.shares[0] && columns == grid.columns, grid.shares[1]];
-        let mut placed = place_cells(grid, columns, is_narrow);
-        resolve_axes(shares, &mut placed);
+        let cells = cells_of(grid, columns, is_narrow);
+        let placed = (0..cells.len()).map(|index| with_axes(shares, &cells, index)).collect();
         let mut layout = Self {
             grid,
             placed,
             is_stacked: is_narrow && columns == 1 && !shares[0],
             legend: Legend::default(),
-            legend_place: (RIM, RIM),
+            legend_left: RIM,
             bottom: 0.0,
             width,
         };
@@ -128,7 +123,6 @@ impl<'a> Layout<'a> {
     fn place_columns(&mut self, columns: usize) {
         let width = self.width;
         for cell in &mut self.placed {
-            cell.left = cell.panel.left_need(&cell.frame.y, cell.labels[1]);
             cell.are_names_inside =
                 columns == 1 && cell.panel.names_width() > MOST_FOR_NAMES * width;
         }
@@ -185,12 +179,12 @@ impl<'a> Layout<'a> {
         }
         let left = self.placed.iter().filter(|cell| cell.column == 0);
         let left = left.map(|cell| cell.left).reduce(f64::min);
-        self.legend_place.0 = RIM + left.unwrap_or(0.0);
+        self.legend_left = RIM + left.unwrap_or(0.0);
     }
 
     /// Heights: as the columns, with captions and legends above each panel.
     fn place_rows(&mut self) {
-        let room = self.width - self.legend_place.0 - RIM;
+        let room = self.width - self.legend_left - RIM;
         let mut y = RIM + self.legend.height(room) + if self.legend.is_empty() { 0.0 } else { 3.0 };
         let rows = self.placed.iter().map(|cell| cell.row + cell.span).max().unwrap_or(0);
         let letters = self.has_letters();
@@ -221,8 +215,8 @@ impl<'a> Layout<'a> {
 
     /// Draws the figure and sets its height.
     pub fn draw(&self, svg: &mut Svg) {
-        let room = self.width - self.legend_place.0 - RIM;
-        self.legend.draw(svg, self.legend_place, room);
+        let room = self.width - self.legend_left - RIM;
+        self.legend.draw(svg, (self.legend_left, RIM), room);
         for (index, cell) in self.placed.iter().enumerate() {
             let names = (cell.left - TITLE_SIZE, cell.are_names_inside);
             cell.panel.draw(svg, &cell.frame, cell.labels, names);
@@ -259,10 +253,13 @@ impl<'a> Layout<'a> {
     }
 }
 
+/// A panel with its row, its column and the number of rows that it stands beside, and the ranges of its data.
+type Cell<'a> = (&'a Panel, [usize; 3], [Option<(f64, f64)>; 2]);
+
 /// Fills the grid row by row; a panel beside several rows keeps its column in all of them.
-fn place_cells(grid: &Grid, columns: usize, is_narrow: bool) -> Vec<Placed<'_>> {
+fn cells_of(grid: &Grid, columns: usize, is_narrow: bool) -> Vec<Cell<'_>> {
     let mut taken: Vec<(usize, usize)> = Vec::new();
-    let mut placed = Vec::new();
+    let mut cells = Vec::new();
     let mut next = 0;
     for cell in &grid.cells {
         while taken.contains(&(next / columns, next % columns)) {
@@ -273,52 +270,42 @@ fn place_cells(grid: &Grid, columns: usize, is_narrow: bool) -> Vec<Placed<'_>> 
             Some(panel) => {
                 let span = if is_narrow { 1 } else { panel.span };
                 taken.extend((row..row + span).map(|row| (row, column)));
-                let frame = Frame {
-                    area: Rect::new(0.0, 0.0, 0.0, 0.0),
-                    x: panel.x.resolve(None),
-                    y: panel.y.resolve(None),
-                };
-                placed.push(Placed {
-                    panel,
-                    row,
-                    column,
-                    span,
-                    labels: [true; 2],
-                    frame,
-                    legend: Legend::default(),
-                    part: (0.0, 0.0),
-                    left: 0.0,
-                    are_names_inside: false,
-                });
+                cells.push((panel, [row, column, span], panel.ranges()));
             }
             None if is_narrow => continue,
             None => taken.push((row, column)),
         }
         next += 1;
     }
-    placed
+    cells
 }
 
-/// Ends of all axes, and which of them are labelled: of shared ones the lowest and the leftmost.
-fn resolve_axes(shares: [bool; 2], placed: &mut [Placed<'_>]) {
-    let ranges: Vec<_> = placed.iter().map(|cell| cell.panel.ranges()).collect();
-    let cells: Vec<(usize, usize)> = placed.iter().map(|cell| (cell.row, cell.column)).collect();
-    let union = |all: &mut dyn Iterator<Item = Option<(f64, f64)>>| {
-        all.flatten().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+/// The panel of a cell with the ends of its axes, of shared ones over the data of all that share them, and which are
+/// labelled: of shared ones the lowest and the leftmost.
+fn with_axes<'a>(shares: [bool; 2], cells: &[Cell<'a>], index: usize) -> Placed<'a> {
+    let (panel, place @ [row, column, span], _) = cells[index];
+    let range = |axis: usize| {
+        let are_together = |other: [usize; 3]| shares[axis] && other[1 - axis] == place[1 - axis];
+        let own = cells.iter().filter(|cell| cell.1 == place || are_together(cell.1));
+        let ranges = own.filter_map(|cell| cell.2[axis]);
+        ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     };
-    for (index, cell) in placed.iter_mut().enumerate() {
-        let together = |other: usize, axis: usize| match axis {
-            0 => shares[0] && cells[other].1 == cell.column,
-            _ => shares[1] && cells[other].0 == cell.row,
-        };
-        let range = |axis: usize| {
-            let own = (0..ranges.len()).filter(|&other| other == index || together(other, axis));
-            union(&mut own.map(|other| ranges[other][axis]))
-        };
-        let rulers: [Ruler; 2] = [cell.panel.x.resolve(range(0)), cell.panel.y.resolve(range(1))];
-        let below = cells.iter().any(|other| *other == (cell.row + cell.span, cell.column));
-        let before = cells.iter().any(|other| other.0 == cell.row && other.1 < cell.column);
-        cell.labels = [!(shares[0] && below), !(shares[1] && before)];
-        [cell.frame.x, cell.frame.y] = rulers;
+    let (x, y) = (panel.x.resolve(range(0)), panel.y.resolve(range(1)));
+    let is_below = |other: [usize; 3]| other[..2] == [row + span, column];
+    let is_before = |other: [usize; 3]| other[0] == row && other[1] < column;
+    let has_below = cells.iter().any(|cell| is_below(cell.1));
+    let has_before = cells.iter().any(|cell| is_before(cell.1));
+    let labels = [!(shares[0] && has_below), !(shares[1] && has_before)];
+    Placed {
+        panel,
+        row,
+        column,
+        span,
+        labels,
+        left: panel.left_need(&y, labels[1]),
+        frame: Frame { area: Rect::new(0.0, 0.0, 0.0, 0.0), x, y },
+        legend: Legend::default(),
+        part: (0.0, 0.0),
+        are_names_inside: false,
     }
 }

@@ -1,7 +1,6 @@
 //! Legends.
 
-use super::{Colour, INK, LABEL_SIZE, Marker, Path, Stroke, Svg, TextStyle, text};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// What stands before the name of a legend entry: any of a line, a data point, a filled patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -38,6 +38,7 @@ mod packed;
 mod panel;
 mod path;
 mod pdf;
+mod prelude;
 mod raster;
 mod ruler;
 mod shapes;
@@ -68,12 +69,6 @@ pub use shapes::{Bars, Fill, Shapes};
 pub use surface::{Surface, SurfaceMesh};
 pub use svg::{ID_PREFIX, Rect, Stroke, Svg, escape};
 pub use text::{Anchor, TextStyle, literal, plain};
-
-// What layers are made with.
-pub(crate) use colour_bar::Colours;
-pub(crate) use frame::{LABEL_SIZE, TITLE_SIZE};
-pub(crate) use image::IndexedImage;
-pub(crate) use layer::Layer;
 
 /// A figure that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

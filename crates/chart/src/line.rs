@@ -1,11 +1,6 @@
 //! Curves and data points, their markers, and the looks by which series are told apart.
 
-use super::decimation::{COLUMNS_PER_POINT, INVISIBLE, lasting, simplify};
-use super::{
-    Colour, Frame, INK, Key, Layer, Path, SERIES, Series, SeriesKind, Stroke, Svg, keep_extremes,
-    plain,
-};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// A curve; one with rising abscissae is thinned with its extremes kept, values that are not finite break it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -94,11 +89,7 @@ impl Layer for Line {
     }
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
-        let mut path = Path::new();
-        for piece in self.pieces(frame) {
-            path.extend(piece);
-        }
-        svg.path(&path, &self.stroke);
+        svg.path(&Path::of(self.pieces(frame), false), &self.stroke);
     }
 
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
@@ -106,11 +97,9 @@ impl Layer for Line {
             marker.draw(svg, frame.inside(self.points()), radius, self.stroke.colour);
         }
         if self.arrows > 0 {
-            let mut heads = Path::new();
-            for piece in self.pieces(frame) {
-                arrow_heads(&mut heads, &piece, self.arrows);
-            }
-            svg.fill_path(&heads, INK, 1.0);
+            let pieces = self.pieces(frame).into_iter();
+            let heads = pieces.flat_map(|piece| arrow_heads(&piece, self.arrows));
+            svg.fill_path(&Path::of(heads, true), INK, 1.0);
         }
     }
 
@@ -144,7 +133,8 @@ fn exported_name(label: Option<&String>, name: Option<&String>) -> String {
 }
 
 /// An arrow head on the longest step of each part of a curve: which way it is run through.
-fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
+fn arrow_heads(points: &[(f64, f64)], count: usize) -> Vec<[(f64, f64); 3]> {
+    let mut heads = Vec::new();
     let steps: Vec<_> = points.windows(2).map(|pair| (pair[0], pair[1])).collect();
     let length = |((ax, ay), (bx, by)): ((f64, f64), (f64, f64))| (bx - ax).hypot(by - ay);
     for part in steps.chunks(steps.len().div_ceil(count).max(1)) {
@@ -162,9 +152,9 @@ fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
             let (along, across) = (size * along, size * across);
             (x + along * dx - across * dy, y + along * dy + across * dx)
         };
-        path.extend([corner(3.2, 0.0), corner(-2.4, 2.1), corner(-2.4, -2.1)]);
-        path.close();
+        heads.push([corner(3.2, 0.0), corner(-2.4, 2.1), corner(-2.4, -2.1)]);
     }
+    heads
 }
 
 /// Data points, whole even at the ends of an axis.
@@ -260,9 +250,9 @@ impl Marker {
     pub const ALL: [Self; 5] =
         [Self::Disc, Self::Square, Self::Triangle, Self::Diamond, Self::Circle];
 
-    /// Adds the outline to a path.
-    fn outline(self, path: &mut Path, (x, y): (f64, f64), radius: f64) {
-        let corners = match self {
+    /// The corners of its outline, for the radius 1.
+    fn outline(self) -> Vec<(f64, f64)> {
+        match self {
             Self::Disc | Self::Circle => {
                 let angle = |i: u8| f64::from(i) * std::f64::consts::TAU / 16.0;
                 (0..16).map(|i| angle(i).sin_cos()).collect()
@@ -270,9 +260,7 @@ impl Marker {
             Self::Square => vec![(0.88, 0.88), (-0.88, 0.88), (-0.88, -0.88), (0.88, -0.88)],
             Self::Triangle => vec![(0.0, -1.2), (1.05, 0.75), (-1.05, 0.75)],
             Self::Diamond => vec![(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)],
-        };
-        path.extend(corners.iter().map(|(dx, dy)| (x + radius * dx, y + radius * dy)));
-        path.close();
+        }
     }
 
     /// Draws markers at points of the drawing; one path for all of them.
@@ -287,10 +275,10 @@ impl Marker {
             svg.discs(&Path::dots(places), 2.0 * radius, colour);
             return;
         }
-        let mut path = Path::new();
-        for place in places {
-            self.outline(&mut path, place, radius);
-        }
+        let corners = self.outline();
+        let around =
+            |(x, y)| corners.iter().map(move |(dx, dy)| (x + radius * dx, y + radius * dy));
+        let path = Path::of(places.into_iter().map(around), true);
         if self == Self::Circle {
             svg.fill_path(&path, "#ffffff", 1.0);
             svg.path(&path, &Stroke::solid(colour, 0.7));

@@ -1,10 +1,6 @@
 //! Rules and labels that data are compared with.
 
-use super::frame::on_sheet;
-use super::{
-    Anchor, Frame, INK, Key, LABEL_SIZE, Layer, MUTED, Side, Stroke, Svg, TextStyle, text,
-};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// A line across the panel at one value.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -15,7 +11,8 @@ pub struct Rule {
     stretches: bool,
     pub(super) name: Option<String>,
     beside: Option<String>,
-    rim: Option<String>,
+    /// Its text beyond the frame: of a horizontal one at the right, else above.
+    pub(super) rim: Option<String>,
 }
 
 impl Rule {
@@ -32,12 +29,6 @@ impl Rule {
     /// A dashed line at an abscissa.
     pub fn vertical(value: f64) -> Self {
         Self::new(value, false)
-    }
-
-    /// Its place on an axis, where that is named beyond the frame.
-    pub(super) fn rim_label(&self) -> Option<(Side, f64, &str)> {
-        let side = if self.is_horizontal { Side::Right } else { Side::Above };
-        Some((side, self.value, self.rim.as_deref()?))
     }
 
     /// Where it lies in the drawing, if the axis reaches it.
@@ -191,21 +182,17 @@ pub(super) fn spread(wanted: &[f64], gap: f64, low: f64, high: f64) -> Vec<f64> 
 pub(super) fn draw_rim_labels(
     svg: &mut Svg,
     frame: &Frame,
-    labels: &[(Side, f64, &str)],
+    labels: &[(&Rule, &str)],
     is_inside: bool,
 ) {
-    let leader = Stroke::solid(MUTED, 0.4);
+    let (leader, style) = (Stroke::solid(MUTED, 0.4), TextStyle::new(RIM_SIZE));
     let area = &frame.area;
-    for side in [Side::Right, Side::Above] {
-        let at = |value: f64| match side {
-            Side::Right => frame.at_y(value),
-            _ => frame.at_x(value),
-        };
-        let own = labels.iter().filter(|label| label.0 == side);
-        let mut own: Vec<(f64, &str)> = own.map(|label| (at(label.1), label.2)).collect();
+    for at_right in [true, false] {
+        let own = labels.iter().filter(|(rule, _)| rule.is_horizontal == at_right);
+        let own = own.filter_map(|(rule, text)| Some((rule.place(frame)?, *text)));
+        let mut own: Vec<(f64, &str)> = own.collect();
         own.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let style = TextStyle::new(RIM_SIZE);
-        if side == Side::Right {
+        if at_right {
             let wanted: Vec<f64> = own.iter().map(|label| label.0).collect();
             let places = spread(&wanted, RIM_SIZE + 1.5, area.y + 3.0, area.bottom() - 2.0);
             for ((y, text), place) in own.into_iter().zip(places) {
@@ -226,7 +213,7 @@ pub(super) fn draw_rim_labels(
             let wanted: Vec<f64> = own.iter().map(|label| label.0).collect();
             let places = spread(&wanted, gap, area.x, area.right());
             for ((x, text), place) in own.into_iter().zip(places) {
-                let place = on_sheet(svg, place, text, RIM_SIZE);
+                let place = svg.on_sheet(place, text, RIM_SIZE);
                 svg.line((x, area.y), (place, area.y - 4.5), &leader);
                 svg.text(place, area.y - 6.0, text, &style.anchored(Anchor::Middle));
             }

@@ -1,8 +1,8 @@
 //! How what is only looked at is kept: values as levels, and whole numbers as deviations from the straight line through
 //! the two before, which are short where places and values vary smoothly.
 
-use super::extremes;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use crate::prelude::*;
+use serde::{Deserializer, Serializer};
 
 /// Values as levels between the smallest and the largest: their ends, and numbers up to `last`; one more is a gap.
 pub fn levels(values: &[f64], last: u32) -> ((f64, f64), Vec<u32>) {

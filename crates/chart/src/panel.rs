@@ -1,15 +1,8 @@
 //! One plot: two axes and the layers between them.
 
-use super::colour_bar::FLAT_BAR_HEIGHT;
-use super::frame::{TICK, draw_grid, draw_x_axis, draw_y_axis, vertical_count};
-use super::legend::Legend;
+use super::frame::{TICK, draw_grid, draw_x_axis, draw_y_axis};
 use super::marks::{RIM_SIZE, draw_rim_labels};
-use super::ruler::{Tick, widest};
-use super::{
-    Anchor, Axis, Colour, Colours, Drawn, Frame, INK, Key, LABEL_SIZE, Label, MUTED, PanelData,
-    Ruler, Series, Side, Stroke, Svg, TITLE_SIZE, TextStyle, plain, text,
-};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// A plot of a figure.
 #[derive(Default, Serialize, Deserialize)]
@@ -155,17 +148,13 @@ impl Panel {
         self.layers.iter().find_map(|layer| layer.colours())
     }
 
-    fn rim_labels(&self, frame: Option<&Frame>) -> Vec<(Side, f64, &str)> {
+    /// Rules whose places are named beyond the frame, with these names.
+    fn rim_labels(&self) -> Vec<(&Rule, &str)> {
         let labels = self.layers.iter().filter_map(|layer| match layer {
-            Drawn::Rule(rule) => rule.rim_label(),
+            Drawn::Rule(rule) => Some((rule, rule.rim.as_deref()?)),
             _ => None,
         });
-        let shown = |label: &(Side, f64, &str)| match (frame, label.0) {
-            (Some(frame), Side::Right) => frame.y.contains(label.1),
-            (Some(frame), _) => frame.x.contains(label.1),
-            (None, _) => true,
-        };
-        labels.filter(shown).collect()
+        labels.collect()
     }
 
     /// Room needed left of the data area, points.
@@ -181,8 +170,8 @@ impl Panel {
 
     /// Room that names at the right of the frame take, points.
     pub(super) fn names_width(&self) -> f64 {
-        let names = self.rim_labels(None).into_iter().filter(|label| label.0 == Side::Right);
-        let widths = names.map(|label| text::width(label.2, RIM_SIZE, false) + 8.0);
+        let names = self.rim_labels().into_iter().filter(|(rule, _)| rule.is_horizontal);
+        let widths = names.map(|label| text::width(label.1, RIM_SIZE, false) + 8.0);
         widths.fold(0.0, f64::max)
     }
 
@@ -213,8 +202,8 @@ impl Panel {
 
     /// Room needed above the data area for names beyond it, points.
     pub(super) fn rim_height(&self) -> f64 {
-        let above = self.rim_labels(None).into_iter().any(|label| label.0 == Side::Above);
-        if above { 12.0 } else { 0.0 }
+        let is_above = self.rim_labels().into_iter().any(|(rule, _)| !rule.is_horizontal);
+        if is_above { 12.0 } else { 0.0 }
     }
 
     /// Draws everything but captions and legends; axis titles keep `title_distance` from the frame.
@@ -246,8 +235,7 @@ impl Panel {
             let style = style.anchored(Anchor::Middle).coloured(MUTED);
             svg.text(x, y, "no data", &style);
         }
-        let names = self.rim_labels(Some(frame));
-        draw_rim_labels(svg, frame, &names, are_names_inside);
+        draw_rim_labels(svg, frame, &self.rim_labels(), are_names_inside);
         self.draw_bar(svg, frame, are_names_inside);
     }
 

@@ -9,13 +9,29 @@ pub struct Path {
 }
 
 impl Path {
-    /// An empty path.
-    pub fn new() -> Self {
-        Self::default()
+    /// A path through the points of each piece, which is closed or not.
+    pub fn of<P: IntoIterator<Item = (f64, f64)>>(
+        pieces: impl IntoIterator<Item = P>,
+        closed: bool,
+    ) -> Self {
+        let mut path = Self::default();
+        for piece in pieces {
+            let before = path.data.len();
+            path.extend(piece);
+            if closed && path.data.len() > before {
+                path.data.push('z');
+            }
+        }
+        path
+    }
+
+    /// A path through all points, closed or not.
+    pub fn polyline(points: impl IntoIterator<Item = (f64, f64)>, closed: bool) -> Self {
+        Self::of([points], closed)
     }
 
     /// Starts a new piece through all points; the letter of lines is said once for all of them.
-    pub fn extend(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
+    fn extend(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
         let mut points = points.into_iter().map(hundredths);
         let Some(mut last) = points.next() else { return };
         self.data.push('M');
@@ -36,7 +52,7 @@ impl Path {
 
     /// Single points, each as a line without length: a round end makes a disc of it.
     pub fn dots(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let (mut path, mut last) = (Self::new(), (0, 0));
+        let (mut path, mut last) = (Self::default(), (0, 0));
         for point in points.into_iter().map(hundredths) {
             let step = (point.0 - last.0, point.1 - last.1);
             if step != (0, 0) || path.is_empty() {
@@ -50,24 +66,9 @@ impl Path {
         path
     }
 
-    /// Closes the current piece.
-    pub fn close(&mut self) {
-        self.data.push('z');
-    }
-
     /// Whether nothing was drawn.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
-    }
-
-    /// A path through all points, closed or not.
-    pub fn polyline(points: impl IntoIterator<Item = (f64, f64)>, closed: bool) -> Self {
-        let mut path = Self::new();
-        path.extend(points);
-        if closed && !path.is_empty() {
-            path.close();
-        }
-        path
     }
 }
 

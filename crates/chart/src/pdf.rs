@@ -53,7 +53,7 @@ impl Drawing {
         resources.finish();
         entry.finish();
         for (index, bytes) in writer.images.iter().enumerate() {
-            write_image(&mut pdf, (image_at(index), image_at(index).get() + 1), &decode(bytes)?)?;
+            write_image(&mut pdf, image_at(index), bytes)?;
         }
         let stream = deflated(&writer.content.finish())?;
         pdf.stream(contents, &stream).filter(Filter::FlateDecode);
@@ -68,13 +68,6 @@ struct Writer {
     images: Vec<Arc<Vec<u8>>>,
     /// Names of the graphics states by opacity in hundredths.
     opacities: BTreeMap<u32, String>,
-}
-
-/// An image with red, green, blue and opacity of each pixel.
-struct Pixels {
-    width: u32,
-    height: u32,
-    rgba: Vec<u8>,
 }
 
 impl Writer {
@@ -196,26 +189,22 @@ fn colour(paint: &Paint) -> [f32; 3] {
     [red, green, blue].map(|channel| f32::from(channel) / 255.0)
 }
 
-fn decode(bytes: &[u8]) -> Result<Pixels, ChartError> {
+/// Writes the colours of an image, and behind it its opacities as a mask.
+fn write_image(pdf: &mut Pdf, at: Ref, png: &[u8]) -> Result<(), ChartError> {
     let fail = |error: png::DecodingError| ChartError::Encoding(error.to_string());
-    let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(png));
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
     let mut reader = decoder.read_info().map_err(fail)?;
     let mut rgba = vec![0; reader.output_buffer_size().unwrap_or(0)];
     let info = reader.next_frame(&mut rgba).map_err(fail)?;
-    Ok(Pixels { width: info.width, height: info.height, rgba })
-}
-
-/// Writes the colours of an image, and its opacities as a mask.
-fn write_image(pdf: &mut Pdf, (at, mask): (Ref, i32), pixels: &Pixels) -> Result<(), ChartError> {
-    let mask = Ref::new(mask);
-    let colours: Vec<u8> = pixels.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-    let opacities: Vec<u8> = pixels.rgba.chunks_exact(4).map(|p| p[3]).collect();
+    let colours: Vec<u8> = rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    let opacities: Vec<u8> = rgba.chunks_exact(4).map(|p| p[3]).collect();
+    let mask = Ref::new(at.get() + 1);
     for (at, values, is_mask) in [(at, colours, false), (mask, opacities, true)] {
         let data = deflated(&values)?;
         let mut image = pdf.image_xobject(at, &data);
         image.filter(Filter::FlateDecode);
-        image.width(pixels.width as i32).height(pixels.height as i32).bits_per_component(8);
+        image.width(info.width as i32).height(info.height as i32).bits_per_component(8);
         if is_mask {
             image.color_space().device_gray();
         } else {

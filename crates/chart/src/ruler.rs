@@ -1,7 +1,6 @@
 //! An axis whose range is known: places, round ticks, labels.
 
-use super::{Scale, signed, text};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// One labelled tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,11 +1,6 @@
 //! Bars, filled areas and shapes.
 
-use super::decimation::{COLUMNS_PER_POINT, lasting};
-use super::{
-    Anchor, Colour, Frame, INK, Key, LABEL_SIZE, Layer, Path, Rect, Series, SeriesKind, Svg,
-    TextStyle, plain, text,
-};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 
 /// Lying bars of equal thickness, each with a label inside where it fits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -98,18 +93,12 @@ impl Layer for Shapes {
         for (from, to, colour) in &self.bands {
             svg.rectangle(&frame.rect((*from, *to), ends), colour, None);
         }
-        let place = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
-            points.iter().map(|&(x, y)| frame.at(x, y)).collect()
-        };
         let mut colours: Vec<Colour> = self.polygons.iter().map(|p| p.1).collect();
         colours.dedup();
         for colour in colours {
-            let mut path = Path::new();
-            for (points, _) in self.polygons.iter().filter(|polygon| polygon.1 == colour) {
-                path.extend(place(points));
-                path.close();
-            }
-            svg.fill_path(&path, colour, 1.0);
+            let own = self.polygons.iter().filter(|polygon| polygon.1 == colour);
+            let places = own.map(|(points, _)| points.iter().map(|&(x, y)| frame.at(x, y)));
+            svg.fill_path(&Path::of(places, true), colour, 1.0);
         }
     }
 

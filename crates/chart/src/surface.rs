@@ -1,11 +1,6 @@
 //! The surface of solid bodies, hidden parts hidden: shaded, or in the colours of values at its nodes.
 
-use super::packed::{Levels, whole};
-use super::{
-    Axis, Colour, ColourMap, Colours, Frame, IndexedImage, Key, Layer, Palette, Svg, extremes,
-};
-use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use crate::prelude::*;
 
 /// Colours of the values, and one more for faces without a value ...
 const LEVELS: usize = 15;
@@ -198,14 +193,13 @@ impl Canvas {
             let share = k as f64 / count as f64;
             let [x, y, z] = [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]));
             let (column, row) = (x.floor(), y.floor());
-            let is_inside = column >= 0.0
-                && row >= 0.0
-                && column < self.image.width as f64
-                && row < self.image.height as f64;
+            let [width, height] = [self.image.width, self.image.height];
+            let is_inside =
+                (0.0..width as f64).contains(&column) && (0.0..height as f64).contains(&row);
             if !is_inside {
                 continue;
             }
-            let pixel = row as usize * self.image.width + column as usize;
+            let pixel = row as usize * width + column as usize;
             if z + lift >= self.depth[pixel] {
                 self.image.pixels[pixel] = ((LEVELS + 1) * SHADES) as u8;
             }

@@ -4,9 +4,8 @@
 //! so equal input gives equal bytes.
 
 use super::text::{FONT_FAMILY, SCRIPT_SIZE, parse};
-use super::{Anchor, Colour, Path, TextStyle, plain};
+use crate::prelude::*;
 use base64::prelude::{BASE64_STANDARD, Engine};
-use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt::{Display, Write};
 
@@ -86,9 +85,9 @@ impl Stroke {
         self.dash[0] > 0.0
     }
 
-    fn write(&self, out: &mut String) {
+    fn attributes(&self) -> String {
         let (colour, width) = (self.colour, number(self.width));
-        let _ = write!(out, r#" fill="none" stroke="{colour}" stroke-width="{width}""#);
+        let mut out = format!(r#" fill="none" stroke="{colour}" stroke-width="{width}""#);
         if self.is_dashed() {
             let parts = self.dash.iter().take_while(|&&length| length > 0.0);
             let parts: Vec<String> = parts.map(|&length| number(length)).collect();
@@ -97,6 +96,7 @@ impl Stroke {
         if self.opacity < 1.0 {
             let _ = write!(out, r#" stroke-opacity="{}""#, number(self.opacity));
         }
+        out
     }
 }
 
@@ -161,11 +161,6 @@ impl Svg {
         Self { width, height, prefix, ..Self::default() }
     }
 
-    /// Its width, points.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
     fn id(&mut self) -> String {
         self.ids += 1;
         format!("{ID_PREFIX}{}-{}", self.prefix, self.ids)
@@ -178,34 +173,28 @@ impl Svg {
 
     /// A stroked path.
     pub fn path(&mut self, path: &Path, stroke: &Stroke) {
-        self.stroked(path, stroke, "");
+        self.drawn(path, &stroke.attributes());
     }
 
     /// Discs of a diameter at points.
     pub fn discs(&mut self, path: &Path, diameter: f64, colour: Colour) {
-        let stroke = Stroke::solid(colour, diameter);
-        self.stroked(path, &stroke, r#" stroke-linecap="round""#);
-    }
-
-    fn stroked(&mut self, path: &Path, stroke: &Stroke, ends: &str) {
-        if path.is_empty() {
-            return;
-        }
-        let _ = write!(self.body, r#"<path d="{}"{ends}"#, path.data);
-        stroke.write(&mut self.body);
-        self.body.push_str("/>\n");
+        let stroke = Stroke::solid(colour, diameter).attributes();
+        self.drawn(path, &format!(r#" stroke-linecap="round"{stroke}"#));
     }
 
     /// A filled path without outline; `opacity` from 0 to 1.
     pub fn fill_path(&mut self, path: &Path, colour: impl Display, opacity: f64) {
-        if path.is_empty() {
-            return;
+        let faint = match opacity < 1.0 {
+            true => format!(r#" fill-opacity="{}""#, number(opacity)),
+            false => String::new(),
+        };
+        self.drawn(path, &format!(r#" fill="{colour}"{faint}"#));
+    }
+
+    fn drawn(&mut self, path: &Path, look: &str) {
+        if !path.is_empty() {
+            let _ = writeln!(self.body, r#"<path d="{}"{look}/>"#, path.data);
         }
-        let _ = write!(self.body, r#"<path d="{}" fill="{colour}""#, path.data);
-        if opacity < 1.0 {
-            let _ = write!(self.body, r#" fill-opacity="{}""#, number(opacity));
-        }
-        self.body.push_str("/>\n");
     }
 
     /// A filled rectangle with an optional outline.
@@ -218,6 +207,18 @@ impl Svg {
             let _ = write!(self.body, r#" stroke="{colour}" stroke-width="{width}""#);
         }
         self.body.push_str("/>\n");
+    }
+
+    /// The middle of a text, moved as little as keeps the text on the sheet.
+    pub fn on_sheet(&self, middle: f64, markup: &str, size: f64) -> f64 {
+        let half = 0.5 * text::width(markup, size, false) + 1.0;
+        middle.min(self.width - half).max(half)
+    }
+
+    /// Text about the middle of its baseline, moved as little as keeps it on the sheet.
+    pub fn centred(&mut self, middle: f64, y: f64, markup: &str, style: &TextStyle) {
+        let middle = self.on_sheet(middle, markup, style.size);
+        self.text(middle, y, markup, &style.anchored(Anchor::Middle));
     }
 
     /// Text at a baseline point; see `text::parse` for its mark-up.

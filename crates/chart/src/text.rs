@@ -1,7 +1,6 @@
 //! Text: the embedded font, its widths, and a small mark-up for symbols and indices.
 
-use super::{Colour, INK};
-use serde::{Deserialize, Serialize};
+use crate::prelude::*;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
 use std::sync::LazyLock;

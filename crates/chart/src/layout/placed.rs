@@ -1,9 +1,7 @@
 //! What stands above the data area of a panel, and the room that it takes.
 
 use super::Placed;
-use crate::frame::on_sheet;
-use crate::legend::LINE_HEIGHT;
-use crate::{Anchor, Colour, LABEL_SIZE, Ruler, Svg, TextStyle, text};
+use crate::prelude::*;
 
 /// Height of a line of caption, points.
 const CAPTION_STEP: f64 = 8.5;
@@ -106,9 +104,8 @@ impl Placed<'_> {
         let last = if captions.is_empty() { baseline } else { first - 9.5 };
         for (row, (line, colour)) in headings.iter().enumerate() {
             let y = last - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
-            let style = TextStyle::new(HEADING_SIZE).anchored(Anchor::Middle).coloured(*colour);
-            let middle = on_sheet(svg, area.x + 0.5 * area.width, line, HEADING_SIZE);
-            svg.text(middle, y, line, &style);
+            let style = TextStyle::new(HEADING_SIZE).coloured(*colour);
+            svg.centred(area.x + 0.5 * area.width, y, line, &style);
         }
         if let Some(letter) = letter {
             let style = TextStyle::new(8.0).bold();
