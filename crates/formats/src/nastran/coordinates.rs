@@ -5,7 +5,7 @@ use crate::prelude::*;
 
 /// How a system measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Rectangular,
     Cylindrical,
     Spherical,
@@ -26,7 +26,7 @@ type Given = (usize, [f64; 3], Place);
 /// A coordinate system in basic coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct System {
-    kind: Kind,
+    pub kind: Kind,
     origin: Vector3<f64>,
     /// Its axes as columns.
     pub axes: Matrix3<f64>,
@@ -47,11 +47,6 @@ impl System {
             }
         };
         (self.origin + self.axes * local).into()
-    }
-
-    /// Whether its coordinates are straight.
-    pub fn is_rectangular(&self) -> bool {
-        self.kind == Kind::Rectangular
     }
 }
 

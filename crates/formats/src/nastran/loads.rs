@@ -175,14 +175,26 @@ impl Reader<'_, '_> {
         let first = self.node(card, 6, "PLOAD4")?;
         let has_second = card.optional_int(7)?.is_some();
         let second = has_second.then(|| self.node(card, 7, "PLOAD4")).transpose()?;
-        let found = match (element.kind.corner_count(), second) {
-            (4, Some(apex)) => opposite(element, apex).filter(|_| first != apex),
-            (6, None) => triangle(element, first),
-            (5, Some(second)) => sloping(element, [first, second])
-                .or_else(|| with_diagonal(element, [first, second])),
-            (_, Some(second)) => with_diagonal(element, [first, second]),
-            _ => None,
+        let all = &element.nodes[..element.kind.corner_count()];
+        let is_named = |(kind, nodes): &SurfaceFace| {
+            let corners = &nodes[..kind.corner_count()];
+            let place = |node| corners.iter().position(|&corner| corner == node);
+            match (all.len(), corners.len(), second) {
+                (4, _, Some(apex)) => {
+                    first != apex && all.contains(&apex) && !corners.contains(&apex)
+                }
+                (6, 3, None) => corners.contains(&first),
+                (5, 3, Some(second)) => {
+                    let is_on_base = |end| all[..4].contains(&end) && corners.contains(&end);
+                    first != second && is_on_base(first) && is_on_base(second)
+                }
+                (_, 4, Some(second)) => {
+                    place(first).zip(place(second)).is_some_and(|(a, b)| a.abs_diff(b) == 2)
+                }
+                _ => false,
+            }
         };
+        let found = element.faces().find(is_named);
         Ok(found!(found; card; "PLOAD4: G1 and G3 (G4) name no face of element {}", element.label))
     }
 }
@@ -193,35 +205,4 @@ fn directions(card: &Card<'_>, field: usize) -> Result<String> {
     ensure!(!text.is_empty() && text.chars().all(|c| ('0'..='6').contains(&c)); card;
         "{}: directions 1 to 6 expected, found {}", card.name, quoted(text));
     Ok(text.chars().filter(|c| ('1'..='3').contains(c)).collect())
-}
-
-/// The face on which two nodes are opposite corners.
-fn with_diagonal(element: &FileElement, ends: [u32; 2]) -> Option<SurfaceFace> {
-    element.face_with(&ends).filter(|face| {
-        let corners = &face.1[..face.0.corner_count()];
-        let place = |node| corners.iter().position(|&corner| corner == node);
-        let [a, b] = ends.map(place);
-        a.zip(b).is_some_and(|(a, b)| a.abs_diff(b) == 2)
-    })
-}
-
-/// The triangular face of a pyramid that stands on an edge of its base.
-fn sloping(element: &FileElement, ends: [u32; 2]) -> Option<SurfaceFace> {
-    let apex = element.nodes[4];
-    let face = element.face_with(&[ends[0], ends[1], apex]);
-    face.filter(|_| ends[0] != ends[1] && !ends.contains(&apex))
-}
-
-/// The face of a tetrahedron that lies opposite a corner.
-fn opposite(element: &FileElement, apex: u32) -> Option<SurfaceFace> {
-    let corners = element.nodes[..4].iter().copied();
-    let others: Vec<u32> = corners.filter(|&node| node != apex).collect();
-    (others.len() == 3).then(|| element.face_with(&others)).flatten()
-}
-
-/// The triangular face of a wedge on which a corner lies.
-fn triangle(element: &FileElement, corner: u32) -> Option<SurfaceFace> {
-    let nodes = &element.nodes;
-    let end = [&nodes[..3], &nodes[3..6]].into_iter().find(|end| end.contains(&corner))?;
-    element.face_with(end)
 }

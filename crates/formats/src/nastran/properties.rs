@@ -2,6 +2,7 @@
 
 use super::Reader;
 use super::card::Card;
+use super::coordinates::Kind;
 use crate::prelude::*;
 
 impl Reader<'_, '_> {
@@ -19,7 +20,7 @@ impl Reader<'_, '_> {
                 0 => MaterialAxes::Global,
                 system if system > 0 => {
                     let system = self.coordinates.system(system as usize, card.place)?;
-                    if !system.is_rectangular() {
+                    if system.kind != Kind::Rectangular {
                         let reason = "a material system that is not rectangular: give axes = \"cylindrical\" in the case";
                         self.leave_out("PSOLID with CORDM", card.place, (reason, false));
                     }
