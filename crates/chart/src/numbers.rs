@@ -24,25 +24,13 @@ pub fn significant(value: f64, digits: usize) -> String {
 
 /// Factor and prefixed unit that bring values up to `reach` near 1 to 1000: `(1e-3, "kW")`.
 pub fn prefixed(reach: f64, unit: &str) -> (f64, String) {
+    #[rustfmt::skip]
     const PREFIXES: [(f64, &str); 9] = [
-        (1e9, "G"),
-        (1e6, "M"),
-        (1e3, "k"),
-        (1.0, ""),
-        (1e-3, "m"),
-        (1e-6, "µ"),
-        (1e-9, "n"),
-        (1e-12, "p"),
-        (1e-15, "f"),
+        (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"),
     ];
-    let reach = reach.abs();
-    if reach == 0.0 || !reach.is_finite() {
-        return (1.0, unit.into());
-    }
-    PREFIXES
-        .into_iter()
-        .find(|(size, _)| reach >= *size)
-        .map_or((1.0, unit.into()), |(size, prefix)| (1.0 / size, format!("{prefix}{unit}")))
+    let is_meant = |size: f64| reach.is_finite() && reach.abs() >= size;
+    let (size, prefix) = PREFIXES.into_iter().find(|known| is_meant(known.0)).unwrap_or((1.0, ""));
+    (1.0 / size, format!("{prefix}{unit}"))
 }
 
 /// Linear or logarithmic.
