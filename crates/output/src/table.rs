@@ -257,19 +257,6 @@ impl Table {
         self
     }
 
-    /// The same with columns that people see and files do not have.
-    #[must_use]
-    pub fn shown_only<T, R: Borrow<T>>(
-        self,
-        columns: &[Column<T>],
-        rows: impl IntoIterator<Item = R>,
-    ) -> Self {
-        let first = self.heads.len();
-        let mut table = self.columns(columns, rows);
-        table.heads[first..].iter_mut().for_each(|head| head.key.clear());
-        table
-    }
-
     /// The same with one column that people see where it has something, and files do not have.
     #[must_use]
     pub fn shown_column<C: Into<Cell>>(

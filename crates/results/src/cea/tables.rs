@@ -70,13 +70,11 @@ columns! {
     stability = row.own.unstable.then_some("unstable"), IfAny "stability" Plain;
 }
 
-columns! {
-    /// An onset in words.
-    ONSET_WORDS: onset as CriticalFriction;
-    travels = onset.direction.map(direction_name), IfAny "travels" Plain;
-    remark = onset.lost_after.map(|below| format!("lost: begins above {below}"))
-        .or(onset.unstable_from_start.then(|| "from the start".to_owned()))
-        .or((onset.branch == 0).then(|| "does not oscillate".to_owned())), IfAny "remark" Plain;
+/// What is to be said of an onset.
+fn remark(onset: &CriticalFriction) -> Option<String> {
+    let lost = onset.lost_after.map(|below| format!("lost: begins above {below}"));
+    lost.or(onset.unstable_from_start.then(|| "from the start".to_owned()))
+        .or((onset.branch == 0).then(|| "does not oscillate".to_owned()))
 }
 
 /// Where a document is read.
@@ -106,7 +104,8 @@ fn stability(report: &CeaReport<'_>) -> Table {
     let rows = onsets(report);
     let table = Table::new("stability.csv", "Critical friction of each branch that turns unstable")
         .columns(ONSETS, &rows)
-        .shown_only(ONSET_WORDS, &rows);
+        .shown_column("travels", rows.iter().map(|onset| onset.direction.map(direction_name)))
+        .shown_column("remark", rows.iter().map(remark));
     if report.has_harmonics { table } else { table.shown_column("mode", number) }
 }
 
@@ -229,7 +228,6 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         base.sticking,
         base.open,
     );
-    let note = base.extent.note().map(|note| format!("{note}."));
     let none = report.solution.sweep.intervals.is_empty().then(|| {
         let values = report.friction_coefficients;
         let [first, last] = [values.first(), values.last()].map(|v| v.copied().unwrap_or(0.0));
@@ -242,7 +240,8 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
     });
     // Pages of the same case are the same bytes.
     let time = (view != View::Page).then(|| format!("{:.3} s.", report.wall_s));
-    let all = [Some(solved), time, Some(steady), note, mesh_errors(report), none];
+    let extent = base.extent.sentence();
+    let all = [Some(solved), time, Some(steady), extent, mesh_errors(report), none];
     all.into_iter().flatten().collect()
 }
 
