@@ -157,11 +157,6 @@ impl FrequencyResponse {
         self.has_phase
     }
 
-    /// Largest distance of successive frequencies, Hz.
-    pub fn resolution_hz(&self) -> f64 {
-        self.frequencies_hz.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max)
-    }
-
     /// The same response as another quantity: values times `(i omega)^k`, `k` the difference in
     /// time derivatives. A line at 0 Hz, which cannot be integrated, is left out.
     ///

@@ -38,15 +38,17 @@ pub fn identify(
     let cut: Vec<FrequencyResponse> =
         responses.iter().map(|response| response.within(low, high)).collect::<Result<_, _>>()?;
     let bands = peaks(&cut)?;
-    let resolution_hz = cut.iter().map(|r| r.resolution_hz()).fold(0.0, f64::max);
-    refuse_coarse(resolution_hz, &bands)?;
+    refuse_coarse(&cut, &bands)?;
     let mut fit = fit_modes(&cut, &starts(&bands))?;
     let mut unmatched = Vec::new();
-    for band in bands {
-        match nearest(&fit.modes, band.frequency_hz) {
-            Some(k) => fit.modes[k].half_power = Some(with_hidden_neighbour(band, &fit.modes[k])),
-            None => unmatched.push(band),
-        }
+    for mut band in bands {
+        let Some(mode) = nearest(&mut fit.modes, band.frequency_hz) else {
+            unmatched.push(band);
+            continue;
+        };
+        // A single peak over two modes looks sound to the half-power method; the fit knows better.
+        band.note = band.note.or(mode.overlaps_hz.map(ResonanceNote::Overlaps));
+        mode.half_power = Some(band);
     }
     let used: Vec<usize> = (0..fit.modes.len()).filter(|&k| fit.modes[k].is_used()).collect();
     let samples: Vec<Pole> = used.iter().map(|&k| fit.modes[k].pole()).collect();
@@ -98,7 +100,12 @@ fn half_power_rayleigh(modes: &[FittedMode]) -> Option<RayleighFit> {
 }
 
 /// A response whose every half-power band is too coarse cannot give a damping factor.
-fn refuse_coarse(resolution_hz: f64, bands: &[HalfPowerBand]) -> Result<(), SignalError> {
+fn refuse_coarse(
+    responses: &[FrequencyResponse],
+    bands: &[HalfPowerBand],
+) -> Result<(), SignalError> {
+    let steps = responses.iter().flat_map(|response| response.frequencies_hz().windows(2));
+    let resolution_hz = steps.map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     let coarse = |b: &HalfPowerBand| matches!(b.note, Some(ResonanceNote::TooCoarse(_)));
     match bands.first() {
         Some(first) if bands.iter().all(coarse) => Err(SignalError::Unresolved(format!(
@@ -121,19 +128,10 @@ fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
     bands.iter().map(pole).collect()
 }
 
-/// The mode whose fitted frequency is nearest to a peak, within its bandwidth.
-fn nearest(modes: &[FittedMode], frequency_hz: f64) -> Option<usize> {
-    let miss = |k: usize| (modes[k].frequency_hz.value - frequency_hz).abs();
-    let k = (0..modes.len())
-        .filter(|&k| modes[k].half_power.is_none())
-        .min_by(|i, j| miss(*i).total_cmp(&miss(*j)))?;
-    (miss(k) <= modes[k].pole().bandwidth_hz()).then_some(k)
-}
-
-/// A single peak over two modes looks sound to the half-power method; the fit knows better.
-fn with_hidden_neighbour(mut band: HalfPowerBand, fitted: &FittedMode) -> HalfPowerBand {
-    if let (None, Some(other)) = (band.note, fitted.overlaps_hz) {
-        band.note = Some(ResonanceNote::Overlaps(other));
-    }
-    band
+/// The mode whose fitted frequency is nearest to a peak, within its bandwidth; none that has a peak already.
+fn nearest(modes: &mut [FittedMode], frequency_hz: f64) -> Option<&mut FittedMode> {
+    let miss = |mode: &FittedMode| (mode.frequency_hz.value - frequency_hz).abs();
+    let free = modes.iter_mut().filter(|mode| mode.half_power.is_none());
+    let mode = free.min_by(|a, b| miss(a).total_cmp(&miss(b)))?;
+    (miss(mode) <= mode.pole().bandwidth_hz()).then_some(mode)
 }

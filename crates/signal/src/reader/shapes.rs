@@ -140,7 +140,7 @@ impl Row<'_> {
 fn universal(bytes: &[u8]) -> Result<Vec<MeasuredShape>, ReadError> {
     let mut lines = Lines::of(bytes);
     let mut nodes: BTreeMap<usize, [f64; 3]> = BTreeMap::new();
-    let mut found: Vec<Shape> = Vec::new();
+    let mut found: Vec<Unplaced> = Vec::new();
     while let Some(words) = lines.dataset() {
         let (number, first) = (words.join(" "), lines.count);
         let body = lines.body();
@@ -165,28 +165,25 @@ fn universal(bytes: &[u8]) -> Result<Vec<MeasuredShape>, ReadError> {
             nodes.extend([node]);
         }
     }
-    let shapes = found.into_iter().enumerate().map(|(k, (name, frequency_hz, rows))| {
-        let (mut points, mut motion) = (Vec::new(), Vec::new());
-        for (node, values) in rows {
-            let Some(point) = nodes.get(&node) else {
-                let shape = k + 1;
+    let placed = |(number, (mut shape, labels)): (usize, Unplaced)| {
+        let point = |node: &usize| {
+            nodes.get(node).copied().ok_or_else(|| {
                 let reason =
-                    format!("shape {shape} moves node {node}, which no dataset 15 or 2411 places");
-                return Err(ReadError::damaged("universal file", reason));
-            };
-            points.push(*point);
-            motion.push(values);
-        }
-        Ok(MeasuredShape { name, frequency_hz, points, motion })
-    });
-    shapes.collect()
+                    format!("shape {number} moves node {node}, which no dataset 15 or 2411 places");
+                ReadError::damaged("universal file", reason)
+            })
+        };
+        shape.points = labels.iter().map(point).collect::<Result<_, _>>()?;
+        Ok(shape)
+    };
+    (1..).zip(found).map(placed).collect()
 }
 
-/// One shape: its name, its frequency, the motion of each node.
-type Shape = (String, Option<f64>, Vec<(usize, [Option<c64>; 3])>);
+/// A shape without its points, and the labels of these.
+type Unplaced = (MeasuredShape, Vec<usize>);
 
 /// Dataset 55: five lines of text, the form of the data, the mode, then nodes.
-fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
+fn shape_of(body: &[String]) -> Result<Unplaced, (usize, &'static str)> {
     if body.len() < 8 {
         return Err((body.len(), "it ends within its header"));
     }
@@ -210,7 +207,7 @@ fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
         _ => None,
     };
     let count = each * if is_complex { 2 } else { 1 };
-    let (mut rows, mut at) = (Vec::new(), 8);
+    let (mut labels, mut motion, mut at) = (Vec::new(), Vec::new(), 8);
     while at < body.len() {
         let label = numbers(&body[at]);
         let [label] = label[..] else { return Err((at, "the number of a node is expected")) };
@@ -232,7 +229,9 @@ fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
             true => c64::new(own[2 * axis], own[2 * axis + 1]),
             false => c64::new(own[axis], 0.0),
         };
-        rows.push((label as usize, [0, 1, 2].map(|axis| (axis < each).then(|| value(axis)))));
+        labels.push(label as usize);
+        motion.push([0, 1, 2].map(|axis| (axis < each).then(|| value(axis))));
     }
-    Ok((format!("{mode}"), frequency.filter(|f| *f > 0.0), rows))
+    let (frequency_hz, points) = (frequency.filter(|f| *f > 0.0), Vec::new());
+    Ok((MeasuredShape { name: format!("{mode}"), frequency_hz, points, motion }, labels))
 }
