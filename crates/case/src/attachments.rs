@@ -1,5 +1,6 @@
 //! What modifications attach to a body, and the annulus whose symmetry they break.
 
+use super::description::Description;
 use super::modifications::{Misfit, Modification, reshaped};
 use super::{Body, BodyKind, ImportedBody};
 use crate::prelude::*;
@@ -35,21 +36,16 @@ pub(super) fn reshaped_annulus(
     Ok(ImportedBody::new(body, file, specification))
 }
 
-/// Attaches masses, springs, dashpots and damped patches to the mesh of a body; `thickness` is that of a plane body, m.
-pub(super) fn attach(
-    root: &Section<'_>,
-    modifications: &[Modification],
-    body: &mut Body,
-    thickness: f64,
-) {
-    if modifications.is_empty() {
+/// Attaches masses, springs, dashpots and damped patches to the mesh of a body.
+pub(super) fn attach(case: &Description<'_>, body: &mut Body) {
+    if case.modifications.is_empty() {
         return;
     }
-    let all = root.section("modifications", false);
+    let all = case.root.section("modifications", false);
     let is_plane = body.dimension() == 2;
-    let extent = if is_plane { thickness } else { 1.0 };
+    let extent = if is_plane { case.thickness } else { 1.0 };
     let (mut attachments, mut patches) = (Vec::new(), Vec::new());
-    for own in modifications {
+    for own in &case.modifications {
         let section = all.section(&own.name, false);
         let leaves = |vector: Option<[f64; 3]>| vector.is_some_and(|[.., z]| z != 0.0);
         let vectors = [("direction", own.direction), ("center", own.within.map(|own| own.0))];

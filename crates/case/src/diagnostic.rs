@@ -173,10 +173,8 @@ fn clamp(span: &Range<usize>, text: &str) -> Range<usize> {
 
 /// A text cut at [`LONGEST_MESSAGE`].
 fn cut(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_MESSAGE) {
-        Some((end, _)) => format!("{} ...", &text[..end]),
-        None => text.to_owned(),
-    }
+    let end = text.char_indices().nth(LONGEST_MESSAGE);
+    end.map_or_else(|| text.to_owned(), |(end, _)| format!("{} ...", &text[..end]))
 }
 
 /// What is wrong with a key; the short form under the caret; the remedy, without which the usage of the key is shown.

@@ -1,7 +1,7 @@
 //! What a mesh file holds beside the mesh, as the sections that a case would have for it, in SI units.
 
 use super::value::quote;
-use super::{Location, RawItem, RawValue, UnitsWord, keys};
+use super::{Location, RawItem, RawValue, UnitsWord};
 use crate::prelude::*;
 use frictionsim_physics::mesh::{
     FileConditionKind, FileContact, FileMaterial, MaterialAxes, ModelData,
@@ -20,19 +20,14 @@ pub struct FileSection {
     pub name: String,
 }
 
-/// All that a file holds as sections of a case, in SI units.
-pub(super) fn sections(
-    file: &FileMesh,
-    units: UnitsWord,
-    left_out: &mut Vec<LeftOut>,
-) -> Vec<FileSection> {
-    let model = &file.model;
-    let mut sections: Vec<FileSection> = Vec::new();
-    let own = model.materials.iter().map(|material| material_section(material, units, left_out));
-    sections.extend(own);
+/// All that a file holds as sections of a case, in SI units, and what of it is not used.
+pub(super) fn sections(file: &FileMesh, units: UnitsWord) -> (Vec<FileSection>, Vec<LeftOut>) {
+    let (model, mut left_out) = (&file.model, file.model.left_out.clone());
+    let own = model.materials.iter().map(|own| material(own, units, &mut left_out));
+    let mut sections: Vec<FileSection> = own.collect();
     sections.extend(common_material(file, &sections));
     if file.dimension == 2 {
-        refuse_in_plane(model, left_out);
+        refuse_in_plane(model, &mut left_out);
     } else {
         for tie in &model.ties {
             let keys = vec![("surface", text(&tie.surface)), ("counter", text(&tie.counter))];
@@ -68,7 +63,7 @@ pub(super) fn sections(
         };
         sections.push(section(("boundaries", &condition.boundary), keys, &condition.place));
     }
-    sections
+    (sections, left_out)
 }
 
 fn section(of: (&'static str, &str), keys: Vec<(&'static str, RawValue)>, at: &str) -> FileSection {
@@ -117,14 +112,10 @@ fn refuse_in_plane(model: &ModelData, left_out: &mut Vec<LeftOut>) {
     left_out.extend(refused);
 }
 
-fn material_section(
-    material: &FileMaterial,
-    units: UnitsWord,
-    left_out: &mut Vec<LeftOut>,
-) -> FileSection {
+fn material(own: &FileMaterial, units: UnitsWord, left_out: &mut Vec<LeftOut>) -> FileSection {
     let stress = |value: f64| in_si(value, units, "Pa");
     let mut keys = Vec::new();
-    match &material.elasticity {
+    match &own.elasticity {
         Some(FileElasticity::Isotropic { young_modulus, poisson_ratio }) => {
             keys.push(("young_modulus", stress(*young_modulus)));
             keys.push(("poisson_ratio", RawValue::Float(*poisson_ratio)));
@@ -139,12 +130,11 @@ fn material_section(
                     list(vec![numbers(first), numbers(second)])
                 }
                 MaterialAxes::Cylindrical([from, to]) => {
-                    let what =
-                        format!("axis of the cylindrical orientation of {}", material.region);
+                    let what = format!("axis of the cylindrical orientation of {}", own.region);
                     let reason = format!(
                         "axes are about the motion's axis here, there through {from:?} and {to:?}: check it"
                     );
-                    left_out.push(LeftOut::once(what, material.place.clone(), reason));
+                    left_out.push(LeftOut::once(what, own.place.clone(), reason));
                     text("cylindrical")
                 }
             };
@@ -152,26 +142,15 @@ fn material_section(
         }
         None => {}
     }
-    keys.extend(material.density.map(|own| ("density", in_si(own, units, "kg/m3"))));
+    keys.extend(own.density.map(|value| ("density", in_si(value, units, "kg/m3"))));
     let plain = [
-        ("mass_coefficient", material.mass_coefficient),
-        ("stiffness_coefficient", material.stiffness_coefficient),
-        ("loss_factor", material.loss_factor),
+        ("mass_coefficient", own.mass_coefficient),
+        ("stiffness_coefficient", own.stiffness_coefficient),
+        ("loss_factor", own.loss_factor),
     ];
-    for (key, value) in plain.into_iter().filter_map(|(key, value)| Some((key, value?))) {
-        match keys::find(&format!("materials.*.{key}")) {
-            Some(_) => keys.push((key, RawValue::Float(value))),
-            None => {
-                let what = format!("{key} of material {}", material.name);
-                let reason = "no material has it here";
-                left_out.push(LeftOut::once(what, material.place.clone(), reason));
-            }
-        }
-    }
-    FileSection {
-        name: material.name.clone(),
-        ..section(("materials", &material.region), keys, &material.place)
-    }
+    let given = plain.into_iter().filter_map(|(key, value)| Some((key, RawValue::Float(value?))));
+    keys.extend(given);
+    FileSection { name: own.name.clone(), ..section(("materials", &own.region), keys, &own.place) }
 }
 
 /// `[material]` where the file gives every region one of its own: that of the region with most elements, which no

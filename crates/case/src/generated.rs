@@ -33,10 +33,17 @@ pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
     let body = match axial {
         None => {
             let materials = std::iter::once(own.common.clone()).chain(shaft).collect();
-            plane_annulus(own, annulus, materials)
+            // Modifications break its symmetry; what is wrong with the counts is said elsewhere.
+            let kind = if own.modifications.is_empty() || node_count(&annulus) > 1 << 24 {
+                Some(BodyKind::Annulus(annulus))
+            } else {
+                let whole = attachments::reshaped_annulus(&annulus, &own.modifications);
+                fitting(root, whole, "the disc").map(BodyKind::Imported)
+            };
+            kind.map(|kind| Body { materials, kind })
         }
         Some(axial_elements) => {
-            let conditions = solid::conditions(root, &own.conditions, face);
+            let conditions = solid::conditions(own, face);
             annulus.outer = conditions[1];
             let mut specification = SolidSpecification {
                 annulus,
@@ -104,21 +111,6 @@ fn revolution_body(
     let whole =
         whole_revolution(body.revolution()?, &body.materials, contact, motion, &own.modifications);
     fitting(root, whole, "the whole mesh")
-}
-
-/// A plane annulus, as a whole mesh where modifications break its symmetry.
-fn plane_annulus(
-    own: &Description<'_>,
-    annulus: AnnulusSpecification,
-    materials: Vec<RegionMaterial>,
-) -> Option<Body> {
-    // What is wrong with the counts is said elsewhere.
-    if own.modifications.is_empty() || node_count(&annulus) > 1 << 24 {
-        return Some(Body { materials, kind: BodyKind::Annulus(annulus) });
-    }
-    let whole = attachments::reshaped_annulus(&annulus, &own.modifications);
-    let kind = fitting(own.root, whole, "the disc").map(BodyKind::Imported)?;
-    Some(Body { materials, kind })
 }
 
 /// A whole mesh; what of the case does not fit it is an error at its section.

@@ -292,19 +292,15 @@ impl ImportedBody {
 /// Two bodies must have their curves before each other, at most as far into each other as the interference.
 fn check_meeting(mesh: &Mesh, body: &BodySpecification, interference: f64) -> Result<(), String> {
     let Some(other) = &body.opposite else { return Ok(()) };
-    let interface = ContactInterface::of(mesh);
-    let name = &body.contact;
-    if interface.is_empty() {
+    let (interface, name) = (ContactInterface::of(mesh), &body.contact);
+    let gaps = interface.gaps.iter().enumerate();
+    let Some((i, gap)) = gaps.min_by(|a, b| a.1.total_cmp(b.1)) else {
         return Err(format!(
             "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) \
              facing it: check the curves, and contact.center, speed and direction"
         ));
-    }
-    let deepest =
-        (0..interface.len()).min_by(|&a, &b| interface.gaps[a].total_cmp(&interface.gaps[b]));
-    let Some(i) = deepest else { return Ok(()) };
-    let size = interface.tributary_lengths[i];
-    let depth = -interface.gaps[i];
+    };
+    let (depth, size) = (-gap, interface.tributary_lengths[i]);
     // A thousandth of an element is what faceted curves differ by.
     if depth > interference + 1e-3 * size {
         return Err(format!(

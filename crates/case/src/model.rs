@@ -16,7 +16,7 @@ pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact) {
         Some(file) => of_file(own, &file),
     };
     if let Some(body) = &mut body {
-        attachments::attach(own.root, &own.modifications, body, own.thickness);
+        attachments::attach(own, body);
         let held = body.imported().map_or(Ok(()), |own| own.mesh.check_held());
         if let Err(error) = held {
             own.root.findings.push(own.unusable(error));

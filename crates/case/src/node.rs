@@ -130,8 +130,11 @@ fn axis(body: &Body) -> [f64; 2] {
     }
 }
 
-/// The node nearest to a point, and where it is; none where the mesh makes none.
-fn nearest(body: &Body, point: [f64; 2], z: Option<f64>) -> Option<(usize, [f64; 3])> {
+/// A node, and where it is; none where the mesh makes none.
+type Nearest = Option<(usize, [f64; 3])>;
+
+/// The node nearest to a point.
+fn nearest(body: &Body, point: [f64; 2], z: Option<f64>) -> Nearest {
     let [x, y] = point;
     match &body.kind {
         BodyKind::Annulus(annulus) => nearest_in_sectors(annulus, point),
@@ -151,10 +154,7 @@ fn nearest(body: &Body, point: [f64; 2], z: Option<f64>) -> Option<(usize, [f64;
 }
 
 /// Only the first sector is built: on each ring of its nodes the nearest is that of the nearest angle.
-fn nearest_in_sectors(
-    annulus: &AnnulusSpecification,
-    point: [f64; 2],
-) -> Option<(usize, [f64; 3])> {
+fn nearest_in_sectors(annulus: &AnnulusSpecification, point: [f64; 2]) -> Nearest {
     let sector = Strip::of_annulus(annulus).ok()?;
     let (per_sector, sectors) = (sector.node_count(), sector.count);
     let step = TAU / sectors as f64;
@@ -172,12 +172,8 @@ fn nearest_in_sectors(
     Some((node, at))
 }
 
-/// The corner node that lies nearest to a point, on the top face where no height is given, and where it is.
-fn nearest_corner(
-    solid: &SolidSpecification,
-    [x, y]: [f64; 2],
-    z: Option<f64>,
-) -> Option<(usize, [f64; 3])> {
+/// The corner node that lies nearest to a point, on the top face where no height is given.
+fn nearest_corner(solid: &SolidSpecification, [x, y]: [f64; 2], z: Option<f64>) -> Nearest {
     let count = solid.annulus.circumferential_elements;
     let nodes = solid_node_count(solid);
     let per_sector = usize::try_from(nodes / count.max(1) as u128).ok()?;

@@ -5,8 +5,11 @@ use super::value::{convert, cut};
 use super::{Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys};
 use toml::de::{DeTable, DeValue};
 
-/// Path of an override: each key with its place.
-type KeyPath = Vec<(String, Location)>;
+/// A part of the path of an override, with its place.
+type Part = (String, Location);
+
+/// What is wrong with an override.
+type Laid<T> = Result<T, Vec<Diagnostic>>;
 
 /// How an override begins that takes a key away.
 const UNSET: &str = "unset ";
@@ -35,7 +38,7 @@ pub(super) fn shown(text: &str) -> String {
 }
 
 /// Lays one override over a case: `KEY=VALUE`, or what [`unset`] gives.
-pub(super) fn lay(root: &mut RawTable, text: &str, source: usize) -> Result<(), Vec<Diagnostic>> {
+pub(super) fn lay(root: &mut RawTable, text: &str, source: usize) -> Laid<()> {
     if let Some(key) = text.strip_prefix(UNSET) {
         return remove(root, &path(key, source, "--unset needs a dotted key")?, source);
     }
@@ -44,7 +47,7 @@ pub(super) fn lay(root: &mut RawTable, text: &str, source: usize) -> Result<(), 
 }
 
 /// Parses a dotted key.
-fn path(text: &str, source: usize, help: &str) -> Result<KeyPath, Vec<Diagnostic>> {
+fn path(text: &str, source: usize, help: &str) -> Laid<Vec<Part>> {
     // The key alone tells how deep the path goes; an inline table as value is not part of it.
     match DeTable::parse(&format!("{}=0", keys::dotted(text))) {
         Ok(table) if table.get_ref().len() == 1 => Ok(key_path(table.get_ref(), source)),
@@ -54,11 +57,7 @@ fn path(text: &str, source: usize, help: &str) -> Result<KeyPath, Vec<Diagnostic
 }
 
 /// Takes a key, or a whole section, away; one that the case does not have may go, too.
-fn remove(
-    root: &mut RawTable,
-    path: &[(String, Location)],
-    source: usize,
-) -> Result<(), Vec<Diagnostic>> {
+fn remove(root: &mut RawTable, path: &[Part], source: usize) -> Laid<()> {
     let parts: Vec<&str> = path.iter().map(|part| part.0.as_str()).collect();
     let mut table = Some(&mut *root);
     for part in &parts[..parts.len() - 1] {
@@ -75,7 +74,7 @@ fn remove(
 }
 
 /// Parses one `KEY=VALUE`.
-fn parse(text: &str, source: usize) -> Result<(KeyPath, RawItem), Vec<Diagnostic>> {
+fn parse(text: &str, source: usize) -> Laid<(Vec<Part>, RawItem)> {
     let help = "an override is KEY=VALUE with a dotted key and a TOML value, \
                 for example --set contact.friction_coefficient=0.4";
     let Some(equals) = assignment(text) else {
@@ -113,8 +112,8 @@ fn assignment(text: &str) -> Option<usize> {
     None
 }
 
-fn key_path(table: &DeTable<'_>, source: usize) -> KeyPath {
-    let mut path = KeyPath::new();
+fn key_path(table: &DeTable<'_>, source: usize) -> Vec<Part> {
+    let mut path = Vec::new();
     let mut table = table;
     while let Some((key, value)) = table.iter().next() {
         path.push((key.get_ref().to_string(), Location::new(source, key.span())));
@@ -127,11 +126,7 @@ fn key_path(table: &DeTable<'_>, source: usize) -> KeyPath {
 }
 
 /// Puts a value at a path, making the tables on the way.
-fn insert(
-    table: &mut RawTable,
-    path: &[(String, Location)],
-    item: RawItem,
-) -> Result<(), Vec<Diagnostic>> {
+fn insert(table: &mut RawTable, path: &[Part], item: RawItem) -> Laid<()> {
     let Some(((key, key_at), rest)) = path.split_first() else { return Ok(()) };
     if rest.is_empty() {
         table.insert(key.clone(), RawItem { key_at: key_at.clone(), ..item });

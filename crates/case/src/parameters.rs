@@ -1,6 +1,6 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
-use super::value::collect_leaves;
+use super::value::leaves;
 use super::{Bound, CaseErrors, CaseKey, Location, RawItem, RawTable, RawValue, keys};
 use crate::prelude::*;
 
@@ -190,13 +190,12 @@ impl super::Case {
     /// The friction coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales
     /// results alone, are left out.
     pub fn model_numbers(&self) -> Vec<(String, f64)> {
-        let mut leaves = Vec::new();
-        collect_leaves(&self.raw.root, "", str::to_owned, &mut leaves);
+        let leaves = leaves(&self.raw.root, str::to_owned).into_iter();
         let is_left_out = |key: &str| {
             key == "contact.friction_coefficient"
                 || (key == "geometry.thickness" && self.body.dimension() == 2)
         };
-        let entries = leaves.into_iter().flat_map(|(key, value)| match value {
+        let entries = leaves.flat_map(|(key, value)| match value {
             RawValue::Array(items) => (1..)
                 .zip(items)
                 .map(|(place, item)| (format!("{key}[{place}]"), &item.value))

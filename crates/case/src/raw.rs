@@ -1,7 +1,7 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
 use super::diagnostic::BACKSLASH;
-use super::value::{collect_leaves, convert_table, quote, table_of, with_point};
+use super::value::{convert_table, leaves, quote, table_of, with_point};
 use super::{
     CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides,
 };
@@ -127,8 +127,7 @@ impl RawCase {
     /// The effective case as canonical TOML, one `section.key = value` line for each key: comments,
     /// white space and the way a number is written leave no trace.
     pub fn canonical(&self) -> String {
-        let mut leaves = Vec::new();
-        collect_leaves(&self.root, "", quote, &mut leaves);
+        let leaves = leaves(&self.root, quote);
         leaves.iter().map(|(path, value)| format!("{path} = {value}\n")).collect()
     }
 

@@ -1,6 +1,5 @@
 //! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
 
-use super::boundaries::NamedCondition;
 use super::description::Description;
 use super::{imported, suggestion};
 use crate::prelude::*;
@@ -25,11 +24,11 @@ pub(super) fn axial_elements(own: &Description<'_>) -> Option<usize> {
 
 /// `contact.boundary` of a three-dimensional body and the radii of a ring.
 pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> SolidContact {
-    let radii = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));
+    let keys = ["ring_inner_radius", "ring_outer_radius"];
+    let radii = keys.map(|key| section.optional_number(key));
     if !section.is_text("boundary", "top") {
-        for key in ["ring_inner_radius", "ring_outer_radius"].iter().filter(|key| section.has(key))
-        {
-            refuse!(section, key, "contact.{key} is for a ring on the top face";
+        for key in keys {
+            refuse_if!(section.has(key); section, key, "contact.{key} is for a ring on the top face";
                 "needs contact.boundary = \"top\""; "set it, or leave {key} out");
         }
         if section.has("boundary") && !section.is_text("boundary", "inner") {
@@ -44,7 +43,7 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
     }
     let (low, high) = (annulus.inner_radius, annulus.outer_radius);
     let [inner, outer] = [radii[0].unwrap_or(low), radii[1].unwrap_or(high)];
-    for (key, value) in [("ring_inner_radius", inner), ("ring_outer_radius", outer)] {
+    for (key, value) in keys.into_iter().zip([inner, outer]) {
         refuse_if!(!(value >= low && value <= high) && high > low; section, key,
             "contact.{key} = {value} lies outside the face, which reaches from {low} to {high} m";
             "between {low} and {high}";
@@ -110,15 +109,11 @@ pub(super) fn parts(
 }
 
 /// What holds each face, from `[boundaries.*]`; the outer one is clamped unless something else is said.
-pub(super) fn conditions(
-    root: &Section<'_>,
-    boundaries: &[NamedCondition],
-    contact: SolidContact,
-) -> [BoundaryCondition; 4] {
-    let section = root.section("boundaries", false);
+pub(super) fn conditions(own: &Description<'_>, contact: SolidContact) -> [BoundaryCondition; 4] {
+    let section = own.root.section("boundaries", false);
     let mut conditions = [BoundaryCondition::Free; 4];
     conditions[1] = BoundaryCondition::Clamped;
-    for (name, condition) in boundaries {
+    for (name, condition) in &own.conditions {
         let Some(face) = SolidFace::ALL.iter().position(|face| face.name() == name) else {
             refuse!(section, name, "a body of revolution has no boundary \"{name}\"";
                 "it has \"inner\", \"outer\", \"top\" and \"bottom\""; "use one of these names");

@@ -32,8 +32,7 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
     let file = FileMesh::read_as(&path.to_string_lossy(), &bytes);
     let file = file.map_err(|error| format!("{}: {error}", path.display()))?;
     let (units, reason) = units_of(&file);
-    let mut left_out = file.model.left_out.clone();
-    let sections = sections(&file, units, &mut left_out);
+    let (sections, left_out) = sections(&file, units);
     let mut out = String::new();
     let title = file.model.title.clone().filter(|title| !title.is_empty());
     let title = title.unwrap_or_else(|| format!("Bodies of {shown}"));

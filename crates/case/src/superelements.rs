@@ -69,14 +69,11 @@ impl FreeSystem {
         let modes = root.section("cea", true).closed(|own| mode_selection(own, unknowns));
         root.close();
         let (errors, _) = findings.into_parts();
+        let hash = format!("{:x}", digest.finalize());
         match read {
-            Some(superelement) if errors.is_empty() => Ok(Self {
-                title,
-                superelement,
-                modes,
-                hash: format!("{:x}", digest.finalize()),
-                raw,
-            }),
+            Some(superelement) if errors.is_empty() => {
+                Ok(Self { title, superelement, modes, hash, raw })
+            }
             _ => Err(raw.errors(errors)),
         }
     }

@@ -51,13 +51,9 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
         return (table, Taken { is_unread: true, ..Taken::default() });
     };
     let at = raw.place("mesh.file");
-    let mut taken = Taken {
-        file: name,
-        left_out: file.model.left_out.clone(),
-        notes: file.model.remarks.clone(),
-        ..Taken::default()
-    };
-    let sections = sections(&file, units, &mut taken.left_out);
+    let (sections, left_out) = sections(&file, units);
+    let notes = file.model.remarks.clone();
+    let mut taken = Taken { file: name, left_out, notes, ..Taken::default() };
     let (takes_all, parts) = (raw.find("mesh.take").is_none(), texts(raw, "mesh.take"));
     let mut merged = table;
     for section in sections {

@@ -65,11 +65,9 @@ pub(super) fn transient(
 ) -> Transient {
     let duration = section.number("duration");
     let step = section.optional_number("time_step");
-    if let Some(step) = step.filter(|step| *step > duration) {
-        refuse!(section, "time_step",
-            "transient.time_step = {step:?} s is above transient.duration = {duration:?} s";
-            "at most {duration:?}");
-    }
+    let time_step = step.unwrap_or(duration);
+    refuse_if!(time_step > duration; section, "time_step" =>
+        "= {time_step:?} s is above transient.duration = {duration:?} s"; "at most {duration:?}");
     let initial = initial(section, body);
     let expansion_time = section.number("expansion_time");
     if initial == InitialState::Rest && expansion_time > duration {
@@ -216,11 +214,10 @@ pub(super) fn output(
             "a run has two samples at least");
     }
     let contact_interval = section.optional_number("contact_interval");
-    if let Some(interval) = contact_interval.filter(|interval| *interval < sample_interval) {
-        refuse!(section, "contact_interval" =>
-            "= {interval:?} s is below output.sample_interval = {sample_interval:?} s";
-            "at least the sample interval");
-    }
+    let interval = contact_interval.unwrap_or(sample_interval);
+    refuse_if!(interval < sample_interval; section, "contact_interval" =>
+        "= {interval:?} s is below output.sample_interval = {sample_interval:?} s";
+        "at least the sample interval");
     Output {
         recorder: RecorderSettings {
             probes,

@@ -51,22 +51,16 @@ pub(super) fn table_of<'t>(table: &'t RawTable, name: &str) -> Option<&'t RawTab
     table.get(name)?.value.table()
 }
 
-/// Adds the values below a table that hold no further ones, with their dotted names, whose parts `name` writes.
-pub(super) fn collect_leaves<'t>(
-    table: &'t RawTable,
-    prefix: &str,
-    name: fn(&str) -> String,
-    found: &mut Vec<(String, &'t RawValue)>,
-) {
-    for (key, entry) in table {
-        let path = format!("{prefix}{}", name(key));
-        match &entry.value {
-            RawValue::Table(inner) if !inner.is_empty() => {
-                collect_leaves(inner, &format!("{path}."), name, found);
-            }
-            value => found.push((path, value)),
+/// The values below a table that hold no further ones, with their dotted names, whose parts `name` writes.
+pub(super) fn leaves(table: &RawTable, name: fn(&str) -> String) -> Vec<(String, &RawValue)> {
+    let below = table.iter().flat_map(|(key, item)| match &item.value {
+        RawValue::Table(inner) if !inner.is_empty() => {
+            let own = leaves(inner, name).into_iter();
+            own.map(|(path, value)| (format!("{}.{path}", name(key)), value)).collect()
         }
-    }
+        value => vec![(name(key), value)],
+    });
+    below.collect()
 }
 
 /// A TOML value.
