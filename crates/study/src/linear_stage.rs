@@ -19,7 +19,12 @@ pub fn linear_stage(case: &Case) -> Result<LinearStage, StudyError> {
     if imported.is_some_and(|imported| imported.mesh.node_count() > MOST_NODES) {
         return Err(StudyError::Failed(format!("more than {MOST_NODES} nodes")));
     }
-    let modes = modes(case)?;
+    let mut options = options_in_time(case);
+    if case.contact.stiffness.normal_stiffness.is_none() {
+        // On a rigid contact they are one and the same.
+        options.damping_model = DampingModel::WholeTangent;
+    }
+    let modes = modes_at_own_friction(case, &options, asked_modes(case, MODES_IN_TIME))?;
     let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
     let mut growth_rates: BTreeMap<usize, f64> = BTreeMap::new();
     // A body without symmetry has no harmonics that its waves belong to.
@@ -40,13 +45,4 @@ pub fn linear_stage(case: &Case) -> Result<LinearStage, StudyError> {
         growth_rates: growth_rates.into_iter().collect(),
         mode_rates: unstable().map(|(_, mode)| (mode.frequency_hz(), mode.growth_rate())).collect(),
     })
-}
-
-fn modes(case: &Case) -> Result<Vec<ComplexMode>, CeaError> {
-    let mut options = options_in_time(case);
-    if case.contact.stiffness.normal_stiffness.is_none() {
-        // On a rigid contact they are one and the same.
-        options.damping_model = DampingModel::WholeTangent;
-    }
-    modes_at_own_friction(case, &options, asked_modes(case, MODES_IN_TIME))
 }

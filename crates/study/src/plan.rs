@@ -96,7 +96,11 @@ impl<'a> SweepPlan<'a> {
     pub fn swept(&self, point: usize) -> Map<String, Value> {
         let overrides = self.sweep.overrides(point - 1);
         let pairs = overrides.iter().filter_map(|text| text.split_once('='));
-        pairs.map(|(key, value)| (key.to_owned(), json_value(value))).collect()
+        // Numbers, strings, booleans and lists of them are written alike in TOML and JSON.
+        let json = |toml: &str| {
+            serde_json::from_str(toml).unwrap_or_else(|_| Value::String(toml.to_owned()))
+        };
+        pairs.map(|(key, value)| (key.to_owned(), json(value))).collect()
     }
 
     /// The case of a point: the sweep's with the swept values as overrides, and no `[sweep]`.
@@ -113,9 +117,4 @@ impl<'a> SweepPlan<'a> {
 /// A message as the text of a table cell.
 pub fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// A TOML value as JSON; numbers, strings, booleans and lists of them are written alike in both.
-fn json_value(toml: &str) -> Value {
-    serde_json::from_str(toml).unwrap_or_else(|_| Value::String(toml.to_owned()))
 }

@@ -18,37 +18,30 @@ pub fn summarize(
     analysis: Analysis,
     manifest: &Manifest,
 ) -> Result<Value, StudyError> {
-    match analysis {
-        Analysis::Cea => cea(case),
-        Analysis::Transient => transient(case, manifest),
-        Analysis::Basin => {
-            let start = Instant::now();
-            let found = basin::summary(case, manifest)?;
-            let head = Head::of(&case.title, start.elapsed().as_secs_f64());
-            Ok(object("basin", head, &found)?)
+    let start = Instant::now();
+    let head = || Head::of(&case.title, start.elapsed().as_secs_f64());
+    Ok(match analysis {
+        // Mode shapes are not computed.
+        Analysis::Cea => {
+            let cea = case.require_cea()?.of_tables();
+            let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
+            eigenvalues::refuse_no_modes(&case, &cea, &solution.sweep)?;
+            let wall_s = start.elapsed().as_secs_f64();
+            let report = eigenvalues::report(&case, &cea, &model, &solution, wall_s);
+            object("cea", head(), &frictionsim_results::cea::summary(&report))?
         }
-        Analysis::Cycle => cycle(case, manifest, refuse_nothing),
-    }
-}
-
-/// Mode shapes are not computed.
-fn cea(case: &Case) -> Result<Value, StudyError> {
-    let start = Instant::now();
-    let cea = case.require_cea()?.of_tables();
-    let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
-    eigenvalues::refuse_no_modes(&case, &cea, &solution.sweep)?;
-    let wall_s = start.elapsed().as_secs_f64();
-    let report = eigenvalues::report(&case, &cea, &model, &solution, wall_s);
-    let found = frictionsim_results::cea::summary(&report);
-    Ok(object("cea", Head::of(report.title, wall_s), &found)?)
-}
-
-fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
-    let start = Instant::now();
-    let study = TransientStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
-    let solved = study.solve()?;
-    let report = study.report(&solved, start.elapsed().as_secs_f64());
-    Ok(object("transient", report.head, &frictionsim_results::transient::summary(&report))?)
+        Analysis::Transient => {
+            let study = TransientStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
+            let solved = study.solve()?;
+            let report = study.report(&solved, start.elapsed().as_secs_f64());
+            object("transient", head(), &frictionsim_results::transient::summary(&report))?
+        }
+        Analysis::Basin => {
+            let found = basin::summary(case, manifest)?;
+            object("basin", head(), &found)?
+        }
+        Analysis::Cycle => cycle(case, manifest, refuse_nothing)?,
+    })
 }
 
 /// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what

@@ -5,9 +5,6 @@ use frictionsim_physics::mesh::coincident_nodes;
 use frictionsim_results::cea::{Branch, branch_of, branch_of_mode, mode_name};
 use frictionsim_results::convergence::Quantity;
 
-/// A part of an eigenvalue, Hz.
-type PartOf = fn(&ComplexMode) -> f64;
-
 /// The name of a mode, which its branch is known by on every mesh.
 fn name_of((harmonic, branch, direction): Branch, has_harmonics: bool) -> String {
     mode_name(has_harmonics.then_some(harmonic), branch, direction)
@@ -27,9 +24,8 @@ pub fn of_sweeps(
     let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| sweep.modes_at(friction)).collect();
     let everywhere = everywhere(&modes, branch_of_mode);
     let mut quantities = Vec::new();
-    let parts: [(&str, PartOf); 2] =
-        [("frequency", ComplexMode::frequency_hz), ("real part", ComplexMode::real_hz)];
-    for (part, value) in parts {
+    let parts = [ComplexMode::frequency_hz, ComplexMode::real_hz];
+    for (part, value) in ["frequency", "real part"].into_iter().zip(parts) {
         for levels in &everywhere {
             let name =
                 format!("{part}, {}", name_of(branch_of_mode(levels[0]), case.body.has_sectors()));

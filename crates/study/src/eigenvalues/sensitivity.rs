@@ -81,7 +81,11 @@ pub fn body_sensitivities(
     let rates: Vec<Rates> =
         parallel::map(&parameters, |(key, value)| rates_of(case, cea, &pairs, (key, *value)));
     let lost = targets.iter().zip(&found).filter(|(_, pair)| pair.is_none());
-    let mut missing: Vec<String> = lost.map(|(target, _)| lost_note(target)).collect();
+    let lost = lost.map(|(Target { friction, eigenvalue }, _)| {
+        let hz = eigenvalue.im / TAU;
+        format!("the mode at {hz:.1} Hz and friction {friction} coincides with another one, or was not found again")
+    });
+    let mut missing: Vec<String> = lost.collect();
     missing.extend(rates.iter().filter_map(|(_, reason)| reason.clone()));
     let columns: Vec<_> = rates.into_iter().map(|(columns, _)| columns).collect();
 
@@ -216,15 +220,6 @@ impl Pairs {
             }
         }
     }
-}
-
-/// Why a target has no derivatives.
-fn lost_note(target: &Target) -> String {
-    format!(
-        "the mode at {:.1} Hz and friction {} coincides with another one, or was not found again",
-        target.eigenvalue.im / TAU,
-        target.friction
-    )
 }
 
 /// Keys of the sections that every case has, without the section.

@@ -7,7 +7,9 @@ use super::{FitError, FitProblem, MeasuredMode, ModelMode};
 use crate::ScrambledSobol;
 use crate::prelude::*;
 use frictionsim_case::{FitParameter, find_key};
-use frictionsim_results::fit::{FitSummary, FittedParameter, LineSummary, SearchSummary};
+use frictionsim_results::fit::{
+    FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary,
+};
 use frictionsim_signal::student_95;
 
 /// Starting points from which the search goes on.
@@ -211,8 +213,11 @@ fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitErr
         }
         let mut wanted = line.harmonic.map_or(String::new(), |n| format!(", n = {n}"));
         wanted += if line.is_unstable { ", unstable" } else { "" };
-        let nearest = mode
-            .map_or("none is left".to_owned(), |mode| format!("{} comes nearest", described(mode)));
+        let nearest = mode.map_or("none is left".to_owned(), |ModelMode { told, .. }| {
+            let harmonic = told.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
+            let ModeSummary { frequency_hz, real_hz, .. } = told;
+            format!("{harmonic}{frequency_hz:.0} Hz, growth {real_hz:+.1} Hz comes nearest")
+        });
         return Err(FitError::Model(format!(
             "line {} of the table ({} Hz{wanted}) is matched by no mode within the bounds: \
              {nearest}. Widen the bounds of fit.parameters, or take the line out",
@@ -220,11 +225,6 @@ fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitErr
         )));
     }
     Ok(())
-}
-
-fn described(ModelMode { told: mode, .. }: &ModelMode) -> String {
-    let harmonic = mode.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
-    format!("{harmonic}{:.0} Hz, growth {:+.1} Hz", mode.frequency_hz, mode.real_hz)
 }
 
 /// Each line with its mode.

@@ -31,7 +31,7 @@ const LEAST_PART: f64 = 1e-8;
 /// The modes about the targets, and what the projection has of them alone.
 pub(super) struct NearModes<'a> {
     base: &'a Base<'a>,
-    modes: Vec<&'a PairedMode>,
+    pub modes: Vec<&'a PairedMode>,
     /// Frequencies within which the projected problem is to be believed, rad/s.
     pub range: [f64; 2],
 }
@@ -52,11 +52,6 @@ impl<'a> NearModes<'a> {
         let range =
             [if below { lowest / REACH } else { 0.0 }, REACH * frequencies().fold(0.0, f64::max)];
         Self { base, modes, range }
-    }
-
-    /// Whether these are all modes that the base has.
-    pub fn holds_all(&self) -> bool {
-        self.modes.len() == self.base.modes.len()
     }
 
     /// Eigenvalues with `Im > 0` within the range, with `[M, C, K]` attached at some dofs, all of them unknowns that no

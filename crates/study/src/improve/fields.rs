@@ -14,15 +14,12 @@ use crate::prelude::*;
 use frictionsim_physics::fem::element::{ElementGeometry, nodal_values};
 use frictionsim_physics::fem::element_matrices;
 
-/// `w_a x_b` at a node over the global axes.
-pub(super) type Product = [[c64; 3]; 3];
-
 /// Derivatives of one eigenvalue.
 pub(super) struct Derivatives {
     /// Its mode in the list of the base.
     pub eigenvalue: c64,
-    /// At each node.
-    pub nodes: Vec<Product>,
+    /// `w_a x_b` at each node over the global axes.
+    pub nodes: Vec<[[c64; 3]; 3]>,
     /// By taking each element away, rad/s.
     pub removal: Vec<c64>,
     /// By stiffness damping of each element, rad/s2.
@@ -34,20 +31,20 @@ impl Derivatives {
     pub fn of(base: &Base<'_>, mode: &PairedMode) -> Self {
         let nodes = 0..base.mesh.node_count();
         let elements = 0..base.mesh.element_count();
-        let each: Vec<[c64; 2]> = parallel::map(elements, |element| {
+        let (removal, damping): (Vec<c64>, Vec<c64>) = parallel::map(elements, |element| {
             let [mass, damping, stiffness] = element_terms(base, element);
             let dofs: Vec<usize> = base.mesh.element_dofs(element).collect();
             let [m, c, k] = [&mass, &damping, &stiffness].map(|p| form(mode, &dofs, p));
             let [_, elastic] = matrices(base, element);
             let lambda = mode.eigenvalue();
             let taken = lambda * (lambda * m + c) + k;
-            [taken, -lambda * form(mode, &dofs, &elastic)]
+            (taken, -lambda * form(mode, &dofs, &elastic))
         });
         Self {
             eigenvalue: mode.eigenvalue(),
             nodes: nodes.map(|node| product(base, mode, node)).collect(),
-            removal: each.iter().map(|own| own[0]).collect(),
-            damping: each.iter().map(|own| own[1]).collect(),
+            removal,
+            damping,
         }
     }
 
@@ -71,7 +68,7 @@ impl Derivatives {
 }
 
 /// `w_a x_b` over the global axes.
-fn product(base: &Base<'_>, mode: &PairedMode, node: usize) -> Product {
+fn product(base: &Base<'_>, mode: &PairedMode, node: usize) -> [[c64; 3]; 3] {
     let d = base.mesh.dimension;
     let frame = base.mesh.frame(node);
     let global = |values: &[c64]| {

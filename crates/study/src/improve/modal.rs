@@ -28,12 +28,10 @@ use frictionsim_results::improve::State;
 /// Where the compliance of the other modes is taken, in units of the lowest and the highest frequency of the targets.
 const BESIDE: [f64; 2] = [0.97, 1.03];
 
-/// Changes of `M`, `C`, `K` over modes and conjugates.
-type Projected = [Mat<c64>; 3];
-
 /// A change of the matrices in the space of the modes.
 pub(super) struct Change {
-    projected: Projected,
+    /// `[dM, dC, dK]` over modes and conjugates.
+    projected: [Mat<c64>; 3],
     /// Of something attached to a node the eigenvalues of a closer model, in its range.
     attached: Option<Result<Vec<c64>, LinalgError>>,
 }
@@ -230,7 +228,8 @@ impl<'a> ModalModel<'a> {
         let Some(attached) = &change.attached else { return self.of_listed(change) };
         // Modes beyond its range by the listed ones alone.
         let [low, high] = self.near.range;
-        let mut found = if self.near.holds_all() { Vec::new() } else { self.of_listed(change)? };
+        let is_all = self.near.modes.len() == self.base.modes.len();
+        let mut found = if is_all { Vec::new() } else { self.of_listed(change)? };
         found.retain(|value| !(low..=high).contains(&value.im));
         found.extend(attached.clone()?);
         Ok(sorted(found, |own| own.im))
