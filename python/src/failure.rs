@@ -1,7 +1,6 @@
 //! Failures of a run as Python sees them: one exception that carries what it is in JSON; the package turns it into its own.
 
 use frictionsim::app::Failure;
-use frictionsim::app::embedded::EmbeddedFailure;
 use frictionsim::case::{CaseErrors, Diagnostic, Location, Source};
 use pyo3::create_exception;
 use pyo3::exceptions::PyException;
@@ -13,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 create_exception!(_native, NativeFailure, PyException);
 
 /// The exception of a failure: `args[0]` is JSON.
-pub fn exception(failure: &EmbeddedFailure) -> PyErr {
+pub fn exception(failure: &Failure) -> PyErr {
     NativeFailure::new_err(description(failure).to_string())
 }
 
@@ -28,17 +27,15 @@ pub fn usage_exception(message: impl std::fmt::Display) -> PyErr {
 }
 
 /// What went wrong.
-pub fn description(failure: &EmbeddedFailure) -> Value {
+pub fn description(failure: &Failure) -> Value {
     let (kind, text) = match failure {
-        EmbeddedFailure::Panic(text) => ("internal", text.clone()),
-        EmbeddedFailure::Command(failure) => match failure {
-            Failure::Case(errors) => return case_description(errors),
-            Failure::Usage(error) => ("usage", error.to_string()),
-            Failure::Run(error) => ("run", error.to_string()),
-            Failure::Interrupted(text) => ("interrupted", text.clone()),
-            Failure::DryRun => ("nothing", String::new()),
-            Failure::BrokenPipe => ("run", "the output stream is closed".to_owned()),
-        },
+        Failure::Case(errors) => return case_description(errors),
+        Failure::Usage(error) => ("usage", error.to_string()),
+        Failure::Run(error) => ("run", error.to_string()),
+        Failure::Interrupted(text) => ("interrupted", text.clone()),
+        Failure::Panic(text) => ("internal", text.clone()),
+        Failure::DryRun => ("nothing", String::new()),
+        Failure::BrokenPipe => ("run", "the output stream is closed".to_owned()),
     };
     json!({ "kind": kind, "text": text })
 }

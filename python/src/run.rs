@@ -1,7 +1,8 @@
 //! Runs of commands: on threads of their own, while the calling thread looks after signals and progress.
 
 use crate::failure;
-use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
+use frictionsim::app::Failure;
+use frictionsim::app::embedded::EmbeddedRun;
 use pyo3::prelude::*;
 use std::ffi::OsString;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -20,7 +21,7 @@ const LONGEST_END: Duration = Duration::from_secs(60);
 static STOPPED: Mutex<Vec<JoinHandle<()>>> = Mutex::new(Vec::new());
 
 /// What a run on its way gives back at its end.
-type Outcome<T> = Mutex<Receiver<Result<T, EmbeddedFailure>>>;
+type Outcome<T> = Mutex<Receiver<Result<T, Failure>>>;
 
 /// Runs a command of the command line without its program name, and gives the warnings of its log.
 ///
@@ -46,7 +47,7 @@ pub fn start<T: Send + 'static>(
     py: Python<'_>,
     run: &EmbeddedRun,
     progress: Option<Bound<'_, PyAny>>,
-    work: impl FnOnce() -> Result<T, EmbeddedFailure> + Send + 'static,
+    work: impl FnOnce() -> Result<T, Failure> + Send + 'static,
 ) -> PyResult<T> {
     let (sender, receiver) = channel();
     let thread = std::thread::Builder::new().spawn(move || {
@@ -59,7 +60,7 @@ pub fn start<T: Send + 'static>(
         match wait(py, &outcome, LOOK) {
             Ok(result) => return result.map_err(|failed| failure::exception(&failed)),
             Err(RecvTimeoutError::Disconnected) => {
-                let lost = EmbeddedFailure::Panic("the run ended without a word".to_owned());
+                let lost = Failure::Panic("the run ended without a word".to_owned());
                 return Err(failure::exception(&lost));
             }
             Err(RecvTimeoutError::Timeout) => {}
@@ -92,7 +93,7 @@ fn wait<T: Send>(
     py: Python<'_>,
     outcome: &Outcome<T>,
     time: Duration,
-) -> Result<Result<T, EmbeddedFailure>, RecvTimeoutError> {
+) -> Result<Result<T, Failure>, RecvTimeoutError> {
     py.detach(|| {
         let receiver = outcome.lock().unwrap_or_else(PoisonError::into_inner);
         receiver.recv_timeout(time)

@@ -12,7 +12,6 @@ use crate::results::cea::{
 use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
 use crate::study::superelement::free_spectrum;
 use frictionsim_bounds::CASE;
-use indicatif::ProgressBar;
 
 /// What an interrupted run leaves.
 const KEPT: &str = "friction values that are done are kept: the same command with --resume goes on";
@@ -25,17 +24,6 @@ pub(super) fn run(asked: &ResumedRun) -> Result<(), Failure> {
     run_on_mesh(asked)
 }
 
-/// Shows how far a sweep has come.
-fn show(bar: &ProgressBar, progress: SweepProgress) {
-    bar.set_message(match progress.stage {
-        SweepStage::Blocks => "blocks of modes",
-        SweepStage::Values => "friction values",
-        SweepStage::Diameters => "nodal diameters",
-    });
-    bar.set_length(progress.total as u64);
-    bar.set_position(progress.solved as u64);
-}
-
 fn run_on_mesh(arguments: &ResumedRun) -> Result<(), Failure> {
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
@@ -44,7 +32,15 @@ fn run_on_mesh(arguments: &ResumedRun) -> Result<(), Failure> {
     session.check_memory(case.memory("cea").0)?;
     let folder = session.open_folder(arguments.resume)?;
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "modes at rest");
-    let heard = |progress| show(&bar, progress);
+    let heard = |progress: SweepProgress| {
+        bar.set_message(match progress.stage {
+            SweepStage::Blocks => "blocks of modes",
+            SweepStage::Values => "friction values",
+            SweepStage::Diameters => "nodal diameters",
+        });
+        bar.set_length(progress.total as u64);
+        bar.set_position(progress.solved as u64);
+    };
     let steps = KeptSteps::new(&folder, arguments.resume, &heard)?;
     terminal::catch_signals(match solver {
         Solver::WholeMesh => KEPT,

@@ -49,26 +49,17 @@ pub struct Progress {
     pub total: Option<u64>,
 }
 
-/// How a run ended that did not do what it was asked.
-#[derive(Debug)]
-pub enum EmbeddedFailure {
-    /// As on the command line.
-    Command(Failure),
-    /// A panic, with what it said: an error of this program.
-    Panic(String),
-}
-
 impl EmbeddedRun {
     /// Runs one command on threads of its own, all cores unless `threads` says otherwise, and waits for its end.
     /// `arguments` are those of the command line, the command first.
     ///
     /// # Errors
-    /// As the command; [`Failure::Interrupted`] after [`Self::stop`]; a panic is caught.
+    /// As the command; [`Failure::Interrupted`] after [`Self::stop`]; [`Failure::Panic`].
     pub fn run(
         &self,
         arguments: impl IntoIterator<Item = OsString>,
         threads: usize,
-    ) -> Result<(), EmbeddedFailure> {
+    ) -> Result<(), Failure> {
         let name = OsString::from("frictionsim");
         let given = std::iter::once(name).chain(arguments);
         let parsed = command_line().try_get_matches_from(given);
@@ -76,7 +67,7 @@ impl EmbeddedRun {
         let parsed = parsed.map_err(|error| {
             let text = error.render().to_string();
             let text = text.strip_prefix("error: ").unwrap_or(&text);
-            EmbeddedFailure::Command(Failure::usage(text.trim_end()))
+            Failure::usage(text.trim_end())
         })?;
         self.enclose(threads, || parsed.command.run())
     }
@@ -86,19 +77,19 @@ impl EmbeddedRun {
         &self,
         threads: usize,
         work: impl FnOnce() -> Result<T, Failure> + Send,
-    ) -> Result<T, EmbeddedFailure> {
-        let pool = self.pool(threads);
-        let pool = pool.map_err(|error| EmbeddedFailure::Command(Failure::run(error)))?;
-        let outcome = catch_unwind(AssertUnwindSafe(|| pool.install(work)));
-        match outcome {
-            Ok(result) => result.map_err(EmbeddedFailure::Command),
-            Err(cause) if cause.is::<Stopped>() => {
-                let advice = self.state().advice.unwrap_or(NOTHING_KEPT);
-                let failure = Failure::Interrupted(format!("interrupted; {advice}"));
-                Err(EmbeddedFailure::Command(failure))
-            }
-            Err(cause) => Err(EmbeddedFailure::Panic(panic_text(cause.as_ref()))),
-        }
+    ) -> Result<T, Failure> {
+        let own = self.clone();
+        let log = warnings_into(move || own.clone());
+        let pool = build_pool(threads, Some(self.clone()), log).map_err(Failure::run)?;
+        catch_unwind(AssertUnwindSafe(|| pool.install(work))).unwrap_or_else(|cause| {
+            Err(match cause.is::<Stopped>() {
+                true => {
+                    let advice = self.state().advice.unwrap_or(NOTHING_KEPT);
+                    Failure::Interrupted(format!("interrupted; {advice}"))
+                }
+                false => Failure::Panic(panic_text(cause.as_ref())),
+            })
+        })
     }
 
     /// Asks the run to stop; a transient keeps what it has, for `--resume`.
@@ -132,13 +123,6 @@ impl EmbeddedRun {
     /// Notes what an interruption leaves, and how to go on.
     pub(super) fn advise(&self, advice: &'static str) {
         self.state().advice = Some(advice);
-    }
-
-    /// The thread pool of the run; 0 for all cores.
-    fn pool(&self, threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
-        let run = self.clone();
-        let log = warnings_into(move || run.clone());
-        build_pool(threads, Some(self.clone()), log)
     }
 
     fn state(&self) -> MutexGuard<'_, State> {

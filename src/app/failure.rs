@@ -16,6 +16,8 @@ pub enum Failure {
     Run(anyhow::Error),
     /// A signal stopped the run: exit code 130.
     Interrupted(String),
+    /// The program is wrong: what a panic inside another program said.
+    Panic(String),
     /// Nothing was to be done: exit code 0.
     DryRun,
     /// The reader of our output has gone, as `head` does: exit code 0.
@@ -38,7 +40,7 @@ impl Failure {
         match self {
             Self::Case(errors) => errors.messages(),
             Self::Usage(error) | Self::Run(error) => vec![error.to_string()],
-            Self::Interrupted(message) => vec![message.clone()],
+            Self::Interrupted(message) | Self::Panic(message) => vec![message.clone()],
             Self::BrokenPipe | Self::DryRun => Vec::new(),
         }
     }

@@ -51,7 +51,12 @@ const QUANTITIES: [Choice<ResponseQuantity>; 3] = [
 ];
 
 pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
-    let range = frequency_range(asked)?;
+    let range @ (low, high) = (asked.from.unwrap_or(0.0), asked.to.unwrap_or(f64::INFINITY));
+    if !(low >= 0.0 && low < high) {
+        return Err(Failure::usage(format!(
+            "--from {low} --to {high}: the range must start at 0 Hz or higher and end above its start"
+        )));
+    }
     let (uff, force) = (asked.uff.as_deref(), asked.output.force);
     let copy = SideFile::prepare("--uff", uff, &asked.response, force)?;
     let measurement =
@@ -69,7 +74,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         file.responses.iter().map(|named| named.response.clone()).collect();
     let found = identify(&responses, Some(range))
         .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
-    let folder = measurement.open_folder()?;
+    let folder = asked.output.open_folder(&measurement.manifest, false)?;
     let (source, notes) = (&measurement.source, file.notes.clone());
     let summary = IdentificationSummary::new(source, &file.responses, &found, notes);
     write_fits(&folder, &file.responses, &found.fit)?;
@@ -82,18 +87,6 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let figures = || vec![identification(&responses[0], &found)];
     let told = Told::of(measurement.head(), document(&summary));
     asked.output.finish_result(folder, told, &summary, figures)
-}
-
-/// The frequency range, checked.
-fn frequency_range(arguments: &Arguments) -> Result<(f64, f64), Failure> {
-    let low = arguments.from.unwrap_or(0.0);
-    let high = arguments.to.unwrap_or(f64::INFINITY);
-    if !(low >= 0.0 && low < high) {
-        return Err(Failure::usage(format!(
-            "--from {low} --to {high}: the range must start at 0 Hz or higher and end above its start"
-        )));
-    }
-    Ok((low, high))
 }
 
 /// Options that change the result.

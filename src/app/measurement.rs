@@ -15,7 +15,6 @@ pub struct Measurement {
     pub source: String,
     /// What the results are made from.
     pub manifest: Manifest,
-    options: OutputOptions,
     start: Instant,
 }
 
@@ -40,12 +39,7 @@ impl Measurement {
             ..Manifest::new(command)
         };
         choices.into_iter().for_each(|choice| depend_on(&mut manifest, choice, None));
-        Ok(Self { bytes, source: input_name(path), manifest, options: options.clone(), start })
-    }
-
-    /// Takes the output folder; it belongs to one table and one set of options.
-    pub fn open_folder(&self) -> Result<OutputFolder, Failure> {
-        self.options.open_folder(&self.manifest, false)
+        Ok(Self { bytes, source: input_name(path), manifest, start })
     }
 
     /// What its summary begins with: the wall time since the start.

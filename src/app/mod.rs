@@ -168,26 +168,21 @@ fn help_template(command: &clap::Command) -> String {
 pub fn command_line() -> clap::Command {
     let command = CommandLine::command();
     let template = help_template(&command);
-    let mut command = command.help_template(template);
-    let names = command.get_subcommands().map(|sub| sub.get_name().to_owned());
-    for name in names.collect::<Vec<String>>() {
-        command = command.mut_subcommand(&name, |sub| {
-            let sub = with_common_options(sub);
-            let positional = sub.get_positionals().next();
-            let input = positional.and_then(|arg| arg.get_value_names()?.first().cloned());
-            let has_folder = sub.get_arguments().any(|arg| arg.get_id() == "dry_run");
-            match input {
-                Some(input) if has_folder => sub.mut_arg("out", |arg| {
-                    let stem = input.split('.').next().unwrap_or_default();
-                    let own =
-                        if name == "compare" { [&name, "DIR-and-DIR"] } else { [stem, &name] };
-                    arg.help(format!("Output folder [default: results/{}]", own.join("/")))
-                }),
-                _ => sub,
-            }
-        });
-    }
-    command
+    command.help_template(template).mut_subcommands(|sub| {
+        let sub = with_common_options(sub);
+        let name = sub.get_name().to_owned();
+        let positional = sub.get_positionals().next();
+        let input = positional.and_then(|arg| arg.get_value_names()?.first().cloned());
+        let has_folder = sub.get_arguments().any(|arg| arg.get_id() == "dry_run");
+        match input {
+            Some(input) if has_folder => sub.mut_arg("out", |arg| {
+                let stem = input.split('.').next().unwrap_or_default();
+                let own = if name == "compare" { [&name, "DIR-and-DIR"] } else { [stem, &name] };
+                arg.help(format!("Output folder [default: results/{}]", own.join("/")))
+            }),
+            _ => sub,
+        }
+    })
 }
 
 /// A command with the options that every command takes: one that has no use for an option takes it all the same.

@@ -3,8 +3,7 @@
 use super::measurement::{Measurement, SideFile, chosen};
 use super::prelude::*;
 use super::session::read_case;
-use crate::case::Cea;
-use crate::cea::{ComplexMode, ModeLimit};
+use crate::cea::ModeLimit;
 use crate::fem::MassKind;
 use crate::results::charts::ModeLine;
 use crate::results::signal::{
@@ -114,14 +113,20 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let highest = channels.iter().filter_map(|c| c.main_frequency_hz).fold(0.0, f64::max);
     let modes = match &case {
         Some(case) if highest > 0.0 => {
-            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.body.has_sectors())
+            let mass = case.cea.as_ref().map_or(MassKind::Consistent, |cea| cea.mass);
+            let options = tangent_options(case, mass);
+            let limit = ModeLimit::MaxFrequency(1.3 * highest);
+            let modes = modes_at_own_friction(case, &options, limit);
+            let modes =
+                modes.map_err(|error| Failure::run(format!("modes of the case: {error}")))?;
+            ModeSummary::all(&modes, case.body.has_sectors())
         }
         _ => Vec::new(),
     };
     for channel in &mut channels {
         channel.name_modes(&modes);
     }
-    let folder = measurement.open_folder()?;
+    let folder = asked.output.open_folder(&measurement.manifest, false)?;
     let friction = |case: &Case| case.contact.sliding.friction_coefficient;
     let summary = SignalSummary {
         source: measurement.source.clone(),
@@ -278,14 +283,6 @@ fn grown(stage: &ExponentialStage, samples: &[f64], rate: f64) -> [f64; 2] {
         return [late, end];
     }
     [stage.end_s.min(0.5 * (stage.start_s + until)), until]
-}
-
-/// Modes of the case at its friction coefficient.
-fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failure> {
-    let mass = |cea: &Cea| cea.mass;
-    let options = tangent_options(case, case.cea.as_ref().map_or(MassKind::Consistent, mass));
-    modes_at_own_friction(case, &options, ModeLimit::MaxFrequency(frequency_hz))
-        .map_err(|error| Failure::run(format!("modes of the case: {error}")))
 }
 
 /// Options that change the result.

@@ -3,7 +3,7 @@
 mod workers;
 
 pub use crate::study::{Shard, SweepPlan};
-pub use workers::{PointRunner, SweepProgress, SweepRun, keep_piece};
+pub use workers::{PointRunner, SweepProgress, SweepRun, keep_piece, kept_pieces};
 
 use super::prelude::*;
 use super::session::machine_memory;
@@ -11,7 +11,7 @@ use super::share::ShareOptions;
 use super::transient::linear_stage;
 use crate::case::Analysis;
 use crate::results::sweep::{
-    FailedPoint, Found, SweepFolder, SweepReport, SweepSummary, document, draw_sweep, tables,
+    FailedPoint, SweepFolder, SweepReport, SweepSummary, document, draw_sweep, tables,
 };
 use crate::results::{DrawingOptions, summary_of, write_page, write_summary, write_table};
 use crate::study::{refuse_memory, summarize};
@@ -33,7 +33,12 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let session = Session::start("sweep", &asked.options)?;
     let plan = SweepPlan::new(&session.case)?;
     let threads = session.manifest.threads;
-    session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
+    // The analyses of a point run one after the other.
+    let cost = plan.point_case(1).as_ref().unwrap_or(&session.case).cost();
+    let cea = cost.cea.map_or(0.0, |cea| cea.run.memory_bytes);
+    let transient = cost.transient.map_or(0.0, |own| own.run.memory_bytes);
+    let of_point = cost.mesh_memory_bytes + cea.max(transient);
+    session.check_memory(threads.min(plan.count()) as f64 * of_point)?;
     let points = asked.share.pieces(plan.count());
     let output = &asked.options.output;
     let folder = asked.share.open(&session, plan.count(), &points)?;
@@ -72,34 +77,13 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Memory that the analyses of one point take, bytes.
-fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
-    let cost = plan.point_case(1).as_ref().unwrap_or(&session.case).cost();
-    let cea = cost.cea.map_or(0.0, |cea| cea.run.memory_bytes);
-    let transient = cost.transient.map_or(0.0, |own| own.run.memory_bytes);
-    cost.mesh_memory_bytes + cea.max(transient)
-}
-
 /// What there is to report of the finished points of a folder; who asks adds how many it ran, and its time.
 pub fn finished<'a>(
     case: &'a Case,
     plan: &SweepPlan<'_>,
     folder: &SweepFolder,
 ) -> Result<SweepReport<'a>, Failure> {
-    let mut records = Vec::new();
-    for point in 1..=plan.count() {
-        match folder.read(point)? {
-            Found::Point(record) => records.push(*record),
-            Found::Damaged(reason) => {
-                let path = folder.point_path(point);
-                tracing::warn!(
-                    "{} is damaged ({reason}): the point counts as missing; --resume runs it again",
-                    path.display()
-                );
-            }
-            Found::Nothing => {}
-        }
-    }
+    let records = kept_pieces(folder, plan.count())?;
     let core_s = records.iter().map(|record| folder.read_clock(record.point).core_s).sum();
     let (keys, analyses) = (plan.keys(), plan.analysis_names());
     let summary = SweepSummary::of(keys, analyses, plan.count(), &records, core_s);

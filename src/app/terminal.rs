@@ -1,7 +1,7 @@
 //! Terminal output: results on stdout, log and progress on stderr.
 
 use super::log::Line;
-use super::{Failure, embedded};
+use super::{Failure, PANICKED, embedded};
 use crate::case::{find_key, shown, shown_json};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -36,6 +36,7 @@ pub fn report(failure: &Failure) -> u8 {
         Failure::Usage(error) => (format!("{word} {}", shown(&error.to_string())), 2),
         Failure::Run(error) => (format!("{word} {}", shown(&error.to_string())), 1),
         Failure::Interrupted(message) => (format!("{word} {}", shown(message)), INTERRUPTED),
+        Failure::Panic(message) => (format!("{word} {}", shown(message)), PANICKED),
         Failure::BrokenPipe | Failure::DryRun => return 0,
     };
     // Nobody is left to tell if stderr is closed.

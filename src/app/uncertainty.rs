@@ -2,9 +2,8 @@
 
 use super::prelude::*;
 use super::share::ShareOptions;
-use super::sweep::keep_piece;
+use super::sweep::{keep_piece, kept_pieces};
 use crate::case::find_key;
-use crate::results::sweep::{Found, SweepFolder};
 use crate::results::uncertainty::{Sample, samples_table};
 use crate::results::{Finding, declared, summary_of, write_page, write_summary, write_table};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
@@ -64,9 +63,14 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         bar.inc(BLOCK as u64);
     }
     bar.finish_and_clear();
-    let (samples, missing) = finished(&folder, count)?;
-    let samples: Vec<Sample> =
-        samples.into_iter().filter(|sample| sample.number <= uncertainty.samples).collect();
+    let kept = kept_pieces(&folder, count)?;
+    let missing = count - kept.len();
+    let mut samples: Vec<Sample> = Vec::new();
+    for mut record in kept {
+        let own = record.summaries.remove(SAMPLES).unwrap_or_default();
+        samples.extend(serde_json::from_value::<Vec<Sample>>(own).map_err(Failure::run)?);
+    }
+    samples.retain(|sample| sample.number <= uncertainty.samples);
     let mut summary = summarize(&case, &samples);
     if missing > 0 {
         summary.notes.push(format!(
@@ -99,21 +103,6 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         }
     }
     output.print(&text, &object, folder.output().path())
-}
-
-/// The finished samples in their order, and how many blocks are missing.
-fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), Failure> {
-    let (mut samples, mut missing) = (Vec::new(), 0);
-    for block in 1..=count {
-        match folder.read(block)? {
-            Found::Point(mut record) => {
-                let own = record.summaries.remove(SAMPLES).unwrap_or_default();
-                samples.extend(serde_json::from_value::<Vec<Sample>>(own).map_err(Failure::run)?);
-            }
-            Found::Damaged(_) | Found::Nothing => missing += 1,
-        }
-    }
-    Ok((samples, missing))
 }
 
 /// Refuses what cannot be designed.

@@ -1,7 +1,7 @@
 //! Commands inside another program: side by side, interrupted, panicking.
 
 use crate::prelude::*;
-use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
+use frictionsim::app::embedded::EmbeddedRun;
 use std::ffi::OsString;
 
 fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {
@@ -12,7 +12,7 @@ fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) 
     head.into_iter().chain(set).map(OsString::from).collect()
 }
 
-fn run(words: Vec<OsString>) -> Result<(), EmbeddedFailure> {
+fn run(words: Vec<OsString>) -> Result<(), Failure> {
     EmbeddedRun::default().run(words, 1)
 }
 
@@ -27,10 +27,7 @@ fn stopped_after(milliseconds: u64, words: Vec<OsString>, said: &str) {
 }
 
 /// Runs a command on a thread, stops it once that is due, and gives its failure and how long it took to stop.
-fn stopped(
-    words: Vec<OsString>,
-    is_due: impl Fn(&EmbeddedRun) -> bool,
-) -> (EmbeddedFailure, Duration) {
+fn stopped(words: Vec<OsString>, is_due: impl Fn(&EmbeddedRun) -> bool) -> (Failure, Duration) {
     let run = EmbeddedRun::default();
     let own = run.clone();
     let thread = std::thread::spawn(move || own.run(words, 2));
@@ -43,9 +40,9 @@ fn stopped(
     (outcome.unwrap_err(), asked.elapsed())
 }
 
-fn interruption(failure: &EmbeddedFailure) -> &str {
+fn interruption(failure: &Failure) -> &str {
     match failure {
-        EmbeddedFailure::Command(Failure::Interrupted(text)) => text,
+        Failure::Interrupted(text) => text,
         other => panic!("{other:?}"),
     }
 }
@@ -109,7 +106,7 @@ fn a_panic_is_caught_and_the_next_run_goes_on() {
         Ok(())
     });
     let error = failure.unwrap_err();
-    assert!(matches!(&error, EmbeddedFailure::Panic(text) if text == "of the test"), "{error:?}");
+    assert!(matches!(&error, Failure::Panic(text) if text == "of the test"), "{error:?}");
     assert_eq!(run.enclose(1, || Ok(7)).unwrap(), 7);
 }
 
@@ -117,13 +114,11 @@ fn a_panic_is_caught_and_the_next_run_goes_on() {
 fn bad_words_and_bad_cases_are_failures_as_on_the_command_line() {
     let folder = folder();
     let unknown = run(vec!["cea".into(), "--colour".into()]).unwrap_err();
-    let EmbeddedFailure::Command(failure @ Failure::Usage(_)) = &unknown else {
-        panic!("{unknown:?}");
-    };
-    assert!(failure.messages()[0].contains("--colour"));
+    assert!(matches!(&unknown, Failure::Usage(_)), "{unknown:?}");
+    assert!(unknown.messages()[0].contains("--colour"));
     let set = ["contact.friction_coefficient=-1"];
     let bad = run(words("cea", "polycarbonate-disc.toml", &folder, "x", &set)).unwrap_err();
-    assert!(matches!(&bad, EmbeddedFailure::Command(Failure::Case(_))), "{bad:?}");
+    assert!(matches!(&bad, Failure::Case(_)), "{bad:?}");
 }
 
 #[test]

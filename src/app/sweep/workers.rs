@@ -3,7 +3,7 @@
 use crate::app::embedded;
 use crate::app::prelude::*;
 use crate::app::terminal::progress_in;
-use crate::results::sweep::{PointClock, PointRecord, SweepFolder, swept_text};
+use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder, swept_text};
 use crate::study::{SweepPlan, one_line};
 use indicatif::ProgressBar;
 use serde_json::Map;
@@ -133,6 +133,25 @@ pub fn keep_piece(
     };
     folder.write_point(&record, &clock)?;
     Ok(Some((record, clock)))
+}
+
+/// The finished ones of `count` pieces in their order; the log says which are damaged.
+pub fn kept_pieces(folder: &SweepFolder, count: usize) -> Result<Vec<PointRecord>, Failure> {
+    let mut records = Vec::new();
+    for point in 1..=count {
+        match folder.read(point)? {
+            Found::Point(record) => records.push(*record),
+            Found::Damaged(reason) => {
+                let path = folder.point_path(point);
+                tracing::warn!(
+                    "{} is damaged ({reason}): the point counts as missing; --resume runs it again",
+                    path.display()
+                );
+            }
+            Found::Nothing => {}
+        }
+    }
+    Ok(records)
 }
 
 /// Time that this thread has been on a core, s, where the system says so.
