@@ -143,11 +143,9 @@ impl ElementKind {
         if self.dimension() == 1 {
             tangents[1] = [0.0, 0.0, 1.0];
         }
-        let [a, b] = tangents;
-        let area =
-            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let [a, b] = tangents.map(Vector3::from);
         let values = shapes.into_iter().map(|shape| shape.0).collect();
-        FacePoint { values, position, area: area.map(|x| weight * x) }
+        FacePoint { values, position, area: (a.cross(&b) * weight).into() }
     }
 
     /// Quadrature of the mass: full, exact for the mass of an undistorted element: 3 points for Tri3, 6 (degree 4, Dunavant 1985) for Tri6,

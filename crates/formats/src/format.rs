@@ -16,17 +16,6 @@ pub enum MeshFormat {
     Universal,
 }
 
-/// Names that end so where the content does not tell.
-const EXTENSIONS: [(&str, MeshFormat); 7] = [
-    ("msh", MeshFormat::Gmsh),
-    ("inp", MeshFormat::Abaqus),
-    ("bdf", MeshFormat::Nastran),
-    ("nas", MeshFormat::Nastran),
-    ("fem", MeshFormat::Nastran),
-    ("unv", MeshFormat::Universal),
-    ("uff", MeshFormat::Universal),
-];
-
 impl MeshFormat {
     /// The format of a file: its first lines decide where they can, else its name.
     pub fn of(name: &str, bytes: &[u8]) -> Self {
@@ -46,9 +35,12 @@ impl MeshFormat {
             _ if nastran.iter().any(|begin| first.starts_with(begin)) => Self::Nastran,
             _ => {
                 let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
-                let extension = extension.to_lowercase();
-                let known = EXTENSIONS.iter().find(|known| known.0 == extension);
-                known.map_or(Self::Gmsh, |known| known.1)
+                match extension.to_lowercase().as_str() {
+                    "inp" => Self::Abaqus,
+                    "bdf" | "nas" | "fem" => Self::Nastran,
+                    "unv" | "uff" => Self::Universal,
+                    _ => Self::Gmsh,
+                }
             }
         }
     }

@@ -113,8 +113,7 @@ impl Reader<'_> {
     /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
     fn finished(self) -> Result<FileMesh> {
         let mut file = self.file;
-        let dimensions = file.elements.iter().map(|element| element.kind.dimension());
-        let dimension = dimensions.max().unwrap_or(2);
+        let dimension = dimension(&file.elements);
         file.elements.retain(|element| element.kind.dimension() == dimension);
         if dimension == 3 {
             file.surfaces = self.surfaces;
