@@ -74,35 +74,28 @@ const MOST_MODES: usize = 1000;
 const LOWEST_HZ: f64 = 1e-3;
 const HIGHEST_HZ: f64 = 1e9;
 
-/// The number in a column, if the row has one there and `admits` takes it.
-fn number_in(
-    row: &Row<'_>,
-    places: &[Option<usize>; 8],
-    column: usize,
-    admits: fn(f64) -> bool,
-) -> Result<Option<f64>, ReadError> {
-    let Some(cell) = row.cell(places[column]) else { return Ok(None) };
-    let (field, name) = (shortened(cell), format!("`{}`", COLUMNS[column][0]));
-    let value = match cell {
-        // As the tables of the program's own say it.
-        "true" => Some(1.0),
-        "false" => Some(0.0),
-        cell => number(cell),
-    };
-    match value {
-        None => Err(row.error(cell, not_a_number(&field, &name))),
-        Some(value) if value.is_nan() => Ok(None),
-        Some(value) if !admits(value) => {
-            let remedy = "correct it, or leave the cell empty";
-            let problem = format!("`{field}` is not a valid value of column {name}; {remedy}");
-            Err(row.error(cell, problem))
-        }
-        Some(value) => Ok(Some(value)),
-    }
-}
-
 fn mode(row: &Row<'_>, places: &[Option<usize>; 8]) -> Result<MeasuredMode, ReadError> {
-    let cell = |column, admits| number_in(row, places, column, admits);
+    // The number in a column, if the row has one there and `admits` takes it.
+    let cell = |column: usize, admits: fn(f64) -> bool| {
+        let Some(cell) = row.cell(places[column]) else { return Ok(None) };
+        let (field, name) = (shortened(cell), format!("`{}`", COLUMNS[column][0]));
+        let value = match cell {
+            // As the tables of the program's own say it.
+            "true" => Some(1.0),
+            "false" => Some(0.0),
+            cell => number(cell),
+        };
+        match value {
+            None => Err(row.error(cell, not_a_number(&field, &name))),
+            Some(value) if value.is_nan() => Ok(None),
+            Some(value) if !admits(value) => {
+                let remedy = "correct it, or leave the cell empty";
+                let problem = format!("`{field}` is not a valid value of column {name}; {remedy}");
+                Err(row.error(cell, problem))
+            }
+            Some(value) => Ok(Some(value)),
+        }
+    };
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let plausible = |value: f64| (LOWEST_HZ..=HIGHEST_HZ).contains(&value);
     let hertz = cell(0, plausible)?;
