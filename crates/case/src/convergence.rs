@@ -102,13 +102,7 @@ impl super::Case {
 /// Refinements of an imported mesh where none are given.
 const SPLITS: [f64; 3] = [1.0, 2.0, 4.0];
 
-/// Reads the section of a case that `has` a `[cea]`, a `[transient]` and a `[cycle]`.
-pub(super) fn read(
-    section: &Section<'_>,
-    root: &Section<'_>,
-    body: Option<&Body>,
-    has: impl Fn(Analysis) -> bool,
-) -> Convergence {
+pub(super) fn read(section: &Section<'_>, root: &Section<'_>, body: Option<&Body>) -> Convergence {
     refuse_if!(root.has("modifications"); root, "modifications",
         "[modifications] are places of one mesh: a finer one would have others";
         "not beside [convergence]";
@@ -117,7 +111,7 @@ pub(super) fn read(
     if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") {
         factors = SPLITS.to_vec();
     }
-    if has_enough(section, "factors", &factors) && is_ordered(section, "factors", &factors, 1.0) {
+    if is_series(section, "factors", &factors, 1.0) {
         let solid = body.and_then(Body::revolution);
         match (body.and_then(Body::whole_mesh), body.and_then(Body::grid)) {
             (Some(mesh), _) => check_splits(section, mesh, &factors),
@@ -126,18 +120,16 @@ pub(super) fn read(
         }
     }
     let time_step_factors = section.numbers("time_step_factors").unwrap_or_default();
-    if section.has("time_step_factors")
-        && has_enough(section, "time_step_factors", &time_step_factors)
-    {
-        is_ordered(section, "time_step_factors", &time_step_factors, -1.0);
+    if section.has("time_step_factors") {
+        is_series(section, "time_step_factors", &time_step_factors, -1.0);
     }
     let is_linear = body.is_none_or(Body::suits_transient);
     // Cycles of a body without symmetry have no name that two meshes share.
     let has_waves = body.is_none_or(|body| body.annulus().is_some());
-    let can_run = |analysis| match analysis {
-        Analysis::Cea => has(analysis),
-        Analysis::Transient => has(analysis) && is_linear,
-        Analysis::Cycle => has(analysis) && is_linear && has_waves,
+    let can_run = |analysis: Analysis| match analysis {
+        Analysis::Cea => root.has("cea"),
+        Analysis::Transient => root.has("transient") && is_linear,
+        Analysis::Cycle => root.has("cycle") && is_linear && has_waves,
         // A boundary is no number that a mesh converges to within one step of its search.
         Analysis::Basin => false,
     };
@@ -149,17 +141,15 @@ pub(super) fn read(
     Convergence { factors, time_step_factors, analyses }
 }
 
-/// Refuses fewer than three values.
-fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool {
+/// Refuses fewer than three values, and those that do not strictly rise (`sign` 1) or fall (-1).
+fn is_series(section: &Section<'_>, key: &'static str, values: &[f64], sign: f64) -> bool {
     let given = section.list_length(key).unwrap_or(values.len());
     refuse_if!(given < FEWEST; section, key =>
         "has {given} values; observing an order takes {FEWEST} or more";
         "at least {FEWEST} values");
-    values.len() >= FEWEST
-}
-
-/// Refuses values that do not strictly rise (`sign` 1) or fall (-1).
-fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f64) -> bool {
+    if values.len() < FEWEST {
+        return false;
+    }
     let pair = values.windows(2).find(|pair| sign * (pair[1] - pair[0]) <= 0.0);
     if let Some(pair) = pair {
         let (word, why) = match sign > 0.0 {

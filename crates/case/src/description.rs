@@ -1,11 +1,10 @@
 //! The sections that describe the body of a case, of whichever kind it is.
 
 use super::boundaries::NamedCondition;
-use super::elastic::elastic;
 use super::modifications::Modification;
-use super::tables::{TableFiles, modulus_table};
+use super::tables::TableFiles;
 use super::words::FilePart;
-use super::{RawCase, UnitsWord, boundaries, modifications};
+use super::{RawCase, UnitsWord, boundaries, elastic, modifications};
 use crate::prelude::*;
 
 /// `[damping]`.
@@ -112,15 +111,12 @@ fn material(root: &Section<'_>, tables: &TableFiles<'_>) -> RegionMaterial {
     let is_needed = !has_regions || has_common_constants(root);
     let section = root.section("material", is_needed);
     let formulation = section.choice("formulation");
-    let (elastic, table) = match is_needed {
-        true => {
-            let table = modulus_table(&section, tables);
-            (elastic(&section, formulation, table.as_deref()), table)
-        }
-        false => (ElasticMaterial { formulation, ..ElasticMaterial::PLAIN }, None),
+    let material = match is_needed {
+        true => elastic::material(&section, formulation, tables),
+        false => ElasticMaterial { formulation, ..ElasticMaterial::PLAIN }.into(),
     };
     section.close();
-    RegionMaterial { table, ..elastic.into() }
+    material
 }
 
 pub(super) fn damping(section: &Section<'_>) -> Damping {

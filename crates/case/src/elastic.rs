@@ -1,5 +1,6 @@
 //! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
 
+use super::tables::{TableFiles, modulus_table};
 use super::words::AxesWord;
 use crate::prelude::*;
 use frictionsim_physics::fem::{MaterialAxes, Orthotropy, RATIOS};
@@ -30,20 +31,20 @@ pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
 
 /// Elasticity and density of `[material]` or of a section of `[materials.*]`. Cylindrical axes are about z until
 /// [`place_axes`] knows the body. A table over frequency gives modulus and loss factor.
-pub(super) fn elastic(
+pub(super) fn material(
     section: &Section<'_>,
     formulation: PlaneFormulation,
-    table: Option<&ModulusTable>,
-) -> ElasticMaterial {
+    tables: &TableFiles<'_>,
+) -> RegionMaterial {
+    let table = modulus_table(section, tables);
     let density = section.number("density");
     let loss_factor = loss_factor(section);
     let plain = ElasticMaterial { density, loss_factor, formulation, ..ElasticMaterial::PLAIN };
-    if section.has("table") {
+    let elastic = if section.has("table") {
         // What is wrong with its file is said already.
         let harmless = ModulusTable::new("", "", vec![[0.0, 1.0, 0.0]]);
-        return tabled(section, plain, table.unwrap_or(&harmless));
-    }
-    if ORTHOTROPIC.iter().any(|key| section.has(key)) {
+        tabled(section, plain, table.as_deref().unwrap_or(&harmless))
+    } else if ORTHOTROPIC.iter().any(|key| section.has(key)) {
         for key in ISOTROPIC {
             let _ = section.optional_number(key);
             refuse_if!(section.has(key); section, key =>
@@ -53,15 +54,17 @@ pub(super) fn elastic(
         let own = orthotropy(section);
         let [young_modulus, poisson_ratio] = own.mean_constants();
         let orthotropy = Some(own);
-        return ElasticMaterial { young_modulus, poisson_ratio, orthotropy, ..plain };
-    }
-    // Known keys of the section, though none is given.
-    let _ = ORTHOTROPIC.map(|key| section.numbers(key));
-    refuse_if!(axes(section) != MaterialAxes::global(); section, "axes" =>
-        "is for an orthotropic material"; "an isotropic material has no axes";
-        "give young_moduli, poisson_ratios and shear_moduli, or leave it out");
-    let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| section.number(key));
-    ElasticMaterial { young_modulus, poisson_ratio, ..plain }
+        ElasticMaterial { young_modulus, poisson_ratio, orthotropy, ..plain }
+    } else {
+        // Known keys of the section, though none is given.
+        let _ = ORTHOTROPIC.map(|key| section.numbers(key));
+        refuse_if!(axes(section) != MaterialAxes::global(); section, "axes" =>
+            "is for an orthotropic material"; "an isotropic material has no axes";
+            "give young_moduli, poisson_ratios and shear_moduli, or leave it out");
+        let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| section.number(key));
+        ElasticMaterial { young_modulus, poisson_ratio, ..plain }
+    };
+    RegionMaterial { table, ..elastic.into() }
 }
 
 /// An isotropic material with the modulus of the lowest frequency of its table, which gives the loss factor too.

@@ -1,12 +1,10 @@
 //! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
 use super::description::{Description, has_common_constants};
-use super::elastic::elastic;
 use super::modifications::{Misfit, reshaped};
-use super::tables::modulus_table;
 use super::value::quote;
 use super::words::CounterfaceWord;
-use super::{Diagnostic, MeshBytes, RawCase, inclusion, suggestion};
+use super::{Diagnostic, MeshBytes, RawCase, elastic, inclusion, suggestion};
 use crate::prelude::*;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::mesh::{BodyPart, CyclicSymmetry, refined_file, repeated_file};
@@ -89,8 +87,7 @@ pub(super) fn materials(own: &Description<'_>) -> Vec<(String, RegionMaterial)> 
 pub(super) fn material(own: &Description<'_>, section: &Section<'_>) -> RegionMaterial {
     let coefficients = ["mass_coefficient", "stiffness_coefficient"];
     let coefficients = coefficients.map(|key| section.optional_number(key));
-    let table = modulus_table(section, &own.tables);
-    let elastic = elastic(section, own.common.elastic.formulation, table.as_deref());
+    let material = elastic::material(section, own.common.elastic.formulation, &own.tables);
     let damping = match coefficients {
         [None, None] => None,
         [mass, stiffness] => Some(RayleighDamping {
@@ -98,7 +95,7 @@ pub(super) fn material(own: &Description<'_>, section: &Section<'_>) -> RegionMa
             stiffness_coefficient: stiffness.unwrap_or(0.0),
         }),
     };
-    RegionMaterial { damping, table, ..elastic.into() }
+    RegionMaterial { damping, ..material }
 }
 
 /// What makes a body of a mesh file, be it plane or of solid elements.

@@ -42,11 +42,12 @@ impl Expansion {
     fn expanded(&mut self, text: &str) -> Result<String, String> {
         let mut out = String::with_capacity(text.len());
         for (number, line) in text.lines().enumerate() {
-            let Some((name, stays)) = self.format.included(line) else {
+            let included = self.format.included(line);
+            if included.is_none_or(|(_, stays)| stays) {
                 out.push_str(line);
                 out.push('\n');
-                continue;
-            };
+            }
+            let Some((name, _)) = included else { continue };
             let here = self.chain[self.chain.len() - 1].display().to_string();
             let at = |reason: String| {
                 format!("{here}, line {}: cannot include {name}: {reason}", number + 1)
@@ -62,10 +63,6 @@ impl Expansion {
             self.chain.push(path);
             let inner = self.expanded(&String::from_utf8_lossy(&bytes))?;
             self.chain.pop();
-            if stays {
-                out.push_str(line);
-                out.push('\n');
-            }
             let comment = self.format.comment().unwrap_or_default();
             out.push_str(&included_text(comment, name, &inner));
         }
