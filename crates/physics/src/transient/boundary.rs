@@ -1,5 +1,6 @@
 //! Forces of supports, boundary pressures and regions with damping of their own.
 
+use super::force_rows::ForceRows;
 use crate::fem::Triplets;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
 
@@ -11,22 +12,12 @@ use crate::fem::operator::{MotionFields, StiffnessOperator};
 ///
 /// with `f` the boundary pressures: the springs of a support are part of the operator's `K`, but `beta_R` stays on the body.
 pub(super) struct BoundaryForces {
-    rows: Vec<Row>,
-    /// `(place, value)` of the entries of all rows, N s/m for each metre of thickness.
-    entries: Vec<(usize, f64)>,
-}
-
-struct Row {
-    place: usize,
-    mass: f64,
-    /// Force of the full pressure, N/m.
-    force: f64,
-    /// Where its entries end.
-    end: usize,
-    /// Damping force of this step, N/m.
-    damping: f64,
-    /// Elastic acceleration and velocity before the step.
-    before: [f64; 2],
+    /// `D`.
+    rows: ForceRows,
+    /// Forces of the full pressure, N/m.
+    pressures: Vec<f64>,
+    /// Damping forces of this step, N/m.
+    damping: Vec<f64>,
 }
 
 impl BoundaryForces {
@@ -34,49 +25,28 @@ impl BoundaryForces {
     pub fn of(mut damping: Triplets, pressure: &[f64], operator: &dyn StiffnessOperator) -> Self {
         let pressed = (0..pressure.len()).filter(|&dof| pressure[dof] != 0.0);
         damping.entries.extend(pressed.map(|dof| (dof, dof, 0.0)));
-        damping.merge();
-        let mut forces = Self { rows: Vec::new(), entries: Vec::new() };
-        for row in damping.entries.chunk_by(|a, b| a.0 == b.0) {
-            let dof = row[0].0;
-            let place = operator.position(dof);
-            let mass = operator.masses()[place];
-            if mass > 0.0 {
-                let entries = row.iter().map(|&(_, dof, value)| (operator.position(dof), value));
-                forces.entries.extend(entries);
-                forces.rows.push(Row {
-                    place,
-                    mass,
-                    force: pressure.get(dof).copied().unwrap_or(0.0),
-                    end: forces.entries.len(),
-                    damping: 0.0,
-                    before: [0.0; 2],
-                });
-            }
-        }
-        forces
+        let (dofs, rows) = ForceRows::of(damping, operator);
+        let force = |&dof: &usize| pressure.get(dof).copied().unwrap_or(0.0);
+        Self { pressures: dofs.iter().map(force).collect(), damping: vec![0.0; dofs.len()], rows }
     }
 
     /// Adds the forces of the coming step to the elastic accelerations; `share` of the pressure acts.
     pub fn apply(&mut self, fields: &mut MotionFields, share: f64) {
-        let mut start = 0;
-        for row in &mut self.rows {
-            let own = &self.entries[start..row.end];
-            row.damping = own.iter().map(|&(place, value)| value * fields.velocity[place]).sum();
-            row.before = [fields.elastic[row.place], fields.velocity[row.place]];
-            fields.elastic[row.place] += (row.damping - share * row.force) / row.mass;
-            start = row.end;
-        }
+        self.rows.look(fields);
+        self.rows.multiply(|j| self.rows.before[j][1], &mut self.damping);
+        self.rows.apply(fields, |i| self.damping[i] - share * self.pressures[i]);
     }
 
     /// Takes them out again after the step, and returns the power that they took out of the body, W/m.
     pub fn settle(&self, fields: &mut MotionFields, time_step: f64, share: f64) -> [f64; 2] {
+        self.rows.settle(fields, time_step);
         let (mut damping, mut pressure) = (0.0, 0.0);
-        for row in &self.rows {
-            let [elastic, velocity] = row.before;
-            fields.elastic[row.place] = elastic + time_step * fields.elastic_rate[row.place];
-            let mean = 0.5 * (velocity + fields.velocity[row.place]);
-            damping += row.damping * mean;
-            pressure += share * row.force * mean;
+        for (i, (&place, [_, velocity])) in
+            self.rows.places.iter().zip(&self.rows.before).enumerate()
+        {
+            let mean = 0.5 * (velocity + fields.velocity[place]);
+            damping += self.damping[i] * mean;
+            pressure += share * self.pressures[i] * mean;
         }
         [damping, pressure]
     }

@@ -11,6 +11,7 @@ mod central_difference;
 mod compliance;
 mod contact;
 mod error;
+mod force_rows;
 mod model;
 mod perturbation;
 mod recorder;

@@ -1,10 +1,10 @@
 //! Forces of Maxwell elements: what a stiffness that depends on frequency is in time.
 
 use super::TransientError;
+use super::force_rows::ForceRows;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
 use crate::fem::{MaterialField, Triplets, region_stiffness};
 use crate::mesh::Mesh;
-use std::collections::BTreeMap;
 
 /// Places of `z_n` and `z_{n-1}` among the stretches of an element.
 const NOW: usize = 0;
@@ -34,15 +34,9 @@ pub(super) struct Relaxation {
 /// A region.
 #[derive(Debug)]
 struct Part {
-    /// Places of its dofs in the fields, and their masses.
-    places: Vec<usize>,
-    masses: Vec<f64>,
-    /// `K` over these, row by row: where each row ends, and its columns with their values.
-    ends: Vec<usize>,
-    entries: Vec<(usize, f64)>,
+    /// `K`.
+    rows: ForceRows,
     elements: Vec<Element>,
-    /// Elastic acceleration and velocity before the step.
-    before: Vec<[f64; 2]>,
 }
 
 #[derive(Debug)]
@@ -67,16 +61,15 @@ impl Relaxation {
         let parts = regions.filter_map(|region| {
             let chain = materials.chain(region)?;
             let stiffness = region_stiffness(mesh, materials, region);
-            let mut part = Part::new(bound(stiffness), operator);
-            let still = vec![0.0; part.places.len()];
+            let (dofs, rows) = ForceRows::of(bound(stiffness), operator);
+            let still = vec![0.0; dofs.len()];
             let elements = chain.elements.iter().map(|own| Element {
                 time: own.time,
                 stiffness: own.stiffness,
                 stretch: [still.clone(), still.clone()],
                 image: still.clone(),
             });
-            part.elements = elements.collect();
-            Some(part)
+            Some(Part { elements: elements.collect(), rows })
         });
         Self { parts: parts.collect() }
     }
@@ -85,11 +78,10 @@ impl Relaxation {
     pub fn apply(&mut self, fields: &mut MotionFields) {
         for part in &mut self.parts {
             part.look(NOW);
-            for (i, &place) in part.places.iter().enumerate() {
-                part.before[i] = [fields.elastic[place], fields.velocity[place]];
-                let force: f64 = part.elements.iter().map(|own| own.stiffness * own.image[i]).sum();
-                fields.elastic[place] += force / part.masses[i];
-            }
+            part.rows.look(fields);
+            let elements = &part.elements;
+            let force = |i| elements.iter().map(|own| own.stiffness * own.image[i]).sum();
+            part.rows.apply(fields, force);
         }
     }
 
@@ -97,13 +89,11 @@ impl Relaxation {
     pub fn settle(&mut self, fields: &mut MotionFields, time_step: f64) -> f64 {
         let mut power = 0.0;
         for part in &mut self.parts {
-            for (i, &place) in part.places.iter().enumerate() {
-                fields.elastic[place] = part.before[i][0] + time_step * fields.elastic_rate[place];
-            }
+            part.rows.settle(fields, time_step);
             for own in &mut part.elements {
                 let [kept, gained] = own.factors(time_step);
                 let mut lost = 0.0;
-                for (i, &place) in part.places.iter().enumerate() {
+                for (i, &place) in part.rows.places.iter().enumerate() {
                     let (now, last) = (own.stretch[NOW][i], own.stretch[BEFORE][i]);
                     let next = kept * now + gained * fields.velocity[place];
                     lost += own.image[i] * (next + 2.0 * now + last);
@@ -129,7 +119,7 @@ impl Relaxation {
         for part in &mut self.parts {
             for own in &mut part.elements {
                 let [kept, gained] = own.factors(time_step);
-                for (i, &place) in part.places.iter().enumerate() {
+                for (i, &place) in part.rows.places.iter().enumerate() {
                     own.stretch[BEFORE][i] =
                         (own.stretch[NOW][i] - gained * fields.velocity[place]) / kept;
                 }
@@ -175,43 +165,10 @@ impl Element {
 }
 
 impl Part {
-    /// The dofs of a matrix that have a mass, without elements.
-    fn new(mut stiffness: Triplets, operator: &dyn StiffnessOperator) -> Self {
-        let mass = |dof: usize| operator.masses()[operator.position(dof)];
-        stiffness.entries.retain(|&(row, column, _)| mass(row) > 0.0 && mass(column) > 0.0);
-        stiffness.merge();
-        let rows = || stiffness.entries.chunk_by(|a, b| a.0 == b.0);
-        let number: BTreeMap<usize, usize> = rows().map(|row| row[0].0).zip(0..).collect();
-        let (mut ends, mut entries) = (Vec::new(), Vec::new());
-        for row in rows() {
-            let known = row.iter();
-            entries.extend(known.filter_map(|(_, dof, value)| Some((*number.get(dof)?, *value))));
-            ends.push(entries.len());
-        }
-        let dofs = || number.keys().copied();
-        Self {
-            places: dofs().map(|dof| operator.position(dof)).collect(),
-            masses: dofs().map(mass).collect(),
-            before: vec![[0.0; 2]; number.len()],
-            ends,
-            entries,
-            elements: Vec::new(),
-        }
-    }
-
     /// `K z_n` or `K z_{n-1}` of every element.
     fn look(&mut self, at: usize) {
         for own in &mut self.elements {
-            multiply(&self.ends, &self.entries, &own.stretch[at], &mut own.image);
+            self.rows.multiply(|j| own.stretch[at][j], &mut own.image);
         }
-    }
-}
-
-/// `y = K x`.
-fn multiply(ends: &[usize], entries: &[(usize, f64)], x: &[f64], y: &mut [f64]) {
-    let mut start = 0;
-    for (y, &end) in y.iter_mut().zip(ends) {
-        *y = entries[start..end].iter().map(|&(j, value)| value * x[j]).sum();
-        start = end;
     }
 }
