@@ -14,6 +14,7 @@ pub use sums::{ContactPowers, StatusCounts};
 use super::compliance::Spring;
 use crate::contact::{ContactStatus, CoulombFriction};
 use crate::fem::operator::{MotionFields, StepCoefficients};
+use law::FreePoint;
 use std::ops::Range;
 
 /// Contact of points, each with what it meets.
@@ -109,9 +110,7 @@ struct TouchingSurfaces {
 /// A point within a step of the sweeps.
 #[derive(Clone, Copy, Debug, Default)]
 struct PointTurn {
-    /// Before the step: separation (m), velocity along the rows (m/s).
-    separation: f64,
-    before: [f64; 3],
+    free: FreePoint,
     forces: PointForces,
 }
 
@@ -152,10 +151,10 @@ impl LagrangeContact {
         step: &Step,
     ) -> (ContactPowers, StatusCounts) {
         match (self.tangents, self.is_single) {
-            (1, true) => self.settle_single_dofs::<1>(fields, step),
-            (_, true) => self.settle_single_dofs::<2>(fields, step),
-            (1, false) => self.settle_after_sweeps::<1>(fields, step),
-            (_, false) => self.settle_after_sweeps::<2>(fields, step),
+            (1, true) => self.settle_points::<1, true>(fields, step),
+            (_, true) => self.settle_points::<2, true>(fields, step),
+            (1, false) => self.settle_points::<1, false>(fields, step),
+            (_, false) => self.settle_points::<2, false>(fields, step),
         }
     }
 

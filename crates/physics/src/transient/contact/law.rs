@@ -8,7 +8,7 @@ use crate::transient::compliance::CompressedNode;
 const HALVINGS: usize = 64;
 
 /// A point before its forces are known.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FreePoint {
     /// Place among the points of its surfaces.
     pub place: usize,

@@ -1,33 +1,72 @@
 //! What contact forces do within a step.
 
-use super::{ContactPoint, ContactPowers, StatusCounts, Step, TouchingSurfaces};
+use super::{ContactPoint, ContactPowers, LagrangeContact, StatusCounts, Step, TouchingSurfaces};
 use crate::contact::ContactStatus;
+use crate::fem::operator::MotionFields;
 
-/// Sums over the points of a step.
-pub(super) struct Account {
-    pub powers: ContactPowers,
-    pub counts: StatusCounts,
+impl LagrangeContact {
+    /// Takes the multipliers out of the elastic accelerations after the step, and returns what they did; statuses are counted by points.
+    pub(super) fn settle_points<const TANGENTS: usize, const IS_SINGLE: bool>(
+        &self,
+        fields: &mut MotionFields,
+        step: &Step,
+    ) -> (ContactPowers, StatusCounts) {
+        let (dt, rows) = (step.coefficients.time_step, TANGENTS + 1);
+        let (velocity, elastic_rate) = (&fields.velocity[..], &fields.elastic_rate[..]);
+        let elastic = &mut fields.elastic[..];
+        if !IS_SINGLE {
+            for dof in &self.dofs {
+                elastic[dof.place] = dof.before[1] + dt * elastic_rate[dof.place];
+            }
+        }
+        let counts = StatusCounts { ambiguous: self.ambiguous, ..StatusCounts::default() };
+        let mut sums = (ContactPowers::default(), counts);
+        for surfaces in &self.surfaces {
+            for (place, i) in surfaces.points.clone().enumerate() {
+                let (status, forces, mut mean);
+                if IS_SINGLE {
+                    // Rows are single dofs, points are nodes.
+                    let across = if TANGENTS > 1 { self.across_force[i] } else { 0.0 };
+                    forces = [self.normal_force[i], self.tangential_force[i], across];
+                    (status, mean) = (self.status[i], [0.0; 3]);
+                    if status != ContactStatus::Open {
+                        for (c, dof) in self.dofs[rows * i..rows * (i + 1)].iter().enumerate() {
+                            let [v, q] = dof.before;
+                            elastic[dof.place] = q + dt * elastic_rate[dof.place];
+                            let along =
+                                if TANGENTS > 1 { self.entries[rows * i + c].1 } else { 1.0 };
+                            mean[c] = along * (0.5 * (v + velocity[dof.place]));
+                        }
+                    }
+                } else {
+                    let own = &self.turns[i].forces;
+                    forces = [own.whole[0], own.friction[0], own.friction[1]];
+                    (status, mean) = (own.status, [0.0; 3]);
+                    for (c, mean) in mean[..rows].iter_mut().enumerate() {
+                        *mean = 0.5 * self.along(i, c, |dof| dof.before[0] + velocity[dof.place]);
+                    }
+                }
+                let point = (place, &self.points[i], status);
+                surfaces.account::<TANGENTS>(&mut sums, point, forces, mean, step);
+            }
+        }
+        sums
+    }
 }
 
-impl Account {
-    pub fn new(ambiguous: u64) -> Self {
-        let counts = StatusCounts { ambiguous, ..StatusCounts::default() };
-        Self { powers: ContactPowers::default(), counts }
-    }
-
-    /// Adds a point, with its place among the `surfaces`, its forces (normal, friction along the sliding and across it) and its
-    /// mean velocities along the rows.
+impl TouchingSurfaces {
+    /// Adds a point to the sums of a step, with its place among these, its forces (normal, friction along the sliding and across it) and
+    /// its mean velocities along the rows.
     #[inline(always)]
-    pub fn add<const TANGENTS: usize>(
-        &mut self,
-        surfaces: &TouchingSurfaces,
+    fn account<const TANGENTS: usize>(
+        &self,
+        (powers, counts): &mut (ContactPowers, StatusCounts),
         (place, point, status): (usize, &ContactPoint, ContactStatus),
         [normal, along, across]: [f64; 3],
         mean: [f64; 3],
         step: &Step,
     ) {
-        let (powers, counts) = (&mut self.powers, &mut self.counts);
-        if let Some(springs) = &surfaces.springs {
+        if let Some(springs) = &self.springs {
             powers.damping += springs[place].dissipation;
         }
         let mut power = along * mean[1];
@@ -46,15 +85,15 @@ impl Account {
         powers.contact_dissipated +=
             if TANGENTS > 1 { external - power } else { along * (point.speed - mean[1]) };
         powers.normal += normal
-            * match &surfaces.springs {
+            * match &self.springs {
                 None => mean[0],
                 Some(_) => {
                     let [earlier, _, later] =
-                        step.shares.map(|share| surfaces.pushed(place, point, share));
+                        step.shares.map(|share| self.pushed(place, point, share));
                     0.5 * (later - earlier) / step.coefficients.time_step
                 }
             };
-        if !surfaces.is_plain {
+        if !self.is_plain {
             let [_, slip, other] = mean;
             powers.damping += match TANGENTS {
                 1 => point.dashpot * slip * slip,

@@ -1,8 +1,7 @@
 //! Steps of points whose rows are single dofs: each stands alone.
 
 use super::law::FreePoint;
-use super::powers::Account;
-use super::{ContactPowers, LagrangeContact, StatusCounts, Step};
+use super::{LagrangeContact, Step};
 use crate::contact::ContactStatus;
 use crate::fem::operator::MotionFields;
 
@@ -54,38 +53,5 @@ impl LagrangeContact {
                 }
             }
         }
-    }
-
-    /// [`Self::settle`] point by point.
-    pub(super) fn settle_single_dofs<const TANGENTS: usize>(
-        &self,
-        fields: &mut MotionFields,
-        step: &Step,
-    ) -> (ContactPowers, StatusCounts) {
-        let (dt, rows) = (step.coefficients.time_step, TANGENTS + 1);
-        let (velocity, elastic_rate) = (&fields.velocity[..], &fields.elastic_rate[..]);
-        let elastic = &mut fields.elastic[..];
-        let mut account = Account::new(self.ambiguous);
-        for surfaces in &self.surfaces {
-            let range = surfaces.points.clone();
-            let dofs = self.dofs[rows * range.start..].chunks_exact(rows);
-            let points = self.points[range.clone()].iter();
-            for ((place, i), (point, dofs)) in range.enumerate().zip(points.zip(dofs)) {
-                let mut mean = [0.0; 3];
-                if self.status[i] != ContactStatus::Open {
-                    for (c, dof) in dofs.iter().enumerate() {
-                        let [v, q] = dof.before;
-                        elastic[dof.place] = q + dt * elastic_rate[dof.place];
-                        let along = if TANGENTS > 1 { self.entries[rows * i + c].1 } else { 1.0 };
-                        mean[c] = along * (0.5 * (v + velocity[dof.place]));
-                    }
-                }
-                let across = if TANGENTS > 1 { self.across_force[i] } else { 0.0 };
-                let forces = [self.normal_force[i], self.tangential_force[i], across];
-                let point = (place, point, self.status[i]);
-                account.add::<TANGENTS>(surfaces, point, forces, mean, step);
-            }
-        }
-        (account.powers, account.counts)
     }
 }

@@ -1,8 +1,6 @@
 //! Steps of points whose rows share dofs: one after the other until no force changes.
 
-use super::law::FreePoint;
-use super::powers::Account;
-use super::{ContactPowers, LagrangeContact, PointForces, PointTurn, StatusCounts, Step};
+use super::{LagrangeContact, PointForces, PointTurn, Step};
 use crate::contact::ContactStatus;
 use crate::fem::operator::MotionFields;
 
@@ -46,12 +44,10 @@ impl LagrangeContact {
             *velocity = step.coefficients.moved(v, q, fields.elastic_rate[dof.place]);
         }
         for i in 0..self.points.len() {
-            let mut turn = PointTurn {
-                separation: self.along(i, 0, |dof| fields.displacement[dof.place]),
-                ..PointTurn::default()
-            };
+            let mut turn = PointTurn::default();
+            turn.free.separation = self.along(i, 0, |dof| fields.displacement[dof.place]);
             for c in 0..=self.tangents {
-                turn.before[c] = self.along(i, c, |dof| dof.before[0]);
+                turn.free.before[c] = self.along(i, c, |dof| dof.before[0]);
             }
             self.turns[i] = turn;
         }
@@ -74,9 +70,8 @@ impl LagrangeContact {
                 }
                 // Velocities at the end of the step under the forces of all others.
                 let (point, turn) = (&self.points[i], &mut self.turns[i]);
-                let old = turn.forces.whole;
-                let (separation, before) = (turn.separation, turn.before);
-                let mut free = FreePoint { place, separation, before, free: [0.0; 3] };
+                let (old, free) = (turn.forces.whole, &mut turn.free);
+                free.place = place;
                 for c in 0..=TANGENTS {
                     let parts =
                         rows[c].iter().map(|&(k, along)| along * self.velocities[k as usize]);
@@ -84,7 +79,7 @@ impl LagrangeContact {
                     let own = if old[c] == 0.0 { 0.0 } else { dt * old[c] / mass };
                     free.free[c] = parts.sum::<f64>() - own;
                 }
-                turn.forces = surfaces.resolve::<TANGENTS>(point, &free, step);
+                turn.forces = surfaces.resolve::<TANGENTS>(point, free, step);
                 self.ambiguous += u64::from(turn.forces.is_ambiguous);
                 // What the change of its forces does to the velocities.
                 for (c, entries) in rows[..=TANGENTS].iter().enumerate() {
@@ -125,32 +120,5 @@ impl LagrangeContact {
             }
             self.status[i] = status;
         }
-    }
-
-    /// [`Self::settle`] after sweeps; statuses are counted by points.
-    pub(super) fn settle_after_sweeps<const TANGENTS: usize>(
-        &self,
-        fields: &mut MotionFields,
-        step: &Step,
-    ) -> (ContactPowers, StatusCounts) {
-        let dt = step.coefficients.time_step;
-        for dof in &self.dofs {
-            fields.elastic[dof.place] = dof.before[1] + dt * fields.elastic_rate[dof.place];
-        }
-        let mut account = Account::new(self.ambiguous);
-        for surfaces in &self.surfaces {
-            for (place, i) in surfaces.points.clone().enumerate() {
-                let PointForces { whole, friction, status, .. } = self.turns[i].forces;
-                let mut mean = [0.0; 3];
-                for (c, mean) in mean[..=TANGENTS].iter_mut().enumerate() {
-                    let sum = self.along(i, c, |dof| dof.before[0] + fields.velocity[dof.place]);
-                    *mean = 0.5 * sum;
-                }
-                let point = (place, &self.points[i], status);
-                let forces = [whole[0], friction[0], friction[1]];
-                account.add::<TANGENTS>(surfaces, point, forces, mean, step);
-            }
-        }
-        (account.powers, account.counts)
     }
 }
