@@ -9,8 +9,8 @@ use super::boundary::BoundaryForces;
 use super::contact::Step;
 use super::relaxation::Relaxation;
 use super::{
-    ContactPowers, LagrangeContact, Observer, Sample, SampleRow, StatusCounts, StepPlan,
-    TransientError, TransientModel,
+    ContactPowers, LagrangeContact, Observer, Perturbation, Sample, SampleRow, StatusCounts,
+    StepPlan, TransientError, TransientModel,
 };
 use crate::contact::ContactInterface;
 use crate::fem::operator::{
@@ -54,14 +54,6 @@ pub struct TransientState {
 /// Contact powers, power of material damping and node statuses, summed over steps.
 type StepSums = (ContactPowers, f64, StatusCounts);
 
-/// A velocity to come.
-struct Kick {
-    /// Step before which it is added.
-    step: u64,
-    /// Over all dofs in nodal frames, m/s.
-    velocity: Vec<f64>,
-}
-
 /// Central differences at half steps with Lagrange multiplier contact.
 ///
 /// ```text
@@ -84,11 +76,9 @@ pub struct CentralDifference<'a> {
     plan: StepPlan,
     /// When the cylinder is fully expanded, s.
     pub(super) expansion_time: f64,
-    kick: Option<Kick>,
-    /// Harmonics that the perturbation names.
-    pub(super) seeded_harmonics: Vec<usize>,
-    /// When it is added, s.
-    pub(super) seed_time: f64,
+    pub(super) perturbation: Perturbation,
+    /// A velocity to come, over all dofs in nodal frames (m/s), and the step before which it is added.
+    kick: Option<(u64, Vec<f64>)>,
     coefficients: StepCoefficients,
     fields: MotionFields,
     contact: LagrangeContact,
@@ -98,8 +88,9 @@ pub struct CentralDifference<'a> {
     next_step: u64,
     account: EnergyAccount,
     sums: StepSums,
-    displacement_before: AlignedVector,
-    velocity_before: AlignedVector,
+    /// Fields before a step that is sampled.
+    pub(super) displacement_before: AlignedVector,
+    pub(super) velocity_before: AlignedVector,
 }
 
 impl<'a> CentralDifference<'a> {
@@ -110,8 +101,8 @@ impl<'a> CentralDifference<'a> {
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<RunEnd, TransientError> {
         let last = self.plan.total_steps();
         while self.next_step < last {
-            if let Some(kick) = self.kick.take_if(|kick| kick.step == self.next_step) {
-                self.kick(&kick.velocity);
+            if let Some((_, velocity)) = self.kick.take_if(|(step, _)| *step == self.next_step) {
+                self.kick(&velocity);
             }
             let is_sampled = self.next_step.is_multiple_of(self.plan.steps_per_sample);
             if is_sampled {
@@ -201,8 +192,6 @@ impl<'a> CentralDifference<'a> {
             },
             unconverged_steps,
             run: self,
-            displacement_before: &self.displacement_before,
-            velocity_before: &self.velocity_before,
         };
         Ok(observer.observe(&sample))
     }

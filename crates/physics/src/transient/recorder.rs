@@ -178,7 +178,7 @@ impl Recorder {
         // Frames of the contact are samples too, one out of some.
         let stride = settings.contact_interval.unwrap_or(0.0) / plan.sample_interval;
         let higher_harmonics =
-            higher_harmonics(run.model().highest_harmonic(), &run.seeded_harmonics);
+            higher_harmonics(run.model().highest_harmonic(), &run.perturbation.harmonics());
         // Space for all samples at once where their number is known.
         let (contact, probes) = (&run.model().contact, settings.probes.len());
         Ok(Self {
@@ -202,8 +202,8 @@ impl Recorder {
             rotation_direction: contact.sliding_direction(),
             surface_speed: interface.surface_speed(contact.rotation_speed),
             interference: contact.interference,
-            seed_time: run.seed_time,
-            start_up_time: run.seed_time.max(run.expansion_time),
+            seed_time: run.perturbation.time,
+            start_up_time: run.perturbation.time.max(run.expansion_time),
             stop_when_settled: settings.stop_when_settled,
             has_stopped: false,
             unconverged_steps: 0,

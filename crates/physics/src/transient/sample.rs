@@ -12,8 +12,6 @@ pub struct Sample<'a> {
     /// Steps since the last sample in which the forces between two bodies had not converged.
     pub unconverged_steps: u64,
     pub(super) run: &'a CentralDifference<'a>,
-    pub(super) displacement_before: &'a [f64],
-    pub(super) velocity_before: &'a [f64],
 }
 
 /// Gets the samples of a run.
@@ -25,19 +23,19 @@ pub trait Observer {
 impl Sample<'_> {
     /// `u_n` at a dof, m.
     pub fn displacement_at(&self, dof: usize) -> f64 {
-        self.displacement_before[self.run.operator().position(dof)]
+        self.run.displacement_before[self.run.operator().position(dof)]
     }
 
     /// `v_n = (v_{n+1/2} + v_{n-1/2}) / 2` at a dof, m/s.
     pub fn velocity_at(&self, dof: usize) -> f64 {
         let place = self.run.operator().position(dof);
-        0.5 * (self.velocity_before[place] + self.run.fields().velocity[place])
+        0.5 * (self.run.velocity_before[place] + self.run.fields().velocity[place])
     }
 
     /// `a_n = (v_{n+1/2} - v_{n-1/2}) / dt` at a dof, m/s2.
     pub fn acceleration_at(&self, dof: usize) -> f64 {
         let place = self.run.operator().position(dof);
-        let change = self.run.fields().velocity[place] - self.velocity_before[place];
+        let change = self.run.fields().velocity[place] - self.run.velocity_before[place];
         change / self.run.plan().time_step
     }
 
@@ -53,13 +51,13 @@ impl Sample<'_> {
 
     /// Tangential displacement of contact node `i`, m.
     pub fn contact_tangential_displacement(&self, i: usize) -> f64 {
-        self.run.contact().slip(i, self.displacement_before)
+        self.run.contact().slip(i, &self.run.displacement_before)
     }
 
     /// Distance of contact node `i` from the counterface at `n`, m; negative where a compliant contact is compressed.
     pub fn gap(&self, i: usize) -> f64 {
         let share = self.run.expanded_share(self.row.time);
-        self.run.contact().gap(i, self.displacement_before, share)
+        self.run.contact().gap(i, &self.run.displacement_before, share)
     }
 
     /// Forces on the contact nodes and their status at `n`.

@@ -1,10 +1,11 @@
 //! Start of a run: from rest, from given fields, or from where another one stopped.
 
-use super::{CentralDifference, EnergyAccount, Kick, StepSums, TransientState};
+use super::{CentralDifference, EnergyAccount, StepSums, TransientState};
 use crate::contact::SlidingContact;
 use crate::fem::operator::{
     AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, scatter,
 };
+use crate::linalg::dense::add;
 use crate::transient::{InitialState, TransientError, TransientModel, TransientSettings};
 
 impl<'a> CentralDifference<'a> {
@@ -43,8 +44,8 @@ impl<'a> CentralDifference<'a> {
     ) -> Result<Self, TransientError> {
         let fields = [displacement, &velocity];
         let mut run = Self::new(model, operator, settings, &fields)?;
-        if let Some(kick) = run.kick.take_if(|kick| kick.step == 0) {
-            velocity.iter_mut().zip(kick.velocity).for_each(|(v, p)| *v += p);
+        if let Some((_, added)) = run.kick.take_if(|(step, _)| *step == 0) {
+            add(&mut velocity, 1.0, &added);
         }
         run.fields.displacement = scatter(operator, displacement);
         run.fields.velocity = scatter(operator, &velocity);
@@ -66,7 +67,7 @@ impl<'a> CentralDifference<'a> {
         let fields = [displacement, velocity, elastic, elastic_rate].map(Vec::as_slice);
         let mut run = Self::new(model, operator, settings, &fields)?;
         // What was added at the start is in the state.
-        run.kick.take_if(|kick| kick.step == 0);
+        run.kick.take_if(|(step, _)| *step == 0);
         let [displacement, velocity, elastic, elastic_rate] =
             fields.map(|field| scatter(operator, field));
         run.fields = MotionFields { displacement, velocity, elastic, elastic_rate };
@@ -118,10 +119,8 @@ impl<'a> CentralDifference<'a> {
         }
         let interface = model.interface();
         let zeros = || AlignedVector::zeros(operator.field_length());
-        let kick = Kick {
-            step: (settings.perturbation.time / plan.time_step).round() as u64,
-            velocity: model.perturbed(&settings.perturbation)?,
-        };
+        let kicked = (settings.perturbation.time / plan.time_step).round() as u64;
+        let kick = (kicked, model.perturbed(&settings.perturbation)?);
         Ok(Self {
             coefficients: StepCoefficients::of(&model.damping, plan.time_step),
             fields: MotionFields::zeros(operator.field_length()),
@@ -139,8 +138,7 @@ impl<'a> CentralDifference<'a> {
             plan,
             expansion_time: settings.ramp_time(),
             kick: Some(kick),
-            seeded_harmonics: settings.perturbation.harmonics(),
-            seed_time: settings.perturbation.time,
+            perturbation: settings.perturbation.clone(),
         })
     }
 }
