@@ -2,9 +2,9 @@
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::search::{ACCEPTED, Found};
-use super::secants::{Change, Iterate, NEW_ALONG, SecantSpace};
+use super::secants::{Iterate, NEW_ALONG, SecantSpace};
 use crate::cycle::CycleError;
-use crate::linalg::dense::{add, difference, norm};
+use crate::linalg::dense::{add, norm};
 use crate::transient::TransientError;
 use serde::{Deserialize, Serialize};
 
@@ -52,20 +52,12 @@ pub(super) enum Goal {
 }
 
 impl Goal {
-    /// Derivatives of the closure by both parts of the place.
-    fn weights(&self) -> [f64; 2] {
+    /// What a place misses the goal by, and the derivatives of that by both parts of the place.
+    fn closure(&self, place: Place, scales: Place) -> (f64, [f64; 2]) {
         match self {
-            Self::Value(_) => [1.0, 0.0],
-            Self::Length { tangent, .. } => *tangent,
-        }
-    }
-
-    /// What a place misses the goal by.
-    fn closure(&self, place: Place, scales: Place) -> f64 {
-        match self {
-            Self::Value(value) => place[0] - value / scales[0],
-            Self::Length { from, tangent, length } => {
-                tangent[0] * (place[0] - from[0]) + tangent[1] * (place[1] - from[1]) - length
+            Self::Value(value) => (place[0] - value / scales[0], [1.0, 0.0]),
+            Self::Length { from, tangent: [a, b], length } => {
+                (a * (place[0] - from[0]) + b * (place[1] - from[1]) - length, [*a, *b])
             }
         }
     }
@@ -90,15 +82,18 @@ impl Point {
 
     /// The motion `share` of the way from here to another one and beyond.
     pub(super) fn towards(&self, other: &Self, share: f64) -> Guess {
-        Guess::combined([(self, 1.0 - share), (other, share)].into_iter())
+        Guess::through(&[(self, 0.0), (other, 1.0)], share)
     }
 }
 
 impl Guess {
-    /// The sum of several points, each times its weight; the weights make up one.
-    fn combined<'p>(points: impl Iterator<Item = (&'p Point, f64)>) -> Self {
+    /// The polynomial through points at places of a coordinate along the branch, continued to `to`.
+    pub fn through(points: &[(&Point, f64)], to: f64) -> Self {
         let mut guess = Self { value: 0.0, state: PeriodicState::default() };
-        for (point, weight) in points {
+        for (i, (point, at)) in points.iter().enumerate() {
+            let others = points.iter().enumerate().filter(|(j, _)| *j != i);
+            // Lagrange: prod_j (s - s_j) / (s_i - s_j).
+            let weight = others.map(|(_, (_, other))| (to - other) / (at - other)).product::<f64>();
             let own = &point.found.state;
             guess.state.motion.resize(own.motion.len(), 0.0);
             add(&mut guess.state.motion, weight, &own.motion);
@@ -106,15 +101,6 @@ impl Guess {
             guess.value += weight * point.value;
         }
         guess
-    }
-
-    /// The polynomial through points at the places `at` of a coordinate along the branch, continued to `to`.
-    pub fn through(points: &[Point], at: &[f64], to: f64) -> Self {
-        let weight = |i: usize| {
-            let others = at.iter().enumerate().filter(|(j, _)| *j != i);
-            others.map(|(_, other)| (to - other) / (at[i] - other)).product::<f64>() // Lagrange: prod_j (s - s_j) / (s_i - s_j).
-        };
-        Self::combined(points.iter().enumerate().map(|(i, point)| (point, weight(i))))
     }
 }
 
@@ -165,10 +151,8 @@ impl<'b, 'a> Corrector<'b, 'a> {
     pub fn scaled(&mut self, point: &Point, by: f64, value: f64) -> Result<Guess, TransientError> {
         (self.tune)(&mut self.map, point.value)?;
         self.map.step_in(point.found.steps);
-        let mut motion = self.map.mean(&point.found.state);
-        let vibration = difference(&point.found.state.motion, &motion);
-        add(&mut motion, by, &vibration); // mean + by (motion - mean).
-        Ok(Guess { value, state: PeriodicState { motion, period: point.found.state.period } })
+        let mean = self.map.mean(&point.found.state);
+        Ok(Guess { value, state: point.found.state.stretched(&mean, by) })
     }
 
     /// The point at a goal, from a guess; `near` is a point of the branch close by.
@@ -193,14 +177,13 @@ impl<'b, 'a> Corrector<'b, 'a> {
 
     fn search(&mut self, near: &Point, mut guess: Guess, goal: &Goal) -> Result<Point, CycleError> {
         self.weight = near.found.image.vibration;
-        self.secants.closure = goal.weights().map(|by| self.weight * by); // Weighed like a residual.
         let first = self.map.periods();
         let mut last = Some(Iterate {
             state: near.found.state.clone(),
             place: near.place(self.scales),
             residual: near.found.image.residual.clone(),
         });
-        let mut best: Option<Point> = None;
+        let mut best: Option<(f64, Point)> = None;
         let mut improved = (0, f64::INFINITY);
         loop {
             // The map at the guess.
@@ -213,17 +196,23 @@ impl<'b, 'a> Corrector<'b, 'a> {
             let periods = self.map.periods() - first;
             let residual = self.judged(near, &image, periods)?;
             let place = [guess.value / self.scales[0], image.amplitude / self.scales[1]];
-            let closure = goal.closure(place, self.scales);
+            let (closure, weights) = goal.closure(place, self.scales);
+            self.secants.closure = weights.map(|by| self.weight * by); // Weighed like a residual.
             let missed = residual.max(closure.abs() * TOLERANCE / CLOSED); // A closure of CLOSED counts as much as a residual of TOLERANCE.
             if missed < 0.5 * improved.1 {
                 improved = (periods, missed);
             }
-            if best.is_none() || missed < best.as_ref().map_or(0.0, |best| best.found.residual) {
-                best = Some(self.point(&guess, &image, missed, periods));
+            if best.as_ref().is_none_or(|best| missed < best.0) {
+                best = Some((missed, self.point(&guess, &image)));
             }
             let is_spent = periods >= MOST || periods >= improved.0 + PATIENCE;
             if missed < TOLERANCE || is_spent {
-                return accepted(best, periods);
+                let Some((missed, mut point)) = best else {
+                    return Err(CycleError::unbounded(periods));
+                };
+                point.found.periods = periods;
+                let refused = CycleError::not_converged(periods, missed, point.found.state.period);
+                return if missed <= ACCEPTED { Ok(point) } else { Err(refused) };
             }
             // One step of the secants.
             let state = guess.state.clone();
@@ -233,7 +222,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
                 if periods > 1 && norm(&here.residual) > GAINED * norm(&last.residual) {
                     self.secants.keep_latest(periods);
                 }
-                self.secants.push(Change::between(&last, &here));
+                self.secants.push(here.since(&last));
             }
             last = Some(here);
             self.step(&mut guess, &image, closure);
@@ -251,7 +240,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             let share = step.allowed(guess.state.period, image);
             if share == 1.0 || self.secants.count() <= FEWEST {
                 step.take(share, &mut guess.state);
-                guess.value += share * step.value * self.scales[0];
+                guess.value += share * step.place[0] * self.scales[0];
                 return;
             }
             self.secants.keep_latest(self.secants.count() / 2);
@@ -277,28 +266,17 @@ impl<'b, 'a> Corrector<'b, 'a> {
         Ok(residual)
     }
 
-    fn point(&self, guess: &Guess, image: &PeriodImage, missed: f64, periods: usize) -> Point {
+    fn point(&self, guess: &Guess, image: &PeriodImage) -> Point {
         Point {
             value: guess.value,
             is_fold: false,
             found: Found {
                 state: guess.state.clone(),
                 image: image.clone(),
-                residual: missed,
-                periods,
+                residual: image.relative_residual(),
+                periods: 0,
                 steps: self.map.steps(),
             },
         }
     }
-}
-
-fn accepted(best: Option<Point>, periods: usize) -> Result<Point, CycleError> {
-    let Some(mut point) = best else { return Err(CycleError::unbounded(periods)) };
-    let residual = point.found.residual;
-    point.found.residual = point.found.image.relative_residual(); // So far the larger of both misses; the motion's own is told.
-    point.found.periods = periods;
-    if residual <= ACCEPTED {
-        return Ok(point);
-    }
-    Err(CycleError::not_converged(periods, residual, point.found.state.period))
 }

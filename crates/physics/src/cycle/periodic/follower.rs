@@ -142,27 +142,24 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
 
     /// Where the step probably leads: on along the last points.
     fn guess(&self, goal: &Goal, reach: f64) -> Guess {
-        let here = self.here();
-        if self.points.len() == 1 {
-            let along = reach * self.tangent[0] * self.corrector.scales[0];
-            let mut guess = here.towards(here, 0.0);
-            guess.value = if let Goal::Value(value) = goal { *value } else { guess.value + along };
-            return guess;
-        }
         // A fold may be a corner: no point before it says anything of the way on.
         let count = self.points.len();
         let fold = self.points.iter().rposition(|own| own.is_fold);
         let since = fold.map_or(0, |fold| fold.min(count - 2));
         let last = &self.points[since.max(count.saturating_sub(KNOWN))..];
         let scales = self.corrector.scales;
-        let mut at = vec![0.0];
+        let mut passed = 0.0;
+        let mut known = vec![(&last[0], passed)];
         for pair in last.windows(2) {
             let [from, to] = [&pair[0], &pair[1]].map(|point| point.place(scales));
-            at.push(at[at.len() - 1] + way(from, to).1); // Arc length by chords.
+            passed += way(from, to).1; // Arc length by chords.
+            known.push((&pair[1], passed));
         }
-        let mut guess = Guess::through(last, &at, at[at.len() - 1] + reach);
-        if let Goal::Value(value) = goal {
-            guess.value = *value;
+        let mut guess = Guess::through(&known, passed + reach);
+        match goal {
+            Goal::Value(value) => guess.value = *value,
+            Goal::Length { .. } if count == 1 => guess.value += reach * self.tangent[0] * scales[0],
+            Goal::Length { .. } => {}
         }
         guess
     }

@@ -6,7 +6,7 @@ use super::two_frequencies::transient_from;
 use crate::cycle::CycleError;
 use crate::fem::operator::scatter;
 use crate::linalg::c64;
-use crate::linalg::dense::{add, difference, norm};
+use crate::linalg::dense::{difference, norm};
 use std::f64::consts::TAU;
 
 /// Difference of a cycle's frequency from its mode's, relative, from which on another start may know a cycle nearer to the mode.
@@ -78,7 +78,7 @@ impl GrowingMode<'_> {
 /// # Errors
 /// As [`find`]; a transient of two frequencies.
 pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Found, CycleError> {
-    let start = balanced_start(map, mode);
+    let (start, rest) = (balanced_start(map, mode), mode.state(map, 0.0).motion);
     let steps = map.steps();
     let mut found = find(map, start.clone());
     let retries: &[f64] = match &found {
@@ -88,7 +88,7 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
     };
     for factor in retries {
         map.step_in(steps); // A search may have left it in other steps.
-        found = find(map, scaled(map, mode, &start, *factor));
+        found = find(map, start.stretched(&rest, *factor));
         if found.is_ok() {
             break;
         }
@@ -97,7 +97,7 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
         map.step_in(steps);
         // A step of the search, or a large start, may throw off a body that stays on its counterface.
         let has_left = retries == [SMALLER];
-        let least = if has_left { scaled(map, mode, &start, SMALLER) } else { start.clone() };
+        let least = if has_left { start.stretched(&rest, SMALLER) } else { start.clone() };
         if let Some(end) = transient_from(map, &least)? {
             found = find(map, end);
         }
@@ -120,19 +120,6 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
 /// Difference of a cycle's frequency from that of its mode, relative.
 fn off(mode: &GrowingMode<'_>, found: &Found) -> f64 {
     (TAU / (found.state.period * mode.eigenvalue.im) - 1.0).abs()
-}
-
-/// A start with its distance from steady sliding so many times as large.
-fn scaled(
-    map: &PeriodMap<'_>,
-    mode: &GrowingMode<'_>,
-    start: &PeriodicState,
-    factor: f64,
-) -> PeriodicState {
-    let mut state = mode.state(map, 0.0);
-    let vibration = difference(&start.motion, &state.motion);
-    add(&mut state.motion, factor, &vibration);
-    state
 }
 
 /// The same motion over the shortest period after which it repeats itself.

@@ -5,12 +5,13 @@ use crate::cycle::CyclePowers;
 use crate::cycle::moving::MovingDofs;
 use crate::fem::operator::{StiffnessOperator, scatter};
 use crate::linalg::dense::{add, difference, dot, norm};
-use crate::linalg::interruption;
+use crate::linalg::{c64, interruption};
 use crate::transient::{
     CentralDifference, SAFETY, StatusCounts, TimeStep, TransientError, TransientModel,
     TransientSettings,
 };
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// Share of the longest step that a period begins with: it may grow by the rest before it takes another number of steps.
 const FILLED: f64 = 0.97;
@@ -28,6 +29,15 @@ pub struct PeriodicState {
     pub motion: Vec<f64>,
     /// `T`, s.
     pub period: f64,
+}
+
+impl PeriodicState {
+    /// The state whose motion is so many times as far from another one.
+    pub(super) fn stretched(&self, from: &[f64], by: f64) -> Self {
+        let mut motion = from.to_vec();
+        add(&mut motion, by, &difference(&self.motion, from)); // from + by (motion - from).
+        Self { motion, ..*self }
+    }
 }
 
 /// Where a state comes after its period.
@@ -93,7 +103,7 @@ impl<'a> PeriodMap<'a> {
         frequency: f64,
         longest_step: Option<f64>,
     ) -> Result<Self, TransientError> {
-        let period = std::f64::consts::TAU / frequency;
+        let period = TAU / frequency;
         let settings = TransientSettings::sliding(2.0 * period, TimeStep::Auto, period);
         let still = vec![0.0; operator.dof_count()];
         let run = CentralDifference::start_from(model, operator, &settings, &still, still.clone())?;
@@ -210,6 +220,29 @@ impl<'a> PeriodMap<'a> {
             powers: CyclePowers { contact, material_damping }.scaled(1.0 / self.steps as f64), // Sums over the steps so far.
             counts,
         }
+    }
+
+    /// Fourier series of some values over the coming period, `a_k = 2 / N sum_n v_n e^{-2 pi i k n / N}` of harmonics 1 to `count`.
+    pub(in crate::cycle) fn harmonics(
+        &mut self,
+        count: usize,
+        values: impl Fn(&CentralDifference<'a>) -> Vec<f64>,
+    ) -> Vec<Vec<c64>> {
+        let mut amplitudes = vec![Vec::new(); count];
+        for step in 0..self.steps {
+            if step.is_multiple_of(1000) {
+                interruption::check();
+            }
+            self.run.advance();
+            let values = values(&self.run);
+            for (k, own) in (1..).zip(&mut amplitudes) {
+                let [turns, steps] = [(k * step) % self.steps, self.steps].map(|own| own as f64);
+                let turn = c64::from_polar(2.0 / steps, -TAU * turns / steps);
+                own.resize(values.len(), c64::ZERO);
+                own.iter_mut().zip(&values).for_each(|(sum, value)| *sum += turn * value);
+            }
+        }
+        amplitudes
     }
 
     /// Mean over the period that begins with a state.

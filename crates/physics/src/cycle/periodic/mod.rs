@@ -6,12 +6,12 @@
 //! the time loop is that of the cycle.
 //!
 //! The search ([`find`]) is Newton's method on the few directions in which perturbations die slowly or grow, and plain periods on all
-//! others. Instead of a basis of slow directions, differences of the last iterates and of their residuals serve as secants
-//! ([`SecantSpace`]). They cost no period of their own. The map is continuous but has a kink wherever a node changes its status; it needs
-//! no derivative. Source: Lust, Roose, Spence and Champneys, An adaptive Newton-Picard algorithm with subspace iteration, SIAM J. Sci.
-//! Comput. 19 (1998). It starts on the shape of a growing mode, at the amplitude at which friction stops to feed it ([`balanced_start`]).
-//! Floquet multipliers come from Arnoldi's process on differences of the map ([`super::FloquetMultipliers`]). What is tried where the first
-//! start leads nowhere or to the cycle of another mode says [`find_from`].
+//! others. Instead of a basis of slow directions, differences of the last iterates and of their residuals serve as secants. They cost no
+//! period of their own. The map is continuous but has a kink wherever a node changes its status; it needs no derivative. Source: Lust,
+//! Roose, Spence and Champneys, An adaptive Newton-Picard algorithm with subspace iteration, SIAM J. Sci. Comput. 19 (1998). It starts on
+//! the shape of a growing mode, at the amplitude at which friction stops to feed it ([`balanced_start`]). Floquet multipliers come from
+//! Arnoldi's process on differences of the map ([`super::FloquetMultipliers`]). What is tried where the first start leads nowhere or to the
+//! cycle of another mode says [`find_from`].
 //!
 //! Along a parameter `p` ([`BranchRequest`]) motion, period and `p` are found together, `P(x, T, p) = x` with a closure that ties the point
 //! down. That is a value of `p`, or a length along the tangent in the plane of `p` and of the amplitude. The latter is Keller's
@@ -45,5 +45,4 @@ pub use motion::{
     velocity_level,
 };
 pub use search::{ACCEPTED, Found, TOLERANCE, find};
-pub use secants::{Change, SecantSpace};
 pub use sound::{AIR, FlatFace, REFERENCE_POWER, Sound};

@@ -1,7 +1,7 @@
 //! The search for a periodic motion.
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
-use super::secants::{Change, Iterate, NEW, SecantSpace};
+use super::secants::{Iterate, NEW, SecantSpace};
 use crate::cycle::CycleError;
 use serde::{Deserialize, Serialize};
 
@@ -55,12 +55,14 @@ pub struct Found {
 
 impl Found {
     /// Whether it repeats itself.
-    pub(super) fn is_accepted(&self) -> bool {
+    fn is_accepted(&self) -> bool {
         self.residual <= ACCEPTED
     }
 
-    fn not_converged(&self) -> CycleError {
-        CycleError::not_converged(self.periods, self.residual, self.state.period)
+    /// Itself, if it repeats itself.
+    fn accepted(self) -> Result<Self, CycleError> {
+        let refused = CycleError::not_converged(self.periods, self.residual, self.state.period);
+        if self.is_accepted() { Ok(self) } else { Err(refused) }
     }
 
     /// A motion that was kept, one period from its state; none where it is of another body.
@@ -96,17 +98,16 @@ pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, Cycl
         map.step_in(2 * map.steps()); // What statuses at whole steps leave falls with the step.
         best = counted(attempt(map, best.state, PLAIN), map.periods() - first)?;
     }
-    if best.is_accepted() {
-        return Ok(best);
+    let found = best.accepted();
+    if found.is_err() {
+        map.step_in(steps); // As it was before the refinements.
     }
-    map.step_in(steps); // As it was before the refinements.
-    Err(best.not_converged())
+    found
 }
 
 /// A periodic motion near a state that may be far from it: what a transient of so many plain periods leads to.
 pub fn find_settled(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, CycleError> {
-    let found = attempt(map, start, [LONG; 2])?;
-    if found.is_accepted() { Ok(found) } else { Err(found.not_converged()) }
+    attempt(map, start, [LONG; 2])?.accepted()
 }
 
 /// A result with the periods of the whole search.
@@ -238,7 +239,7 @@ impl Search {
         let state = self.state.clone();
         let here = Iterate { state, place: [0.0; 2], residual: image.residual.clone() };
         if let Some(last) = self.last.take() {
-            self.secants.push(Change::between(&last, &here));
+            self.secants.push(here.since(&last));
         }
         let step = self.secants.step(&here.residual, 0.0, &image.rate);
         step.take(step.allowed(self.state.period, &image), &mut self.state);

@@ -14,58 +14,37 @@ const NUMBERS: usize = 16_000_000;
 /// Longest step relative to the amplitude, of the period relative to it, and of the parameter in units of its scale.
 const LONGEST: [f64; 3] = [0.3, 0.05, 0.1];
 
-/// A state on the way of a search.
-#[derive(Clone, Debug)]
-pub struct Iterate {
-    /// Itself.
-    pub state: PeriodicState,
-    /// Parameter of a branch and amplitude, each in units of its scale.
-    pub place: [f64; 2],
-    /// What the map misses it by.
-    pub residual: Vec<f64>,
-}
-
-/// What changes from one iterate to the next.
+/// A state on the way of a search, or what changes from one to the next.
 #[derive(Clone, Debug, Default)]
-pub struct Change {
-    /// `dx`.
-    pub motion: Vec<f64>,
-    /// `dT`, s.
-    pub period: f64,
-    /// Of the parameter of a branch and of the amplitude, each in units of its scale; zero where the parameter stands still.
+pub struct Iterate {
+    /// `x` and `T`.
+    pub state: PeriodicState,
+    /// Parameter of a branch and amplitude, each in units of its scale; zero where the parameter stands still, and of a step that of the
+    /// amplitude.
     pub place: [f64; 2],
-    /// `dr`.
+    /// What the map misses it by; nothing of a step.
     pub residual: Vec<f64>,
 }
 
-impl Change {
-    /// From one iterate to the next.
-    pub fn between(from: &Iterate, to: &Iterate) -> Self {
+impl Iterate {
+    /// What has changed since an earlier one.
+    pub fn since(&self, earlier: &Self) -> Self {
+        let (to, from) = (&self.state, &earlier.state);
+        let motion = difference(&to.motion, &from.motion);
         Self {
-            motion: difference(&to.state.motion, &from.state.motion),
-            period: to.state.period - from.state.period,
-            place: [0, 1].map(|i| to.place[i] - from.place[i]),
-            residual: difference(&to.residual, &from.residual),
+            state: PeriodicState { motion, period: to.period - from.period },
+            place: [0, 1].map(|i| self.place[i] - earlier.place[i]),
+            residual: difference(&self.residual, &earlier.residual),
         }
     }
-}
 
-/// A step of a search.
-#[derive(Clone, Debug)]
-pub struct Step {
-    /// `dx`.
-    pub motion: Vec<f64>,
-    /// `dT`, s.
-    pub period: f64,
-    /// Of the parameter of a branch, in units of its scale.
-    pub value: f64,
-}
-
-impl Step {
-    /// The share of it that is not too long, from a state of this period with this image.
+    /// The share of a step that is not too long, from a state of this period with this image.
     pub fn allowed(&self, period: f64, image: &PeriodImage) -> f64 {
-        let lengths =
-            [norm(&self.motion) / image.vibration, self.period.abs() / period, self.value.abs()];
+        let lengths = [
+            norm(&self.state.motion) / image.vibration,
+            self.state.period.abs() / period,
+            self.place[0].abs(),
+        ];
         lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
             share.min(longest / length.max(f64::MIN_POSITIVE))
         })
@@ -73,8 +52,8 @@ impl Step {
 
     /// Takes a share of it.
     pub fn take(&self, share: f64, state: &mut PeriodicState) {
-        add(&mut state.motion, share, &self.motion);
-        state.period += share * self.period;
+        add(&mut state.motion, share, &self.state.motion);
+        state.period += share * self.state.period;
     }
 }
 
@@ -104,7 +83,7 @@ pub struct SecantSpace {
     /// `w` of the closure.
     pub closure: [f64; 2],
     /// Latest first, of unit length, each with its products `dr . dr` with itself and, from the next one on, with later ones.
-    changes: VecDeque<(Change, Vec<f64>)>,
+    changes: VecDeque<(Iterate, Vec<f64>)>,
 }
 
 impl SecantSpace {
@@ -135,17 +114,17 @@ impl SecantSpace {
     }
 
     /// Adds a difference of iterates with that of their residuals; where there are too many, the oldest goes.
-    pub fn push(&mut self, mut change: Change) {
-        let length = match norm(&change.motion) {
+    pub fn push(&mut self, mut change: Iterate) {
+        let length = match norm(&change.state.motion) {
             0.0 => change.place[0].abs(), // Of the parameter alone.
             length => length,
         };
         if !(length > 0.0) {
             return;
         }
-        let values = change.motion.iter_mut().chain(&mut change.residual);
+        let values = change.state.motion.iter_mut().chain(&mut change.residual);
         values.chain(&mut change.place).for_each(|value| *value /= length);
-        change.period /= length; // All of unit length, so that shares compare.
+        change.state.period /= length; // All of unit length, so that shares compare.
         self.changes.truncate(self.depth - 1);
         for (other, products) in &mut self.changes {
             products.push(dot(&change.residual, &other.residual));
@@ -155,7 +134,7 @@ impl SecantSpace {
     }
 
     /// The step from an iterate with this residual, this closure and this rate `x'` at its end.
-    pub fn step(&self, residual: &[f64], closure: f64, rate: &[f64]) -> Step {
+    pub fn step(&self, residual: &[f64], closure: f64, rate: &[f64]) -> Iterate {
         let changes = || self.changes.iter().map(|(change, _)| change);
         let [by_value, by_amplitude] = self.closure;
         let closures: Vec<f64> =
@@ -179,14 +158,15 @@ impl SecantSpace {
         let factors = least_squares(&product, &against, self.least);
 
         // What they make of the residual, and the motion that goes with it.
-        let mut step = Step { motion: residual.to_vec(), period: factors[count], value: 0.0 };
-        add(&mut step.motion, factors[count], rate);
+        let state = PeriodicState { motion: residual.to_vec(), period: factors[count] };
+        let mut step = Iterate { state, ..Iterate::default() };
+        add(&mut step.state.motion, factors[count], rate);
         for (factor, change) in factors.iter().zip(changes()) {
             if *factor != 0.0 {
-                add(&mut step.motion, *factor, &change.motion);
-                add(&mut step.motion, *factor, &change.residual); // x + g dx, then one period: g dr.
-                step.period += factor * change.period;
-                step.value += factor * change.place[0];
+                add(&mut step.state.motion, *factor, &change.state.motion);
+                add(&mut step.state.motion, *factor, &change.residual); // x + g dx, then one period: g dr.
+                step.state.period += factor * change.state.period;
+                step.place[0] += factor * change.place[0];
             }
         }
         step
@@ -254,17 +234,17 @@ mod tests {
         for _ in 0..n + 4 {
             let r = residual(&x, period);
             if let Some((x0, t0, r0)) = last.take() {
-                space.push(Change {
-                    motion: difference(&x, &x0),
-                    period: period - t0,
+                let motion = difference(&x, &x0);
+                space.push(Iterate {
+                    state: PeriodicState { motion, period: period - t0 },
                     place: [0.0; 2],
                     residual: difference(&r, &r0),
                 });
             }
             let step = space.step(&r, 0.0, &shift);
             last = Some((x.clone(), period, r));
-            add(&mut x, 1.0, &step.motion);
-            period += step.period;
+            add(&mut x, 1.0, &step.state.motion);
+            period += step.state.period;
         }
         assert!(norm(&residual(&x, period)) < 1e-10);
         assert!((period - 2.0).abs() < 1e-10, "{period}");
