@@ -95,7 +95,9 @@ impl PeriodicMotion {
     /// Steps once more through a period that was found, from where the contact node that moves most is farthest ahead.
     pub fn of(map: &mut PeriodMap<'_>, found: &Found, request: MotionRequest) -> Self {
         let (mut motion, first) = Self::brief(map, found);
-        let from = later(map, &found.state, first);
+        map.place(&found.state);
+        (0..first).for_each(|_| map.run.advance());
+        let from = PeriodicState { motion: map.motion(), ..found.state };
         motion.record(map, &from, request);
         motion
     }
@@ -250,13 +252,6 @@ fn widest(samples: &[Vec<[f64; 2]>], touches: &[bool]) -> (usize, f64) {
     let nodes = (0..touches.len()).filter(|&node| touches[node]);
     let ranges = nodes.map(|node| (node, range(node)));
     ranges.fold((0, 0.0), |best, own| if own.1 > best.1 { own } else { best })
-}
-
-/// The state so many steps later.
-fn later(map: &mut PeriodMap<'_>, state: &PeriodicState, steps: usize) -> PeriodicState {
-    map.place(state);
-    (0..steps).for_each(|_| map.run.advance());
-    PeriodicState { motion: map.motion(), period: state.period }
 }
 
 /// Harmonics 1, 2, ... of displacements over one period: `samples[step][node]`, evenly spaced.

@@ -1,7 +1,7 @@
 //! Sound of a periodic motion, estimated by the Rayleigh integral over the flat faces of a body.
 
 use super::map::{PeriodMap, PeriodicState};
-use crate::linalg::{c64, interruption};
+use crate::linalg::c64;
 use crate::mesh::{BoundaryFace, Mesh};
 use crate::output::Described;
 use nalgebra::Vector3;
@@ -37,7 +37,8 @@ impl FlatFace {
     /// The flat faces among `faces` of the surface of solid bodies: all elements of a plane that meet at edges, and that end at
     /// edges of more than 41 degrees, as the facets of a curved surface do not.
     pub fn of(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<Self> {
-        let normals: Vec<Vector3<f64>> = faces.iter().map(|face| normal(mesh, face)).collect();
+        let normal = |face| mesh.area_vector(face).try_normalize(0.0).unwrap_or_default();
+        let normals: Vec<Vector3<f64>> = faces.iter().map(normal).collect();
         let neighbours = neighbours(faces);
         let (mut group_of, mut groups) = (vec![usize::MAX; faces.len()], Vec::new());
         for seed in 0..faces.len() {
@@ -151,23 +152,12 @@ impl Sound {
             .flat_map(|face| &face.normals)
             .map(|row| row.iter().map(|&(dof, along)| (operator.position(dof), along)).collect());
         let rows: Vec<Vec<(usize, f64)>> = rows.collect();
-        let mut amplitudes = vec![vec![c64::ZERO; rows.len()]; count];
-        // a_k = 2 / N sum_n v_n e^{-2 pi i k n / N}: Fourier series of each velocity over the period.
         map.place(state);
-        for step in 0..steps {
-            if step.is_multiple_of(1000) {
-                interruption::check();
-            }
-            map.run.advance();
-            let field = &map.run.fields().velocity;
+        let amplitudes = map.harmonics(count, |run| {
+            let field = &run.fields().velocity;
             let moved = |&(place, along): &(usize, f64)| along * field[place];
-            let velocity: Vec<f64> = rows.iter().map(|row| row.iter().map(moved).sum()).collect();
-            for (k, own) in amplitudes.iter_mut().enumerate() {
-                let turns = ((k + 1) * step) % steps;
-                let turn = c64::from_polar(2.0 / steps as f64, -TAU * turns as f64 / steps as f64);
-                own.iter_mut().zip(&velocity).for_each(|(sum, v)| *sum += turn * v);
-            }
-        }
+            rows.iter().map(|row| row.iter().map(moved).sum()).collect()
+        });
         let powers = amplitudes.iter().enumerate().map(|(k, own)| {
             let frequency = TAU * (k + 1) as f64 / state.period; // omega_k = 2 pi k / T.
             let mut first = 0;
@@ -187,12 +177,6 @@ impl Sound {
             harmonics_w,
         }
     }
-}
-
-/// Unit normal of a face.
-fn normal(mesh: &Mesh, face: &BoundaryFace) -> Vector3<f64> {
-    let [a, b, c] = [0, 1, 2].map(|k| Vector3::from(mesh.nodes[face.nodes[k] as usize]));
-    (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default()
 }
 
 /// The faces with which each has an edge in common.

@@ -4,7 +4,7 @@ use super::map::{PeriodMap, PeriodicState};
 use crate::cycle::CycleError;
 use crate::cycle::field::slips;
 use crate::linalg::{c64, interruption};
-use crate::signal::{RotatingLine, rotating_lines};
+use crate::signal::{RotatingLine, centred, rotating_lines};
 use crate::transient::{WEAKEST_LINE, rms, strongest_two};
 
 /// Periods before the motion is looked at, and those over which it is.
@@ -68,17 +68,11 @@ fn sampled(map: &mut PeriodMap<'_>, start: &PeriodicState) -> (Vec<Vec<f64>>, f6
 
 /// The history of the node that moves most, about its mean.
 fn strongest_node(samples: &[Vec<f64>]) -> Option<Vec<c64>> {
-    let count = samples.len() as f64;
-    let nodes = samples.first()?.len();
     let about_mean = |node: usize| {
-        let own = samples.iter().map(move |sample| sample[node]);
-        let mean = own.clone().sum::<f64>() / count; // A deflection at rest is no vibration.
-        own.map(move |value| value - mean)
+        let own = samples.iter().map(|sample| c64::new(sample[node], 0.0));
+        centred(&own.collect::<Vec<c64>>()) // A deflection at rest is no vibration.
     };
-    let strongest = (0..nodes).max_by(|&a, &b| {
-        let [a, b] = [a, b].map(|node| about_mean(node).map(|u| u * u).sum::<f64>());
-        a.total_cmp(&b)
-    })?;
-    let series: Vec<c64> = about_mean(strongest).map(|u| c64::new(u, 0.0)).collect();
-    series.iter().all(|u| u.re.is_finite()).then_some(series)
+    let nodes = 0..samples.first()?.len();
+    let strongest = nodes.map(about_mean).max_by(|a, b| rms(a).total_cmp(&rms(b)));
+    strongest.filter(|series| series.iter().all(|u| u.re.is_finite()))
 }
