@@ -14,11 +14,10 @@ use nalgebra::Matrix2;
 pub type Receptance = Matrix2<c64>;
 
 /// Real 2 x 2 blocks of one circumferential harmonic of the stiffness, outwards from the contact edge.
-#[derive(Clone, Debug)]
 struct HarmonicStiffness {
-    diagonal: Vec<Matrix2<f64>>,
+    diagonal: Vec<Receptance>,
     /// Coupling of node `i` to node `i + 1`.
-    outward: Vec<Matrix2<f64>>,
+    outward: Vec<Receptance>,
 }
 
 /// Coefficients of the dynamic stiffness `D = c K + m M` of one temporal harmonic.
@@ -70,12 +69,11 @@ impl DynamicCoefficients {
 ///
 /// The circumferential discretization of the mesh is kept: harmonic `k n` is that of the mesh, aliased above half
 /// the number of sectors just as the nodes of the mesh see it. The mass is lumped.
-#[derive(Clone, Debug)]
 pub struct WaveBody {
     harmonics: Vec<HarmonicStiffness>,
     masses: Vec<f64>,
     /// Springs and dashpots of the outer nodes along `(e_r, e_theta)`; they have no such where they are clamped.
-    support: Option<[Matrix2<f64>; 2]>,
+    support: Option<[Receptance; 2]>,
     /// Circumferential harmonic `n` of the wave in the phase `n theta + omega t`: negative for a wave with the rotor.
     pub harmonic: isize,
     /// Number of sectors, each with one contact node.
@@ -112,8 +110,8 @@ impl WaveBody {
         let mass = assemble_mass(&strip.mesh, material, MassKind::Lumped);
         let mass = dofs.fold(0, 0, &strip.folded(&mass)); // A lumped mass couples no sectors: that of n = 0 serves every n.
         let block = |matrix: Triplets| {
-            let mut block = Matrix2::zeros();
-            matrix.entries.iter().for_each(|&(i, j, value)| block[(i % 2, j % 2)] = value);
+            let mut block = Receptance::zeros();
+            matrix.entries.iter().for_each(|&(i, j, value)| block[(i % 2, j % 2)].re = value);
             block
         };
         let support = match specification.outer {
@@ -142,7 +140,7 @@ impl WaveBody {
     fn support_at(&self, i: usize) -> Option<impl Fn(DynamicCoefficients) -> Receptance> {
         let [springs, dashpots] = self.support.filter(|_| i + 1 == self.masses.len())?;
         Some(move |at: DynamicCoefficients| {
-            complex(&springs) * c64::new(at.support, 0.0) + complex(&dashpots) * at.damping // K_s + lambda C_s.
+            springs * c64::new(at.support, 0.0) + dashpots * at.damping // K_s + lambda C_s.
         })
     }
 
@@ -175,7 +173,7 @@ impl WaveBody {
         let mut rates = [Receptance::zeros(); N];
         for i in (0..self.masses.len()).rev() {
             let mass = Receptance::identity() * c64::new(self.masses[i], 0.0);
-            let diagonal = complex(&blocks.diagonal[i]);
+            let diagonal = blocks.diagonal[i];
             let mut matrix = diagonal * at.stiffness + mass * at.mass; // K_ii (1 + beta i w) + m (alpha i w - w^2), and its derivatives.
             let mut slopes = changes.map(|change| diagonal * change.stiffness + mass * change.mass);
             if let Some(support) = self.support_at(i) {
@@ -184,7 +182,6 @@ impl WaveBody {
                 pairs.for_each(|(slope, change)| *slope += support(change));
             }
             if let Some(outward) = blocks.outward.get(i) {
-                let outward = complex(outward);
                 // From the outer edge inwards: S_i = D_i - B_i S_i+1^-1 B_i^T.
                 let across = outward * inverses[i + 1] * outward.transpose();
                 matrix -= across * (at.stiffness * at.stiffness); // A lumped mass couples no nodes: off the diagonal D is c B.
@@ -208,7 +205,7 @@ impl WaveBody {
         let mut current = nalgebra::Vector2::new(edge[0], -c64::I * edge[1]);
         let mut profile = vec![edge];
         for i in 1..inverses.len() {
-            let inward = complex(&blocks.outward[i - 1]).transpose();
+            let inward = blocks.outward[i - 1].transpose();
             current = -(inverses[i] * inward * current) * at.stiffness; // u_i = - S_i^-1 B_i-1^T u_i-1.
             profile.push([current[0], c64::I * current[1]]);
         }
@@ -222,14 +219,14 @@ impl WaveBody {
             profile.iter().map(|u| nalgebra::Vector2::new(u[0], -c64::I * u[1])).collect();
         let mut sum = 0.0;
         for (i, u) in real.iter().enumerate() {
-            let force = complex(&blocks.diagonal[i]) * u;
+            let force = blocks.diagonal[i] * u;
             sum += damping.stiffness_coefficient * u.dotc(&force).re; // u_i^H beta K_ii u_i.
             sum += damping.mass_coefficient * self.masses[i] * u.norm_squared();
             if let Some([_, dashpots]) = self.support.filter(|_| i + 1 == real.len()) {
-                sum += u.dotc(&(complex(&dashpots) * u)).re;
+                sum += u.dotc(&(dashpots * u)).re;
             }
             if let (Some(outward), Some(next)) = (blocks.outward.get(i), real.get(i + 1)) {
-                let force = complex(outward) * next; // Both blocks off the diagonal.
+                let force = outward * next; // Both blocks off the diagonal.
                 sum += 2.0 * damping.stiffness_coefficient * u.dotc(&force).re;
             }
         }
@@ -241,7 +238,7 @@ impl HarmonicStiffness {
     fn new(matrix: &BandedMatrix) -> Self {
         let count = matrix.dimension() / 2;
         let block = |i: usize, j: usize| {
-            Matrix2::from_fn(|row, column| matrix.get(2 * i + row, 2 * j + column))
+            Matrix2::from_fn(|row, column| matrix.get(2 * i + row, 2 * j + column).into())
         };
         Self {
             diagonal: (0..count).map(|i| block(i, i)).collect(),
@@ -250,16 +247,12 @@ impl HarmonicStiffness {
     }
 }
 
-fn complex(matrix: &Matrix2<f64>) -> Matrix2<c64> {
-    matrix.map(|value| c64::new(value, 0.0))
-}
-
-fn inverted(m: &Matrix2<c64>) -> Matrix2<c64> {
+fn inverted(m: &Receptance) -> Receptance {
     let reciprocal = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).inv();
     Matrix2::new(m[(1, 1)], -m[(0, 1)], -m[(1, 0)], m[(0, 0)]) * reciprocal // adj(m) / det(m).
 }
 
 /// From the basis `(u_r, -i u_theta)` to `(u_r, u_theta)`.
-fn polar(m: &Matrix2<c64>) -> Matrix2<c64> {
+fn polar(m: &Receptance) -> Receptance {
     Matrix2::new(m[(0, 0)], -c64::I * m[(0, 1)], c64::I * m[(1, 0)], m[(1, 1)]) // T m T^-1 with T = diag(1, i).
 }

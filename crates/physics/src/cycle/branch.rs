@@ -5,11 +5,14 @@
 //! is about to break. There the state of that one point changes, and the curve goes on to the side on which its new inequality holds. Folds
 //! need no special care, and no iteration over contact states can cycle.
 
-use super::continuation::Values;
+use super::continuation::{BranchEnd, Turning, Values, Way};
+use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
 use super::state::{Event, PointState, WaveState};
 use super::system::{Closure, Heading, System};
 use super::wave::{Linearization, Wave};
+use crate::cea::Unwatched;
+use std::convert::Infallible;
 
 /// Longest step along the branch, relative: a twentieth of the mean normal force, frequency or parameter.
 const LONGEST_STEP: f64 = 0.05;
@@ -30,27 +33,32 @@ const TOLERANCE: f64 = 1e-8;
 /// Values of the parameter that differ by less than this share are one.
 const SAME: f64 = 1e-12;
 
-/// Where one step along a branch ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
-    /// At a change of contact state, or in the middle of nowhere.
-    Moved,
-    /// At a wanted value of the parameter.
-    At(f64),
-}
+/// Most changes of contact state along one branch.
+const MOST_STEPS: usize = 6_000;
 
-/// A branch of limit cycles over one parameter.
+/// Friction coefficient beyond which no branch is followed.
+const HIGHEST_FRICTION: f64 = 10.0;
+
+/// One half of a branch of limit cycles over one parameter.
 pub struct Branch<'a> {
-    /// The wave.
-    pub wave: &'a Wave<'a>,
+    wave: &'a Wave,
     parameter: Parameter,
+    values: &'a Values,
     /// Where it is.
-    pub state: WaveState,
+    state: WaveState,
     heading: Option<Heading>,
-    pending: Option<Event>,
+    /// An inequality that the state is on the point of breaking, which decides the way.
+    pub pending: Option<Event>,
     force_scale: f64,
     /// Sense of the parameter at the start, and at the last step: +1 or -1.
-    pub direction: f64,
+    direction: f64,
+    pub turning: Turning,
+    /// The cycles at values asked for.
+    pub cycles: Vec<LimitCycle>,
+    /// Changes of contact state that may still come.
+    pub steps: usize,
+    /// Friction coefficient beyond which it ends.
+    pub highest: f64,
     /// Dense factorizations so far.
     pub factorizations: usize,
 }
@@ -67,45 +75,52 @@ enum Goal {
 }
 
 impl<'a> Branch<'a> {
-    /// A branch through `state`, at first towards rising (`direction` > 0) or falling parameter.
-    ///
-    /// `pending` is an inequality that the state is on the point of breaking; it then decides the way.
+    /// That through `state`, at first towards rising (`direction` > 0) or falling parameter.
     pub fn new(
-        wave: &'a Wave<'a>,
-        parameter: Parameter,
+        wave: &'a Wave,
+        (parameter, values): (Parameter, &'a Values),
         state: WaveState,
         direction: f64,
-        pending: Option<Event>,
     ) -> Self {
         let force_scale = state.normal.iter().sum::<f64>() / state.normal.len() as f64; // Slacks and residuals are measured by it.
         Self {
+            turning: Turning::new(parameter.of(&state.point), direction.signum(), wave.points()),
             wave,
             parameter,
+            values,
             state,
             heading: None,
-            pending,
+            pending: None,
             force_scale,
             direction,
+            cycles: Vec::new(),
+            steps: MOST_STEPS,
+            highest: HIGHEST_FRICTION,
             factorizations: 0,
         }
     }
 
+    /// The cycle at the only value asked for, or where the branch ends before and why.
+    pub fn reach(mut self) -> Result<LimitCycle, (f64, BranchEnd)> {
+        let Ok(end) = self.run("", &Unwatched);
+        self.cycles.pop().ok_or((self.value(), end))
+    }
+
     /// The parameter's value, SI.
-    pub fn value(&self) -> f64 {
+    fn value(&self) -> f64 {
         self.parameter.of(&self.state.point)
     }
 
-    /// One step: to the next change of contact state, the next of `samples` or the longest step.
+    /// One step: to the next change of contact state, the next value or the longest step.
     ///
     /// `None` where the curve cannot be followed any further.
-    pub fn advance(&mut self, samples: &Values) -> Option<Step> {
+    fn step(&mut self) -> Option<Goal> {
         let flipped = self.pending.take().map(|event| self.flip(event));
         // The tangent, turned so that what has just changed goes on to hold.
-        let linear = Linearization::at(self.wave, &self.state, self.parameter);
-        let system = System::new(&self.state, self.parameter, self.force_scale);
-        let mut heading = system.tangent(&linear, self.heading.as_ref())?;
+        let system = System::at(self.wave, &self.state, self.parameter, self.force_scale);
+        let mut heading = system.tangent(self.heading.as_ref())?;
+        let mut inequalities = self.inequalities(&system.linear, &heading);
         self.factorizations += 1;
-        let mut inequalities = self.inequalities(&linear, &heading);
         let sense = match flipped {
             Some(event) => inequalities.iter().find(|i| i.0 == event)?.2, // The rate of its slack: it must come to hold.
             None if self.heading.is_none() => self.direction * heading.scalars()[2],
@@ -117,14 +132,17 @@ impl<'a> Branch<'a> {
         }
         self.direction = heading.scalars()[2].signum(); // Of the parameter, which folds turn.
         // As far as the first inequality that would break along it.
-        let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
+        let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading);
         // An inequality that breaks on the way after all becomes the goal; each such shortening is progress.
         for _ in 0..12 {
             let found = self.correct(&heading, length, goal);
             match found.map(|(state, linear)| (self.worst(&state, &linear), state)) {
-                Some((None, state)) => match self.skipped(&state, samples, goal) {
+                Some((None, state)) => match self.skipped(&state, goal) {
                     Some(value) => goal = Goal::Value(value),
-                    None => return Some(self.accept(state, heading, length, goal)),
+                    None => {
+                        self.accept(state, heading, length, goal);
+                        return Some(goal);
+                    }
                 },
                 Some((Some((event, slack)), _)) if Some(event) != flipped => {
                     let before = inequalities.iter().find(|i| i.0 == event);
@@ -140,27 +158,22 @@ impl<'a> Branch<'a> {
     }
 
     /// A wanted value that lies strictly between here and `state`: the curve bends more than its heading said.
-    fn skipped(&self, state: &WaveState, samples: &Values, goal: Goal) -> Option<f64> {
+    fn skipped(&self, state: &WaveState, goal: Goal) -> Option<f64> {
         if matches!(goal, Goal::Value(_)) {
             return None;
         }
         let (from, to) = (self.value(), self.parameter.of(&state.point));
-        samples.between(from.min(to), from.max(to), SAME * from.abs()).first().copied()
+        self.values.between(from.min(to), from.max(to), SAME * from.abs()).first().copied()
     }
 
-    fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) -> Step {
+    fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) {
         // A secant smooths over many short steps; one of no length says nothing.
         let secant = Heading::between(&self.state, &state, self.parameter);
         let is_long = length > 1e-9;
         self.heading = Some(if is_long { secant } else { heading });
         self.state = state;
-        match goal {
-            Goal::Event(event) => {
-                self.pending = Some(event);
-                Step::Moved
-            }
-            Goal::Value(value) => Step::At(value),
-            Goal::Length => Step::Moved,
+        if let Goal::Event(event) = goal {
+            self.pending = Some(event);
         }
     }
 
@@ -188,10 +201,12 @@ impl<'a> Branch<'a> {
         check
     }
 
-    fn inequalities(&self, linear: &Linearization, heading: &Heading) -> Vec<Inequality> {
-        let [gap, slip] = self.wave_rates(linear, heading);
+    fn inequalities(&self, linear: &Linearization<'_>, heading: &Heading) -> Vec<Inequality> {
         let friction = self.state.point.contact.friction_coefficient;
-        let rise = self.parameter.friction_in(heading.scalars()[2]);
+        let [frequency, _, parameter] = heading.scalars();
+        let rise = self.parameter.friction_in(parameter); // What it does is in the tangential forces of the heading.
+        let forces = [heading.normal(), heading.tangential()];
+        let [gap, slip] = linear.rates(forces, &[frequency, parameter - rise]);
         // How each slack changes along the heading.
         let with_rate = |(event, slack): (Event, f64)| {
             let i = event.point();
@@ -208,36 +223,12 @@ impl<'a> Branch<'a> {
         slacks(&self.state, linear).map(with_rate).collect()
     }
 
-    /// Rates of gap and slip along a heading. Its tangential forces hold the friction coefficient's change already.
-    fn wave_rates(&self, linear: &Linearization, heading: &Heading) -> [Vec<f64>; 2] {
-        let forces = [heading.normal(), heading.tangential()].map(|own| self.wave.harmonics(own));
-        let [frequency, _, parameter] = heading.scalars();
-        let parameter = parameter - self.parameter.friction_in(parameter);
-        let [by_frequency, by_parameter] = &linear.by[..] else {
-            unreachable!("branches of one wave have one frequency");
-        };
-        [0, 1].map(|row| {
-            // A convolution over the phase: products of harmonics.
-            let columns = linear.columns[row].each_ref().map(|column| self.wave.harmonics(column));
-            let mut rate = self.wave.values(
-                (0..columns[0].len())
-                    .map(|k| columns[0][k] * forces[0][k] + columns[1][k] * forces[1][k]),
-            );
-            let by = by_frequency[row].iter().zip(&by_parameter[row]);
-            for (value, (by_frequency, by_parameter)) in rate.iter_mut().zip(by) {
-                *value += by_frequency * frequency + by_parameter * parameter; // At fixed forces: by omega and by the parameter.
-            }
-            rate
-        })
-    }
-
     /// The nearest end of the coming step.
     fn nearest(
         &self,
         inequalities: &[Inequality],
         flipped: Option<Event>,
         heading: &Heading,
-        samples: &Values,
     ) -> (f64, Goal) {
         let mut best = (LONGEST_STEP, Goal::Length);
         for &(event, slack, rate) in inequalities {
@@ -250,7 +241,7 @@ impl<'a> Branch<'a> {
         }
         let value = self.value();
         let [_, _, rise] = heading.scalars();
-        let ahead = samples.ahead(value, rise > 0.0, SAME * value.abs());
+        let ahead = self.values.ahead(value, rise > 0.0, SAME * value.abs());
         if let Some(&sample) = ahead.first() {
             let length = (sample - value) / rise; // value + length rise = sample.
             if length <= best.0 {
@@ -266,23 +257,23 @@ impl<'a> Branch<'a> {
         heading: &Heading,
         length: f64,
         goal: Goal,
-    ) -> Option<(WaveState, Linearization)> {
+    ) -> Option<(WaveState, Linearization<'a>)> {
         let mut state = self.state.clone();
         heading.add_to(&mut state, length, self.parameter); // Predictor x + l dx, corrected below.
         let predicted = state.clone();
         let mut previous = f64::INFINITY;
         for _ in 0..8 {
-            let linear = Linearization::at(self.wave, &state, self.parameter);
-            let system = System::new(&state, self.parameter, self.force_scale);
+            let system = System::at(self.wave, &state, self.parameter, self.force_scale);
             let closure = match goal {
                 Goal::Event(event) => Closure::Event(event),
                 Goal::Value(value) => Closure::Value(value),
                 Goal::Length => Closure::Plane(heading, &predicted),
             };
-            let (matrix, residual) = system.assemble(&linear, closure);
+            let (matrix, residual) = system.assemble(closure);
             let largest = residual.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
             if largest < CONVERGED || (largest < STAGNANT && largest > 0.25 * previous) {
                 let strayed = system.distance(&predicted); // Farther than the step is long: another curve.
+                let linear = system.linear;
                 return (strayed <= length.max(SHORTEST_REACH)).then_some((state, linear));
             }
             if !residual.iter().all(|value| value.abs() < 1e6) {
@@ -297,17 +288,52 @@ impl<'a> Branch<'a> {
     }
 
     /// The inequality broken most, beyond round-off.
-    fn worst(&self, state: &WaveState, linear: &Linearization) -> Option<(Event, f64)> {
+    fn worst(&self, state: &WaveState, linear: &Linearization<'_>) -> Option<(Event, f64)> {
         slacks(state, linear)
             .filter(|&(_, slack)| slack < -TOLERANCE * self.force_scale)
             .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 
+impl Way for Branch<'_> {
+    type Error = Infallible;
+    type Kept = ();
+
+    fn kept(&self) {}
+
+    /// It is short enough to be followed again.
+    fn take_up(&mut self, (): ()) -> Option<()> {
+        None
+    }
+
+    /// One step, with the cycle where it ends at a value asked for.
+    fn advance(&mut self) -> Result<Option<BranchEnd>, Infallible> {
+        let Some(left) = self.steps.checked_sub(1) else { return Ok(Some(BranchEnd::Steps)) };
+        self.steps = left;
+        let Some(goal) = self.step() else { return Ok(Some(BranchEnd::Lost)) };
+        self.turning.follow(self.value());
+        if let Goal::Value(value) = goal {
+            let cycle = LimitCycle::new(self.wave, self.state.clone());
+            if !cycle.is_physical() {
+                return Ok(Some(BranchEnd::Unphysical));
+            }
+            self.cycles.push(cycle);
+            if self.values.end_at(value, self.direction > 0.0) {
+                return Ok(Some(BranchEnd::Range));
+            }
+        }
+        if self.state.contact.iter().all(|&point| point == PointState::SlipForward) {
+            return Ok(Some(BranchEnd::Birth)); // Full slip: a linear wave, of any amplitude at its onset.
+        }
+        let is_beyond = !(self.state.point.contact.friction_coefficient < self.highest); // Not a number ends it, too.
+        Ok(is_beyond.then_some(BranchEnd::Lost))
+    }
+}
+
 /// Every inequality of a state with its slack, N/m.
 fn slacks<'a>(
     state: &'a WaveState,
-    linear: &'a Linearization,
+    linear: &'a Linearization<'_>,
 ) -> impl Iterator<Item = (Event, f64)> + 'a {
     let friction = state.point.contact.friction_coefficient;
     let points = state.contact.iter().enumerate();

@@ -107,7 +107,7 @@ impl MeshStepping<'_> {
         // A seed in the direction that grows fastest, and periods in which it would show.
         let leading = stability.and_then(FloquetMultipliers::leading);
         let periods = telling_periods(leading, E_FOLDS * cycle.frequency_hz(), periods);
-        let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body.radius;
+        let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.wave.body.radius;
         let mode = leading.and_then(|found| found.mode);
         let seed = mode.map(|mode| (mode.harmonic, SEED * surface_speed));
         let (mut run, steps) = self.start(cycle, seed)?;
@@ -212,15 +212,7 @@ fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
 
 /// First harmonic over one period of the displacement of each contact node along the counterface.
 fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
-    interruption::check();
-    let mut sums = vec![c64::ZERO; map.run.interface().len()];
-    let steps = map.steps();
-    for step in 0..steps {
-        map.run.advance();
-        let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64); // sum_n u_n e^{-2 pi i n / N}.
-        sums.iter_mut().zip(slips(&map.run)).for_each(|(sum, slip)| *sum += slip * turn);
-    }
-    sums
+    map.harmonics(1, slips).remove(0)
 }
 
 #[cfg(test)]

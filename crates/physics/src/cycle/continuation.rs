@@ -129,11 +129,13 @@ pub(super) trait Way {
     type Error;
     /// Everything that the way on depends on.
     type Kept: Serialize + DeserializeOwned;
-    /// Points between two looks at which what is done is kept.
-    const BLOCK: usize;
+    /// Points between two looks at which what is done is kept; all at once where that is nothing.
+    const BLOCK: usize = usize::MAX;
 
     /// Points so far.
-    fn count(&self) -> usize;
+    fn count(&self) -> usize {
+        0
+    }
 
     /// Further points, or why there are none.
     fn advance(&mut self) -> Result<Option<BranchEnd>, Self::Error>;
@@ -157,7 +159,7 @@ pub(super) trait Way {
         }
         while end.is_none() {
             self.begin_block();
-            let next = self.count().saturating_add(Self::BLOCK); // A block may be `usize::MAX`: all at once.
+            let next = self.count().saturating_add(Self::BLOCK);
             while end.is_none() && self.count() < next {
                 end = self.advance()?;
             }

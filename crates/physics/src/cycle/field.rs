@@ -1,27 +1,25 @@
 //! The contact edge and the whole field of a mesh of equal sectors, in harmonics around its circumference.
 
-use super::body::DynamicCoefficients;
-use super::limit_cycle::EdgeMotion;
 use super::state::WaveState;
 use super::wave::Wave;
 use crate::linalg::c64;
 use crate::transient::CentralDifference;
 use std::f64::consts::TAU;
+use std::ops::Mul;
 
 /// Displacement (m) and velocity (m/s) over all dofs in nodal frames of one wave or two, of these `harmonics` around the
 /// circumference, at a time (s).
 pub(super) fn field(
-    wave: &Wave<'_>,
+    wave: &Wave,
     state: &WaveState,
     harmonics: [isize; 2],
     time: f64,
 ) -> [Vec<f64>; 2] {
-    let edge = EdgeMotion::of(wave, state);
     let (rays, sectors) = (wave.body.rays, wave.body.sector_count);
     let mut fields = [0, 1].map(|_| vec![0.0; 2 * rays * sectors]);
-    for (k, (u, &rate)) in edge.displacement.iter().zip(&edge.rates).enumerate() {
+    for (k, u) in wave.displacements(state).into_iter().enumerate() {
         let share = if k == 0 { 1.0 } else { 2.0 } / wave.points() as f64; // Sums over M points, and -k beside k.
-        let at = DynamicCoefficients::new(rate, &state.point.damping);
+        let at = wave.coefficients(k, state);
         let profile = wave.body.profile(k, at, u.map(|value| value * share));
         let around = wave.circumferential(k, harmonics);
         let phase = wave.phase(k, state.frequencies()) * time;
@@ -34,7 +32,7 @@ pub(super) fn field(
                     let dof = 2 * (sector * rays + i) + component;
                     let amplitude = value[component] * turn;
                     fields[0][dof] += amplitude.re;
-                    fields[1][dof] += (amplitude * rate).re; // v = Re(lambda u e^{i phase}).
+                    fields[1][dof] += (amplitude * at.damping).re; // v = Re(lambda u e^{i phase}).
                 }
             }
         }
@@ -56,7 +54,10 @@ pub(super) fn slips(run: &CentralDifference<'_>) -> Vec<f64> {
 }
 
 /// Amplitude of harmonic `n` of values on equal nodes, `u = Re(a e^{i n theta})`.
-pub(super) fn amplitude(edge: &[f64], harmonic: isize) -> c64 {
+pub(super) fn amplitude<T>(edge: &[T], harmonic: isize) -> c64
+where
+    T: Copy + Mul<c64, Output = c64>,
+{
     let count = edge.len() as isize;
     let terms = edge.iter().enumerate().map(|(j, &value)| {
         let angle = TAU * (harmonic * j as isize).rem_euclid(count) as f64 / count as f64;

@@ -1,6 +1,7 @@
 //! Stability of rotating waves: leading multipliers, from the map of perturbations over one period, and where a branch changes it.
 
 use super::arnoldi::{MultiplierSearch, Ritz, unit};
+use super::field::amplitude;
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
 use super::stability::{FloquetMultiplier, FloquetMultipliers, StabilityChange, crossing};
@@ -47,9 +48,12 @@ impl SteppedCycle {
 }
 
 impl MeshStepping<'_> {
-    /// Settles a cycle in the transient of its mesh, and finds its leading Floquet exponents there.
+    /// Settles a cycle in the transient of its mesh, and finds its leading Floquet exponents there, by Arnoldi's process on the map of one
+    /// period.
     ///
-    /// `neighbour` is a cycle nearby, whose modes are a start.
+    /// `neighbour` is a cycle nearby, whose modes are a start. The exponent of the wave's own shift in phase is zero; what the steps of
+    /// time and mesh make of it instead is how far the others may be trusted, by experience twice over: half of it, a five
+    /// thousandth of `omega`, the residual and a hundredth of the rate make the uncertainty of each.
     ///
     /// # Errors
     /// [`CycleError::Stepping`] if the transient cannot start, [`CycleError::NotFound`] if the exponents do not converge.
@@ -58,10 +62,41 @@ impl MeshStepping<'_> {
         cycle: &LimitCycle,
         neighbour: Option<&SteppedCycle>,
     ) -> Result<SteppedCycle, CycleError> {
-        let period = self.period(cycle)?;
-        let known = neighbour.map(|own| own.modes.as_slice());
-        let (stability, modes) = leading_multipliers(&period, known)?;
-        Ok(SteppedCycle { cycle: period.stepped(cycle), stability, modes })
+        let period = &self.period(cycle)?;
+        let mut start = unit(unknown_start(period));
+        if let Some(known) = neighbour.filter(|known| known.modes.len() == start.len()) {
+            // A little of what the neighbour's modes may lack.
+            start.iter_mut().zip(&known.modes).for_each(|(x, k)| *x = UNKNOWN_SHARE * *x + k);
+        }
+        let [reach, least] = NEUTRAL;
+        let search = MultiplierSearch {
+            dimensions: DIMENSIONS,
+            converged: CONVERGED,
+            listed: LISTED,
+            is_shift: &|own| own.value.ln().norm() < reach * TAU && own.along > least,
+            remedy: "transient.initial = \"limit-cycle\"",
+        };
+        let mut periods = 0;
+        let found = search.run(&start, period.shift(), |direction| {
+            periods += 1;
+            period.map(direction)
+        })?;
+        // The shift along the cycle neither grows nor decays: what it does is the error.
+        let neutral = found.shift.map(|shift| shift.ln() / period.duration); // lambda_0 = ln(rho_0) / T, exactly 0 in theory.
+        let mut modes = vec![0.0; period.dimension()];
+        let mut multipliers = Vec::new();
+        for ritz in &found.listed {
+            let vector = found.vector(ritz);
+            modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im); // Re and Im span the plane of a complex mode.
+            multipliers.push(multiplier(period, ritz, &vector, neutral));
+        }
+        let shift = found.shift.map(|own| own.norm());
+        let &Period { powers, fractions, .. } = period;
+        Ok(SteppedCycle {
+            cycle: LimitCycle { powers, fractions, ..cycle.clone() },
+            stability: FloquetMultipliers { multipliers, shift, periods },
+            modes: unit(modes),
+        })
     }
 
     /// Value of `parameter` (SI) at which the branch from one cycle to another, of different stability, changes it.
@@ -99,53 +134,6 @@ impl MeshStepping<'_> {
     }
 }
 
-/// The leading multipliers of a cycle, and the sum of their modes, of unit length: a start for those of its neighbours.
-///
-/// Arnoldi's process on the map of one period, until the leading multipliers have converged.
-///
-/// `known` are modes of a neighbouring cycle. The exponent of the wave's own shift in phase is zero; what the steps of
-/// time and mesh make of it instead is how far the others may be trusted, by experience twice over: half of it, a five
-/// thousandth of `omega`, the residual and a hundredth of the rate make the uncertainty of each.
-///
-/// # Errors
-/// [`CycleError::NotFound`] where the leading multipliers do not converge.
-fn leading_multipliers(
-    period: &Period<'_>,
-    known: Option<&[f64]>,
-) -> Result<(FloquetMultipliers, Vec<f64>), CycleError> {
-    let mut start = unit(unknown_start(period));
-    if let Some(known) = known.filter(|known| known.len() == start.len()) {
-        // A little of what the neighbour's modes may lack.
-        start.iter_mut().zip(known).for_each(|(x, k)| *x = UNKNOWN_SHARE * *x + k);
-    }
-    let [reach, least] = NEUTRAL;
-    let search = MultiplierSearch {
-        dimensions: DIMENSIONS,
-        converged: CONVERGED,
-        listed: LISTED,
-        is_shift: &|own| own.value.ln().norm() < reach * TAU && own.along > least,
-        remedy: "transient.initial = \"limit-cycle\"",
-    };
-    let mut periods = 0;
-    let found = search.run(&start, period.shift(), |direction| {
-        periods += 1;
-        period.map(direction)
-    })?;
-    // The shift along the cycle neither grows nor decays: what it does is the error.
-    let neutral = found.shift.map(|shift| shift.ln() / period.duration); // lambda_0 = ln(rho_0) / T, exactly 0 in theory.
-    let mut modes = vec![0.0; period.dimension()];
-    let mut multipliers = Vec::new();
-    for ritz in &found.listed {
-        let vector = found.vector(ritz);
-        modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im); // Re and Im span the plane of a complex mode.
-        multipliers.push(multiplier(period, ritz, &vector, neutral));
-    }
-    Ok((
-        FloquetMultipliers { multipliers, shift: found.shift.map(|own| own.norm()), periods },
-        unit(modes),
-    ))
-}
-
 /// A multiplier with the circumferential harmonic that moves the edge most and its frequency.
 fn multiplier(
     period: &Period<'_>,
@@ -153,20 +141,17 @@ fn multiplier(
     vector: &[c64],
     neutral: Option<c64>,
 ) -> FloquetMultiplier {
-    let omega = period.frequency();
+    let omega = TAU / period.duration;
     let turning = ritz.value.arg() / period.duration; // Im lambda = arg(rho) / T, up to multiples of omega.
-    let (sectors, per) = (period.sectors() as isize, period.sector_dofs());
+    let (sectors, per) = (period.sectors(), period.sector_dofs());
     let half = vector.len() / 2;
     // Amplitude of e^{i m theta} in one dof of the edge, of displacement or velocity.
-    let amplitude = |m: isize, part: usize, dof: usize| -> c64 {
-        let terms = (0..sectors).map(|sector| {
-            let angle = -TAU * ((m * sector).rem_euclid(sectors)) as f64 / sectors as f64;
-            vector[part + sector as usize * per + dof] * c64::from_polar(1.0, angle)
-        });
-        terms.sum()
+    let amplitude = |m: isize, part: usize, dof: usize| {
+        let edge = vector[part + dof..].iter().step_by(per).take(sectors);
+        amplitude(&edge.copied().collect::<Vec<c64>>(), m)
     };
     // Resolved motion of the edge lives in low harmonics.
-    let highest = (sectors / 2).min(40);
+    let highest = (sectors / 2).min(40) as isize;
     let energy = |m: isize| amplitude(m, 0, 0).norm_sqr() + amplitude(m, 0, 1).norm_sqr();
     let harmonic = (-highest..=highest)
         .map(|m| (m, energy(m)))

@@ -1,6 +1,5 @@
 //! A limit cycle: motion along its phase, statuses, powers, harmonics.
 
-use super::body::DynamicCoefficients;
 use super::state::WaveState;
 use super::wave::Wave;
 use crate::contact::ContactStatus;
@@ -80,12 +79,11 @@ pub struct LimitCycle {
 
 impl LimitCycle {
     /// Reads a converged state.
-    pub fn new(wave: &Wave<'_>, state: WaveState) -> Self {
-        let edge = EdgeMotion::of(wave, &state);
-        let points = edge.points(wave, &state);
+    pub fn new(wave: &Wave, state: WaveState) -> Self {
+        let edge = wave.displacements(&state);
         let count = wave.points() as f64;
         let mut harmonics = [0.0; HARMONIC_COUNT];
-        for (k, spectrum) in edge.displacement.iter().enumerate() {
+        for (k, spectrum) in edge.iter().enumerate() {
             if let Some(place) = harmonics.get_mut(k * wave.body.harmonic.unsigned_abs()) {
                 let share = if k == 0 { 1.0 } else { 2.0 }; // k > 0 stands for -k, too.
                 *place = share * spectrum[1].norm() / count;
@@ -93,10 +91,10 @@ impl LimitCycle {
         }
         Self {
             harmonic: wave.body.harmonic.unsigned_abs(),
-            powers: powers(wave, &state, &edge, &points),
+            powers: powers(wave, &state, &edge),
             fractions: state.fractions(),
             harmonics,
-            points,
+            points: points(wave, &state, &edge),
             state,
         }
     }
@@ -131,89 +129,58 @@ impl LimitCycle {
     }
 }
 
-/// Harmonics of the edge's displacement (unscaled sums), and their velocity symbols.
-pub(super) struct EdgeMotion {
-    pub displacement: Vec<[c64; 2]>,
-    pub rates: Vec<c64>,
+/// Contact and motion at each phase.
+fn points(wave: &Wave, state: &WaveState, edge: &[[c64; 2]]) -> Vec<PhasePoint> {
+    let displacement = wave.motion(edge, |_| c64::ONE);
+    let velocity = wave.motion(edge, |k| wave.contact_rate(k, state.frequencies())); // b, as the laws of contact have it.
+    let length = wave.body.tributary_length;
+    let phases = (0..wave.points()).map(|i| TAU * i as f64 / wave.points() as f64);
+    (phases.enumerate())
+        .map(|(i, phase)| PhasePoint {
+            phase,
+            time: phase / state.frequency(),
+            status: state.contact[i].status(),
+            pressure: state.normal[i] / length,
+            shear: state.tangential[i] / length,
+            displacement: [displacement[0][i], displacement[1][i]],
+            velocity: [velocity[0][i], velocity[1][i]],
+        })
+        .collect()
 }
 
-impl EdgeMotion {
-    pub fn of(wave: &Wave<'_>, state: &WaveState) -> Self {
-        let normal = wave.harmonics(&state.normal);
-        let tangential = wave.harmonics(&state.tangential);
-        let rates: Vec<c64> =
-            (0..wave.body.harmonic_count()).map(|k| wave.rate(k, state.frequencies())).collect();
-        let displacement = rates.iter().enumerate().map(|(k, &rate)| {
-            let at = DynamicCoefficients::new(rate, &state.point.damping);
-            let (r, []) = wave.body.receptance(k, at, []);
-            [0, 1].map(|row| r[(row, 0)] * normal[k] + r[(row, 1)] * tangential[k]) // (u_r, u_theta)_k = R(lambda_k) (N, T)_k.
-        });
-        Self { displacement: displacement.collect(), rates }
-    }
-
-    pub fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {
-        let displacement = [0, 1].map(|c| wave.values(self.displacement.iter().map(|u| u[c])));
-        let velocity = [0, 1].map(|component| {
-            let rate = |k: usize| wave.contact_rate(k, state.frequencies()); // b, as the laws of contact have it.
-            wave.values(self.displacement.iter().enumerate().map(|(k, u)| u[component] * rate(k)))
-        });
-        let length = wave.body.tributary_length;
-        let phases = (0..wave.points()).map(|i| TAU * i as f64 / wave.points() as f64);
-        (phases.enumerate())
-            .map(|(i, phase)| PhasePoint {
-                phase,
-                time: phase / state.frequency(),
-                status: state.contact[i].status(),
-                pressure: state.normal[i] / length,
-                shear: state.tangential[i] / length,
-                displacement: [displacement[0][i], displacement[1][i]],
-                velocity: [velocity[0][i], velocity[1][i]],
-            })
-            .collect()
-    }
-}
-
-/// Mean powers of a wave, or of two.
-pub(super) fn powers(
-    wave: &Wave<'_>,
-    state: &WaveState,
-    edge: &EdgeMotion,
-    points: &[PhasePoint],
-) -> CyclePowers {
+/// Mean powers of a wave, or of two, whose `edge` moves so.
+pub(super) fn powers(wave: &Wave, state: &WaveState, edge: &[[c64; 2]]) -> CyclePowers {
     let contact = &state.point.contact;
     let surface_speed = contact.rotation_speed * wave.body.radius;
     let mut powers = ContactPowers::default();
-    let velocity = [0, 1].map(|component| {
-        wave.values(edge.displacement.iter().zip(&edge.rates).map(|(u, rate)| u[component] * rate)) // v = i s u, which keeps energy.
-    });
-    for (i, point) in points.iter().enumerate() {
+    let velocity = wave.motion(edge, |k| wave.rate(k, state.frequencies())); // v = i s u, which keeps energy.
+    for (i, point) in state.contact.iter().enumerate() {
         let (normal, tangential) = (state.normal[i], state.tangential[i]);
         let (v_n, v_t) = (velocity[0][i], velocity[1][i]);
         powers.external += tangential * surface_speed;
         powers.contact_dissipated += tangential * (surface_speed - v_t);
         powers.normal += normal * v_n;
-        match point.status {
+        match point.status() {
             ContactStatus::Stick => powers.stick += tangential * v_t,
             _ => powers.slide += tangential * v_t,
         }
     }
     let nodes = wave.body.sector_count as f64;
     CyclePowers {
-        contact: powers.scaled(nodes / points.len() as f64), // Mean over the phases, times the nodes: each goes through all of them.
+        contact: powers.scaled(nodes / wave.points() as f64), // Mean over the phases, times the nodes: each goes through all of them.
         material_damping: nodes * material_damping(wave, state, edge),
     }
 }
 
 /// Mean of `v^T C v` over one sector, from the motion of every node.
-fn material_damping(wave: &Wave<'_>, state: &WaveState, edge: &EdgeMotion) -> f64 {
+fn material_damping(wave: &Wave, state: &WaveState, edge: &[[c64; 2]]) -> f64 {
     let count = wave.points() as f64;
-    let pairs = edge.displacement.iter().zip(&edge.rates).enumerate();
-    pairs
-        .skip(1) // The mean displacement is at rest.
-        .map(|(k, (&u, &rate))| {
-            let damping = &state.point.damping;
-            let profile = wave.body.profile(k, DynamicCoefficients::new(rate, damping), u);
-            2.0 / (count * count) * wave.body.damping_form(k, damping, &profile) * rate.norm_sqr() // A = 2 lambda u / M: A^H C A / 2.
-        })
-        .sum()
+    let harmonics = edge.iter().enumerate().skip(1); // The mean displacement is at rest.
+    let means = harmonics.map(|(k, &u)| {
+        let (damping, at) = (&state.point.damping, wave.coefficients(k, state));
+        let profile = wave.body.profile(k, at, u);
+        let form = wave.body.damping_form(k, damping, &profile);
+        2.0 / (count * count) * form * at.damping.norm_sqr() // A = 2 lambda u / M: A^H C A / 2.
+    });
+    means.sum()
 }

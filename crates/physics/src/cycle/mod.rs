@@ -2,7 +2,7 @@
 //!
 //! In a rotationally symmetric disc the limit cycle of an unstable wave is `u(r, theta, t) = U(r, xi)` with `xi = n theta + omega t`. Every
 //! contact node goes through the same motion, one after the other. So the cycle is a *steady* frictional contact problem along the phase
-//! `xi`, with one unknown frequency. The body is a 2 x 2 receptance for each temporal harmonic ([`WaveBody`]); Signorini's and Coulomb's
+//! `xi`, with one unknown frequency. The body is a 2 x 2 receptance for each temporal harmonic (`WaveBody`); Signorini's and Coulomb's
 //! laws hold at points along the phase. A branch of cycles is followed from its birth in steady sliding through every change of contact
 //! state ([`CycleSolver`]). Cycles are born where the eigenvalue analysis has its onsets ([`DiscModel`]); their stability is that of the
 //! transient's own step, linearized over one period ([`MeshStepping`]). Two waves that live together, each at its own frequency, are a
@@ -37,13 +37,11 @@ mod two_waves;
 mod wave;
 
 pub use basin::{BasinBoundary, BasinRequest, BasinRun};
-pub use body::{DynamicCoefficients, Receptance, WaveBody};
 pub use confirmation::Confirmation;
 pub use continuation::BranchEnd;
 pub use error::CycleError;
 pub use family::{Family, LARGEST_FRICTION};
 pub use floquet::SteppedCycle;
-pub use grid::PhaseGrid;
 pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::{DiscModel, MODES, Onset};
 pub use parameter::{OperatingPoint, Parameter};

@@ -108,13 +108,13 @@ pub fn unloaded(specification: &AnnulusSpecification) -> SlidingContact {
 ///
 /// While the whole edge slips, the wave lives on `u_r = 0` with `T = mu N`, so `R_rr + mu R_rt = 0` at its harmonic. A
 /// steady wave has real frequency and friction: the zero of `Im(R_rr / R_rt)` next to the one given, by the secant method.
-pub fn refined(wave: &Wave<'_>, damping: &RayleighDamping, onset: &Onset) -> Option<Onset> {
+pub fn refined(wave: &Wave, damping: &RayleighDamping, onset: &Onset) -> Option<Onset> {
     let friction = |frequency: f64| {
-        let rate = c64::new(0.0, frequency * wave.order(1));
-        let (r, []) = wave.body.receptance(1, DynamicCoefficients::new(rate, damping), []);
+        let at = DynamicCoefficients::new(wave.rate(1, [frequency, 0.0]), damping);
+        let (r, []) = wave.body.receptance(1, at, []);
         -r[(0, 0)] / r[(0, 1)] // u_r = (R_rr + mu R_rt) N = 0.
     };
-    let start = onset.frequency / wave.order(1);
+    let start = onset.frequency / wave.orders(1)[0];
     let (mut before, mut now) = (start, start * (1.0 + 1e-6));
     let mut value_before = friction(before).im;
     for _ in 0..40 {
@@ -137,7 +137,7 @@ pub fn refined(wave: &Wave<'_>, damping: &RayleighDamping, onset: &Onset) -> Opt
 /// `origin` is the phase of the wave's tangential displacement. At the critical friction a wave of any
 /// amplitude lives on, up to the one at which the first point opens or sticks.
 pub fn largest_linear_wave(
-    wave: &Wave<'_>,
+    wave: &Wave,
     point: &OperatingPoint,
     onset: &Onset,
     origin: f64,
@@ -146,8 +146,7 @@ pub fn largest_linear_wave(
     let mut point = *point;
     point.contact.friction_coefficient = onset.friction_coefficient;
     let receptance = |k: usize| {
-        let rate = c64::new(0.0, onset.frequency * wave.order(k));
-        let at = DynamicCoefficients::new(rate, &point.damping);
+        let at = DynamicCoefficients::new(wave.rate(k, [onset.frequency, 0.0]), &point.damping);
         wave.body.receptance(k, at, []).0
     };
     let mean = point.contact.interference / receptance(0)[(0, 0)].re; // delta = R_rr(0) N_0: at n = 0 shear moves nothing radially.
@@ -174,7 +173,7 @@ pub fn largest_linear_wave(
         tangential: vec![0.0; points],
         normal,
         contact: vec![PointState::SlipForward; points],
-        phases: Phase::of(&[[onset.frequency, origin]], [points, 1]),
+        phases: vec![Phase { frequency: onset.frequency, origin }],
         point,
     };
     state.impose_law(); // T = mu N.

@@ -1,27 +1,22 @@
 //! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
 
-use super::branch::{Branch, Step};
-use super::continuation::{BranchEnd, Turning, Values, Way, both_halves, joined};
+use super::body::WaveBody;
+use super::branch::Branch;
+use super::continuation::{BranchEnd, Values, both_halves, joined};
 use super::field::{field, start_of};
-use super::grid::PhaseGrid;
+use super::grid::phases;
 use super::limit_cycle::LimitCycle;
 use super::onset::{DiscModel, largest_linear_wave, refined};
 use super::parameter::{OperatingPoint, Parameter};
-use super::state::PointState;
 use super::wave::Wave;
-use super::{CycleError, Family, Onset, WaveBody};
+use super::{CycleError, Family, Onset};
 use crate::cea::Unwatched;
-use std::convert::Infallible;
 use std::f64::consts::TAU;
-
-/// Most changes of contact state along one branch.
-const MOST_STEPS: usize = 6_000;
 
 /// Most changes of contact state from birth to an operating point.
 const MOST_STEPS_FROM_BIRTH: usize = 2_000;
 
-/// Friction coefficient beyond which no branch is followed; over the critical one where a cycle below that is sought.
-const HIGHEST_FRICTION: f64 = 10.0;
+/// Friction coefficient, over the critical one, beyond which a cycle below that is not sought.
 const PASSED: f64 = 2.0;
 
 /// Phases of the grid on which a fold must be found again, over those of its own, and how far apart the two folds may be, in
@@ -49,23 +44,22 @@ pub struct CycleBranch {
 }
 
 /// Limit cycles of one family.
-#[derive(Clone, Debug)]
 pub struct CycleSolver {
     /// The family that it solves for.
     pub family: Family,
     /// Where its cycles are born.
     pub onset: Onset,
-    /// The body.
-    pub body: WaveBody,
-    /// Its phases.
-    pub grid: PhaseGrid,
+    /// Number of phases at which it is sampled.
+    pub phases: usize,
+    /// The body on these.
+    pub(super) wave: Wave,
     /// The disc; its cycles have a damping of their own.
-    pub(super) model: DiscModel,
+    pub model: DiscModel,
 }
 
 impl CycleSolver {
     /// The solver of the waves of `family`, born at `onset`, on a mesh of Quad4 elements, with `points` phases (odd; the
-    /// next odd number is taken) or as many as the mesh asks for, see [`PhaseGrid`].
+    /// next odd number is taken) or as many as the mesh asks for.
     ///
     /// # Errors
     /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry, a wave that grows at any friction.
@@ -88,18 +82,11 @@ impl CycleSolver {
         }
         // A wave with the rotor is one of `-n` in the phase that rises with time.
         let harmonic = harmonic as isize * -isize::from(onset.direction);
-        let body = |highest: usize| {
-            let harmonics = (0..=highest as isize).map(|k| k * harmonic);
-            WaveBody::new(specification, material, harmonics, harmonic)
-        };
-        let node_frequency = body(0)?.node_frequency;
+        let node = WaveBody::new(specification, material, [], harmonic)?.node_frequency;
         let nodes = sectors as f64 / family.harmonic as f64;
-        let grid = PhaseGrid::new(onset.frequency, node_frequency, nodes, points);
-        Ok(Self { family, onset: *onset, body: body(grid.points / 2)?, grid, model: *model }) // M = 2 H + 1 phases carry H harmonics.
-    }
-
-    pub(super) fn wave(&self) -> Wave<'_> {
-        Wave::new(&self.body, self.grid.landing_share)
+        let phases = phases(onset.frequency, node, nodes, points);
+        let wave = Wave::new(model, [harmonic, 0], [onset.frequency, 0.0], [phases, 1])?;
+        Ok(Self { family, onset: *onset, phases, wave, model: *model })
     }
 
     /// The limit cycle at an operating point.
@@ -111,8 +98,8 @@ impl CycleSolver {
     /// [`CycleError`] for a point without limit cycle.
     pub fn find(&self, point: &OperatingPoint) -> Result<LimitCycle, CycleError> {
         check(point)?;
-        let wave = self.wave();
-        let onset = refined(&wave, &point.damping, &self.onset);
+        let wave = &self.wave;
+        let onset = refined(wave, &point.damping, &self.onset);
         let onset = onset.ok_or(CycleError::NotReached {
             family: self.family,
             key: "contact.friction_coefficient",
@@ -121,19 +108,18 @@ impl CycleSolver {
             reason: "its onset moved away with the damping".to_owned(),
         })?;
         let target = point.contact.friction_coefficient;
-        let parameter = Parameter::FrictionCoefficient;
+        let (parameter, wanted) = (Parameter::FrictionCoefficient, Values::new(&[target]));
         let is_below = target < onset.friction_coefficient;
         let mut failure = (f64::NEG_INFINITY, BranchEnd::Lost);
         for shift in ORIGINS {
             let origin = TAU * shift / wave.points() as f64;
-            let (state, event) = largest_linear_wave(&wave, point, &onset, origin);
-            let branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
-            let wanted = Values::new(&[target]);
-            let mut half = Half::new(branch, &wanted, MOST_STEPS_FROM_BIRTH);
+            let (state, event) = largest_linear_wave(wave, point, &onset, origin);
+            let mut branch = Branch::new(wave, (parameter, &wanted), state, 1.0);
+            (branch.pending, branch.steps) = (Some(event), MOST_STEPS_FROM_BIRTH);
             if is_below {
-                half.highest = PASSED * onset.friction_coefficient;
+                branch.highest = PASSED * onset.friction_coefficient;
             }
-            match half.reach() {
+            match branch.reach() {
                 Ok(cycle) => return Ok(cycle),
                 Err(end) if end.0 > failure.0 => failure = end, // The farthest tells why.
                 Err(_) => {}
@@ -160,9 +146,8 @@ impl CycleSolver {
         if direction == 0.0 {
             return Ok(cycle.clone());
         }
-        let wave = self.wave();
-        let branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
-        let found = Half::new(branch, &Values::new(&[value]), MOST_STEPS).reach();
+        let over = (parameter, &Values::new(&[value]));
+        let found = Branch::new(&self.wave, over, cycle.state.clone(), direction).reach();
         found.map_err(|end| self.not_reached(parameter, value, end))
     }
 
@@ -178,7 +163,7 @@ impl CycleSolver {
                 "the wave on {} elements around is no motion of the disc: it opens inside the \
                  cylinder or draws energy from normal contact. Refine the mesh \
                  (mesh.circumferential_elements and radial_elements), or try another cycle.phases",
-                self.body.sector_count
+                self.wave.body.sector_count
             )),
             _ => CycleError::NotReached {
                 family: self.family,
@@ -200,7 +185,7 @@ impl CycleSolver {
         if !branch.folds.is_empty()
             && let Some(finer) = self.on_finer_grid(cycle, parameter, values)
         {
-            let near = FOLD_APART / self.grid.points as f64; // A point of a grid of M is worth 1 / M of the value.
+            let near = FOLD_APART / self.phases as f64; // A point of a grid of M is worth 1 / M of the value.
             let is_there = |fold: &f64| {
                 finer.folds.iter().any(|other| (other - fold).abs() <= near * fold.abs())
             };
@@ -217,19 +202,16 @@ impl CycleSolver {
         parameter: Parameter,
         values: &[f64],
     ) -> Option<CycleBranch> {
-        let points = FINER * self.grid.points;
+        let points = FINER * self.phases;
         let finer = Self::born_at(&self.model, self.family, &self.onset, Some(points)).ok()?;
         let own = finer.find(&cycle.state.point).ok()?;
         Some(finer.both_ways(&own, parameter, values))
     }
 
     fn both_ways(&self, cycle: &LimitCycle, parameter: Parameter, values: &[f64]) -> CycleBranch {
-        let (wave, values) = (self.wave(), Values::new(values));
-        let start = parameter.of(&cycle.state.point);
-        let half = |direction: f64| {
-            let branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
-            Ok(Half::new(branch, &values, MOST_STEPS))
-        };
+        let (start, values) = (parameter.of(&cycle.state.point), Values::new(values));
+        let over = (parameter, &values);
+        let half = |direction| Ok(Branch::new(&self.wave, over, cycle.state.clone(), direction));
         let Ok([(down, low_end), (up, high_end)]) = both_halves(&values, start, &Unwatched, half);
         let own = values.contains(start).then(|| cycle.clone()); // Both halves begin beyond it.
         CycleBranch {
@@ -237,7 +219,7 @@ impl CycleSolver {
             cycles: joined(down.cycles, own, up.cycles),
             folds: joined(down.turning.folds, None, up.turning.folds),
             ends: [low_end, high_end],
-            factorizations: down.branch.factorizations + up.branch.factorizations,
+            factorizations: down.factorizations + up.factorizations,
         }
     }
 
@@ -245,80 +227,13 @@ impl CycleSolver {
     ///
     /// The state of a contact node at angle `theta` is that of phase `n theta + omega t`.
     pub fn field(&self, cycle: &LimitCycle, time: f64) -> [Vec<f64>; 2] {
-        field(&self.wave(), &cycle.state, [self.body.harmonic, 0], time)
+        field(&self.wave, &cycle.state, [self.wave.body.harmonic, 0], time)
     }
 
     /// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
     /// frames: what the time loop starts from.
     pub fn starting_fields(&self, cycle: &LimitCycle, time_step: f64) -> [Vec<f64>; 2] {
         start_of(|time| self.field(cycle, time), time_step)
-    }
-}
-
-/// One half of a branch of waves.
-struct Half<'a> {
-    branch: Branch<'a>,
-    values: &'a Values,
-    /// The cycles at values asked for.
-    cycles: Vec<LimitCycle>,
-    turning: Turning,
-    /// Changes of contact state that may still come.
-    steps: usize,
-    /// Friction coefficient beyond which it ends.
-    highest: f64,
-}
-
-impl<'a> Half<'a> {
-    fn new(branch: Branch<'a>, values: &'a Values, steps: usize) -> Self {
-        let turning = Turning::new(branch.value(), branch.direction.signum(), branch.wave.points());
-        Self { branch, values, cycles: Vec::new(), turning, steps, highest: HIGHEST_FRICTION }
-    }
-
-    /// The cycle at the only value asked for, or where the branch ends before and why.
-    fn reach(mut self) -> Result<LimitCycle, (f64, BranchEnd)> {
-        let Ok(end) = self.run("", &Unwatched);
-        self.cycles.pop().ok_or((self.branch.value(), end))
-    }
-}
-
-impl Way for Half<'_> {
-    type Error = Infallible;
-    type Kept = ();
-    const BLOCK: usize = usize::MAX; // Nothing is kept on the way.
-
-    fn count(&self) -> usize {
-        self.cycles.len()
-    }
-
-    fn kept(&self) {}
-
-    /// It is short enough to be followed again.
-    fn take_up(&mut self, (): ()) -> Option<()> {
-        None
-    }
-
-    /// One step of the branch, with the cycle where it ends at a value asked for.
-    fn advance(&mut self) -> Result<Option<BranchEnd>, Infallible> {
-        let Some(left) = self.steps.checked_sub(1) else { return Ok(Some(BranchEnd::Steps)) };
-        self.steps = left;
-        let Some(step) = self.branch.advance(self.values) else { return Ok(Some(BranchEnd::Lost)) };
-        self.turning.follow(self.branch.value());
-        let state = &self.branch.state;
-        if let Step::At(value) = step {
-            let cycle = LimitCycle::new(self.branch.wave, state.clone());
-            if !cycle.is_physical() {
-                return Ok(Some(BranchEnd::Unphysical));
-            }
-            self.cycles.push(cycle);
-            if self.values.end_at(value, self.branch.direction > 0.0) {
-                return Ok(Some(BranchEnd::Range));
-            }
-        }
-        if state.contact.iter().all(|&point| point == PointState::SlipForward) {
-            return Ok(Some(BranchEnd::Birth)); // Full slip: a linear wave, of any amplitude at its onset.
-        }
-        let is_beyond = !(state.point.contact.friction_coefficient < self.highest); // Not a number ends it, too.
-        Ok(is_beyond.then_some(BranchEnd::Lost))
     }
 }
 

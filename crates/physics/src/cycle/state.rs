@@ -104,28 +104,6 @@ pub struct Phase {
     pub frequency: f64,
     /// Phase of the first harmonic of the edge's tangential displacement, rad: which point of the wave is called zero.
     pub origin: f64,
-    /// Points along it.
-    pub points: usize,
-    /// Points of the grid from one of them to the next: the first phase runs first.
-    pub stride: usize,
-}
-
-impl Phase {
-    /// The phases of one wave or two, `[frequency, origin]` each, on a grid of so many points along either.
-    pub fn of(waves: &[[f64; 2]], sides: [usize; 2]) -> Vec<Self> {
-        let phase = |((&[frequency, origin], points), stride): ((&[f64; 2], usize), usize)| Self {
-            frequency,
-            origin,
-            points,
-            stride,
-        };
-        waves.iter().zip(sides).zip([1, sides[0]]).map(phase).collect()
-    }
-
-    /// Place along it of a point of the grid.
-    pub fn place(&self, point: usize) -> usize {
-        (point / self.stride) % self.points
-    }
 }
 
 /// Contact forces of a rotating wave along its phase, or of two along both, frequencies, and what it lives on.
@@ -161,11 +139,6 @@ impl WaveState {
             points.filter_map(|(i, &state)| wanted(state).then_some(i)).collect()
         };
         (those(|state| state != PointState::Open), those(|state| state == PointState::Stick))
-    }
-
-    /// Normal force where the point slips, with the sign of its drag: `dT / dmu`.
-    pub fn slipping_normal(&self) -> Vec<f64> {
-        self.contact.iter().zip(&self.normal).map(|(state, normal)| state.drag() * normal).collect()
     }
 
     /// Imposes Coulomb's law where points slip and no force where they are open.

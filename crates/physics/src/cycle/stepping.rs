@@ -130,7 +130,7 @@ impl MeshStepping<'_> {
             contact: Vec::with_capacity(steps * law.status.len()),
             start: moving.motion(&fields.displacement, &fields.velocity),
             moving,
-            harmonic: self.solver.body.harmonic,
+            harmonic: self.solver.wave.body.harmonic,
             duration,
             powers: CyclePowers::default(),
             fractions: [0.0; 3],
@@ -155,16 +155,6 @@ impl MeshStepping<'_> {
 }
 
 impl Period<'_> {
-    /// The cycle with the powers and fractions of this period.
-    pub(super) fn stepped(&self, cycle: &LimitCycle) -> LimitCycle {
-        LimitCycle { powers: self.powers, fractions: self.fractions, ..cycle.clone() }
-    }
-
-    /// `omega` of the wave, rad/s.
-    pub fn frequency(&self) -> f64 {
-        TAU / self.duration
-    }
-
     /// Length of a perturbation: twice the moving dofs, sector after sector.
     pub fn dimension(&self) -> usize {
         2 * self.moving.count()

@@ -2,7 +2,7 @@
 
 use super::parameter::Parameter;
 use super::state::{Event, WaveState};
-use super::wave::Linearization;
+use super::wave::{Linearization, Wave};
 use crate::linalg::dense::{add, difference};
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
 
@@ -73,18 +73,11 @@ pub enum Closure<'a> {
     Amplitude(usize, f64),
     /// The point lies in the plane across a heading through a state.
     Plane(&'a Heading, &'a WaveState),
-    /// Only the direction along a heading matters (for tangents).
-    Along(&'a Heading),
-    /// Only the direction of the parameter matters (for tangents).
-    AlongParameter,
 }
 
-/// A law that a contact point obeys: no gap, no slip.
-#[derive(Clone, Copy)]
-enum Law {
-    Gap = 0,
-    Slip = 1,
-}
+/// The laws that a contact point obeys: no gap, no slip.
+const GAP: usize = 0;
+const SLIP: usize = 1;
 
 /// One equation of a system, scaled: what it changes by with each unknown, and what it misses.
 struct Equation {
@@ -96,8 +89,10 @@ struct Equation {
 /// frequencies and the parameter.
 ///
 /// All unknowns and equations are scaled: forces by the mean normal force, a frequency by a hundredth of itself, the parameter by itself.
-pub struct System<'a> {
-    state: &'a WaveState,
+pub struct System<'w, 's> {
+    /// The edge around the state.
+    pub linear: Linearization<'w>,
+    state: &'s WaveState,
     parameter: Parameter,
     contact: Vec<usize>,
     stick: Vec<usize>,
@@ -106,8 +101,14 @@ pub struct System<'a> {
     unknowns: Vec<(usize, f64)>,
 }
 
-impl<'a> System<'a> {
-    pub fn new(state: &'a WaveState, parameter: Parameter, force_scale: f64) -> Self {
+impl<'w, 's> System<'w, 's> {
+    pub fn at(
+        wave: &'w Wave,
+        state: &'s WaveState,
+        parameter: Parameter,
+        force_scale: f64,
+    ) -> Self {
+        let linear = Linearization::at(wave, state, parameter);
         let (contact, stick) = state.active();
         let points = state.contact.len();
         let forces = contact.iter().copied().chain(stick.iter().map(|i| points + i));
@@ -117,7 +118,7 @@ impl<'a> System<'a> {
         let last = (2 * points + 2, parameter.of(&state.point).abs().max(1e-12));
         let unknowns = forces.map(|place| (place, force_scale)).chain(own).chain([last]);
         let unknowns = unknowns.collect();
-        Self { state, parameter, contact, stick, force_scale, unknowns }
+        Self { linear, state, parameter, contact, stick, force_scale, unknowns }
     }
 
     fn size(&self) -> usize {
@@ -136,16 +137,6 @@ impl<'a> System<'a> {
 
     fn parameter_scale(&self) -> f64 {
         self.unknowns[self.size() - 1].1
-    }
-
-    /// Which point of the grid lies from `from` as `to` from its first.
-    fn lag(&self, from: usize, to: usize) -> usize {
-        let lags = self.state.phases.iter().map(|own| {
-            let [from, to] = [from, to].map(|i| own.place(i));
-            // All points are alike: a response depends on how far apart they are.
-            own.stride * if to >= from { to - from } else { to + own.points - from }
-        });
-        lags.sum()
     }
 
     /// An equation for `scale` times a `value`, with the responses of that to each unknown: to the normal and the tangential force of
@@ -170,31 +161,28 @@ impl<'a> System<'a> {
     }
 
     /// That a law holds at a point, by columns of the circulant.
-    fn law_at(&self, point: usize, law: Law, linear: &Linearization) -> Equation {
-        let [normal, tangential] = &linear.columns[law as usize];
+    fn law_at(&self, point: usize, law: usize) -> Equation {
+        let linear = &self.linear;
+        let [normal, tangential] = linear.columns.each_ref().map(|own| &own[law]);
         let response = |i: usize, [pressed, sheared]: [f64; 2]| {
-            let lag = self.lag(i, point);
+            let lag = linear.wave.lag(i, point);
             pressed * normal[lag] + sheared * tangential[lag]
         };
-        let scale = linear.scales[law as usize] / self.force_scale;
-        let value = [&linear.gap, &linear.slip][law as usize][point];
-        self.equation(scale, value, response, linear.by.iter().map(|by| by[law as usize][point]))
+        let scale = linear.scales[law] / self.force_scale;
+        let value = [&linear.gap, &linear.slip][law][point];
+        self.equation(scale, value, response, linear.by.iter().map(|by| by[law][point]))
     }
 
     /// That the real or the imaginary `part` of the first harmonic along a phase vanishes.
-    fn first_harmonic(
-        &self,
-        wave: usize,
-        part: impl Fn(c64) -> f64,
-        linear: &Linearization,
-    ) -> Equation {
-        let (phase, first) = (&self.state.phases[wave], &linear.first[wave]);
+    fn first_harmonic(&self, wave: usize, part: impl Fn(c64) -> f64) -> Equation {
+        let (grid, first) = (self.linear.wave, &self.linear.first[wave]);
         let response = |i: usize, [pressed, sheared]: [f64; 2]| {
-            let angle = -std::f64::consts::TAU * phase.place(i) as f64 / phase.points as f64; // A unit force there: e^{-i xi_i}.
+            let [place, points] = [grid.places(i)[wave], grid.sides[wave]].map(|own| own as f64);
+            let angle = -std::f64::consts::TAU * place / points; // A unit force there: e^{-i xi_i}.
             let response = pressed * first.row[0] + sheared * first.row[1];
             part(c64::from_polar(1.0, angle) * response)
         };
-        let scale = linear.scales[0] / self.force_scale;
+        let scale = self.linear.scales[0] / self.force_scale;
         self.equation(scale, part(first.value), response, first.by.iter().map(|by| part(*by)))
     }
 
@@ -205,21 +193,19 @@ impl<'a> System<'a> {
         Equation { row, residual }
     }
 
-    fn closure(&self, closure: Closure<'_>, linear: &Linearization) -> Equation {
+    fn closure(&self, closure: Closure<'_>) -> Equation {
         let last = self.size() - 1;
         match closure {
-            Closure::Event(event) => self.event(event, linear),
+            Closure::Event(event) => self.event(event),
             Closure::Value(value) => {
                 let missed = self.parameter.of(&self.state.point) - value;
                 self.equation_of(&[(last, 1.0)], missed / self.parameter_scale())
             }
             Closure::Amplitude(wave, value) => {
-                let Equation { row, residual } = self.first_harmonic(wave, |own| own.re, linear);
-                let scale = linear.scales[0] / self.force_scale;
+                let Equation { row, residual } = self.first_harmonic(wave, |own| own.re);
+                let scale = self.linear.scales[0] / self.force_scale;
                 Equation { row, residual: residual - scale * value }
             }
-            Closure::AlongParameter => self.equation_of(&[(last, 1.0)], 0.0),
-            Closure::Along(heading) => Equation { row: self.scaled(heading), residual: 0.0 },
             Closure::Plane(heading, through) => {
                 let row = self.scaled(heading);
                 let offset = self.scaled(&Heading::between(through, self.state, self.parameter));
@@ -230,7 +216,7 @@ impl<'a> System<'a> {
     }
 
     /// That an inequality holds with equality.
-    fn event(&self, event: Event, linear: &Linearization) -> Equation {
+    fn event(&self, event: Event) -> Equation {
         let i = event.point();
         let place = |list: &[usize]| list.binary_search(&i).expect("an active point");
         let (force, shear) = (self.state.normal[i], self.state.tangential[i]);
@@ -238,8 +224,8 @@ impl<'a> System<'a> {
             Event::Lift(_) => {
                 return self.equation_of(&[(place(&self.contact), 1.0)], force / self.force_scale);
             }
-            Event::Touch(_) => return self.law_at(i, Law::Gap, linear),
-            Event::Rest(_) => return self.law_at(i, Law::Slip, linear),
+            Event::Touch(_) => return self.law_at(i, GAP),
+            Event::Rest(_) => return self.law_at(i, SLIP),
             Event::SlideForward(_) => 1.0,
             Event::SlideBackward(_) => -1.0,
         };
@@ -253,13 +239,13 @@ impl<'a> System<'a> {
     }
 
     /// Matrix and residual, scaled.
-    pub fn assemble(&self, linear: &Linearization, closure: Closure<'_>) -> (Mat<f64>, Vec<f64>) {
-        let gaps = self.contact.iter().map(|&i| self.law_at(i, Law::Gap, linear));
-        let slips = self.stick.iter().map(|&i| self.law_at(i, Law::Slip, linear));
+    pub fn assemble(&self, closure: Closure<'_>) -> (Mat<f64>, Vec<f64>) {
+        let gaps = self.contact.iter().map(|&i| self.law_at(i, GAP));
+        let slips = self.stick.iter().map(|&i| self.law_at(i, SLIP));
         // `Im(u_theta,1) = 0` along each phase.
         let waves = 0..self.state.phases.len();
-        let waves = waves.map(|wave| self.first_harmonic(wave, |value| value.im, linear));
-        let equations = gaps.chain(slips).chain(waves).chain([self.closure(closure, linear)]);
+        let waves = waves.map(|wave| self.first_harmonic(wave, |value| value.im));
+        let equations = gaps.chain(slips).chain(waves).chain([self.closure(closure)]);
         let mut matrix = Mat::zeros(self.size(), self.size());
         let place = |(at, Equation { row, residual }): (usize, Equation)| {
             row.into_iter().enumerate().for_each(|(j, value)| matrix[(at, j)] = value);
@@ -297,9 +283,9 @@ impl<'a> System<'a> {
 
     /// Direction of the curve, its root mean square force, frequency and parameter changes of scaled length one, along
     /// `previous` where there is one.
-    pub fn tangent(&self, linear: &Linearization, previous: Option<&Heading>) -> Option<Heading> {
-        let closure = previous.map_or(Closure::AlongParameter, Closure::Along);
-        let (matrix, _) = self.assemble(linear, closure);
+    pub fn tangent(&self, previous: Option<&Heading>) -> Option<Heading> {
+        let along = |heading| Closure::Plane(heading, self.state);
+        let (matrix, _) = self.assemble(previous.map_or(Closure::Value(0.0), along));
         let mut right_side = vec![0.0; self.size()];
         right_side[self.size() - 1] = 1.0; // All equations stay as they are but for the closure.
         let solution = self.solved(matrix, right_side)?;

@@ -16,7 +16,10 @@
 //! Two waves at once, `U(r, xi_1, xi_2)` with `xi_a = n_a theta + omega_a t`, are the same on a grid of both phases. Harmonic `(k_1, k_2)`
 //! has `n = k_1 n_1 + k_2 n_2` around the circumference; `s` and `b` are the sums of those along either phase.
 
+use super::CycleError;
 use super::body::{DynamicCoefficients, Receptance, WaveBody};
+use super::grid::landing_share;
+use super::onset::DiscModel;
 use super::parameter::Parameter;
 use super::state::WaveState;
 use crate::fem::RayleighDamping;
@@ -26,12 +29,11 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A wave of one body on a grid of phases, or two waves on a grid of both.
-#[derive(Clone)]
-pub struct Wave<'a> {
+pub struct Wave {
     /// The body.
-    pub body: &'a WaveBody,
+    pub body: WaveBody,
     /// Points along the first and the second phase; 1 along the second where there is none.
-    sides: [usize; 2],
+    pub sides: [usize; 2],
     landing_share: f64,
     /// `omega_2 / omega_1` in the look ahead of the gap.
     ratio: f64,
@@ -43,30 +45,37 @@ pub struct Wave<'a> {
 
 /// Harmonics `(k_1, k_2)` that a grid of odd sides holds, one of each conjugate pair: `(0, 0), (1, 0), ...` first, then those of
 /// rising `k_2 > 0`.
-pub fn orders([first, second]: [usize; 2]) -> Vec<[isize; 2]> {
+fn orders([first, second]: [usize; 2]) -> Vec<[isize; 2]> {
     let [most, rows] = [first, second].map(|side| (side / 2) as isize);
     // One of each conjugate pair.
     let row = |k_2: isize| (if k_2 == 0 { 0 } else { -most }..=most).map(move |k_1| [k_1, k_2]);
     (0..=rows).flat_map(row).collect()
 }
 
-impl<'a> Wave<'a> {
-    /// The wave on `2 K + 1` points, with `K + 1` harmonics in `body`, landing over `landing_share` of its period.
-    pub fn new(body: &'a WaveBody, landing_share: f64) -> Self {
-        Self::on(body, [2 * body.harmonic_count() - 1, 1], landing_share, 0.0)
-    }
-
-    /// Two waves on a grid of both phases, of about `ratio = omega_2 / omega_1`; `body` holds the harmonics [`orders`] of it.
-    pub fn on(body: &'a WaveBody, sides: [usize; 2], landing_share: f64, ratio: f64) -> Self {
-        Self {
+impl Wave {
+    /// One wave of a disc or two, of these circumferential harmonics and about these frequencies (rad/s), 0 of a second one that is not
+    /// there, on a grid of their phases.
+    ///
+    /// # Errors
+    /// Those of [`WaveBody::new`].
+    pub fn new(
+        model: &DiscModel,
+        harmonics: [isize; 2],
+        frequencies: [f64; 2],
+        sides: [usize; 2],
+    ) -> Result<Self, CycleError> {
+        let orders = orders(sides);
+        let around = orders.iter().map(|[k_1, k_2]| k_1 * harmonics[0] + k_2 * harmonics[1]);
+        let body = WaveBody::new(&model.specification, &model.material, around, harmonics[0])?;
+        Ok(Self {
+            landing_share: landing_share(frequencies[0], body.node_frequency, sides[0]),
+            ratio: frequencies[1] / frequencies[0],
             body,
             sides,
-            landing_share,
-            ratio,
-            orders: orders(sides),
+            orders,
             forward: sides.map(forward_transform),
             inverse: sides.map(inverse_transform),
-        }
+        })
     }
 
     /// Number of points of the grid.
@@ -91,11 +100,6 @@ impl<'a> Wave<'a> {
             let back = c64::from_polar(1.0, -(self.orders[k][phase] as f64) * step);
             (1.0 - back) / step // The difference to the point before, as in the laws of contact.
         })
-    }
-
-    /// `s / omega` of harmonic `k` of one wave.
-    pub fn order(&self, k: usize) -> f64 {
-        self.orders(k)[0]
     }
 
     /// `i s` of harmonic `k`, 1/s.
@@ -130,6 +134,21 @@ impl<'a> Wave<'a> {
     /// Which harmonic is the first along a phase, `(1, 0)` or `(0, 1)`.
     pub fn first(&self, phase: usize) -> usize {
         [1, self.sides[0]][phase]
+    }
+
+    /// Places along both phases of a point of the grid: the first runs first.
+    pub fn places(&self, point: usize) -> [usize; 2] {
+        [point % self.sides[0], point / self.sides[0]]
+    }
+
+    /// Which point of the grid lies from its first as `to` from `from`: all are alike, a response depends on how far apart they are.
+    pub fn lag(&self, from: usize, to: usize) -> usize {
+        let [from, to] = [from, to].map(|point| self.places(point));
+        let [first, second] = [0, 1].map(|phase| match to[phase] >= from[phase] {
+            true => to[phase] - from[phase],
+            false => to[phase] + self.sides[phase] - from[phase],
+        });
+        second * self.sides[0] + first
     }
 
     /// Place of a harmonic in a spectrum of all.
@@ -173,6 +192,38 @@ impl<'a> Wave<'a> {
         self.transform(&mut spectrum, &self.inverse);
         spectrum.into_iter().map(|value| value.re).collect()
     }
+
+    /// Coefficients of the body at harmonic `k` of a state.
+    pub fn coefficients(&self, k: usize, state: &WaveState) -> DynamicCoefficients {
+        DynamicCoefficients::new(self.rate(k, state.frequencies()), &state.point.damping)
+    }
+
+    /// Displacement of the edge at each harmonic (unscaled sums) under the forces of a state.
+    pub fn displacements(&self, state: &WaveState) -> Vec<[c64; 2]> {
+        let forces = self.spectra([&state.normal, &state.tangential]).into_iter().enumerate();
+        let displacement = forces.map(|(k, force)| {
+            let (r, []) = self.body.receptance(k, self.coefficients(k, state), []);
+            moved(&r, force)
+        });
+        displacement.collect()
+    }
+
+    /// Harmonics of normal and tangential forces.
+    fn spectra(&self, forces: [&[f64]; 2]) -> Vec<[c64; 2]> {
+        let [normal, tangential] = forces.map(|own| self.harmonics(own));
+        normal.into_iter().zip(tangential).map(<[c64; 2]>::from).collect()
+    }
+
+    /// Motion of the edge on the points from its displacement at each harmonic, times a symbol of the harmonic.
+    pub fn motion(&self, edge: &[[c64; 2]], symbol: impl Fn(usize) -> c64) -> [Vec<f64>; 2] {
+        let own = |c: usize| edge.iter().enumerate().map(move |(k, u)| (k, u[c]));
+        [0, 1].map(|c| self.values(own(c).map(|(k, u)| u * symbol(k))))
+    }
+}
+
+/// `(u_r, u_theta)_k = R(lambda_k) (N, T)_k`.
+fn moved(r: &Receptance, force: [c64; 2]) -> [c64; 2] {
+    [0, 1].map(|row| r[(row, 0)] * force[0] + r[(row, 1)] * force[1])
 }
 
 /// What ties one phase down: the first harmonic along it of the tangential displacement of the edge, turned back by the state's
@@ -187,14 +238,15 @@ pub struct FirstHarmonic {
 }
 
 /// The contact edge around one state: residuals, their derivatives, and the columns of its circulant responses.
-pub struct Linearization {
+pub struct Linearization<'a> {
+    pub wave: &'a Wave,
     /// `u_r + tau v_r - delta` at each point, m.
     pub gap: Vec<f64>,
     /// `v_theta - Omega a` at each point, m/s.
     pub slip: Vec<f64>,
     /// Derivatives of gap and slip with each frequency, forces fixed, and with the parameter, free forces fixed.
     pub by: Vec<[Vec<f64>; 2]>,
-    /// Responses of gap and tangential velocity, at rising phase, to a unit normal and tangential force at phase zero.
+    /// Responses to a unit normal and tangential force at phase zero, of gap and tangential velocity, at rising phase.
     pub columns: [[Vec<f64>; 2]; 2],
     /// Normal force for a unit of gap and tangential force for one of velocity, N/m for each m or m/s: what closes them where the
     /// response is largest. A point's own response will not do: with little damping a resonance can take it through zero.
@@ -210,7 +262,7 @@ struct HarmonicResponse {
 }
 
 impl HarmonicResponse {
-    fn new(wave: &Wave<'_>, k: usize, state: &WaveState, parameter: Parameter) -> Self {
+    fn new(wave: &Wave, k: usize, state: &WaveState, parameter: Parameter) -> Self {
         let still = RayleighDamping::default();
         let rate = wave.rate(k, state.frequencies());
         let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order)); // d(i s) / dw_1 and d(i s) / dw_2.
@@ -224,7 +276,7 @@ impl HarmonicResponse {
         let changes = [(first, &still), (second, &still), (c64::ZERO, &by_damping)];
         let (receptance, [by_first, by_second, by_parameter]) = wave.body.receptance(
             k,
-            DynamicCoefficients::new(rate, damping),
+            wave.coefficients(k, state),
             changes.map(|(rate_change, damping_change)| {
                 DynamicCoefficients::derivative(rate, damping, rate_change, damping_change)
             }),
@@ -235,48 +287,31 @@ impl HarmonicResponse {
             slip_rates: [wave.contact_rate(k, state.frequencies()), first, second, c64::ZERO],
         }
     }
-
-    /// Displacement of the edge, and its derivatives.
-    fn displacement(&self, force: [c64; 2]) -> [[c64; 2]; 4] {
-        self.receptances.map(|m| [0, 1].map(|row| m[(row, 0)] * force[0] + m[(row, 1)] * force[1]))
-    }
 }
 
-/// Displacement of the edge at each harmonic under the forces of a state, and its derivatives with both frequencies and the parameter.
-fn displacements(
-    wave: &Wave<'_>,
-    state: &WaveState,
-    parameter: Parameter,
-    responses: &[HarmonicResponse],
-) -> Vec<[[c64; 2]; 4]> {
-    let forces = [&state.normal, &state.tangential].map(|force| wave.harmonics(force));
-    let moved = responses.iter().enumerate();
-    let mut moved: Vec<[[c64; 2]; 4]> =
-        moved.map(|(k, own)| own.displacement([forces[0][k], forces[1][k]])).collect();
-    if parameter == Parameter::FrictionCoefficient {
-        let change = wave.harmonics(&state.slipping_normal()); // dT / dmu = drag N where points slip.
-        for ((moved, own), change) in moved.iter_mut().zip(responses).zip(change) {
-            moved[3] = own.displacement([c64::ZERO, change])[0];
-        }
-    }
-    moved
-}
-
-impl Linearization {
+impl<'a> Linearization<'a> {
     /// Linearizes the edge around `state` with respect to forces, frequencies and `parameter`.
-    pub fn at(wave: &Wave<'_>, state: &WaveState, parameter: Parameter) -> Self {
-        let responses: Vec<HarmonicResponse> = (0..wave.body.harmonic_count())
-            .map(|k| HarmonicResponse::new(wave, k, state, parameter))
-            .collect();
-        let values = |of: &dyn Fn(usize) -> c64| wave.values((0..responses.len()).map(of));
-        let gap_of = |of: &dyn Fn(usize) -> c64| values(&|k| wave.look_ahead(k) * of(k));
-        let slip_rate = |k: usize, which: usize| responses[k].slip_rates[which];
+    pub fn at(wave: &'a Wave, state: &WaveState, parameter: Parameter) -> Self {
+        let harmonics = 0..wave.orders.len();
+        let responses = harmonics.map(|k| HarmonicResponse::new(wave, k, state, parameter));
+        let responses: Vec<HarmonicResponse> = responses.collect();
         let contact = &state.point.contact;
+        // Displacement of the edge, and its derivatives with both frequencies and the parameter.
+        let forces = responses.iter().zip(wave.spectra([&state.normal, &state.tangential]));
+        let edge = forces.map(|(own, force)| own.receptances.map(|r| moved(&r, force)));
+        let mut edge: Vec<[[c64; 2]; 4]> = edge.collect();
+        if parameter == Parameter::FrictionCoefficient {
+            let points = state.contact.iter().zip(&state.normal);
+            let change: Vec<f64> = points.map(|(own, normal)| own.drag() * normal).collect(); // dT / dmu where points slip.
+            let change = wave.harmonics(&change);
+            for ((edge, own), change) in edge.iter_mut().zip(&responses).zip(change) {
+                edge[3] = moved(&own.receptances[0], [c64::ZERO, change]);
+            }
+        }
 
         // Gap and slip: the displacements less the interference and the speed of the surface.
-        let moved = displacements(wave, state, parameter, &responses);
-        let mut gap = gap_of(&|k| moved[k][0][0]);
-        let mut slip = values(&|k| slip_rate(k, 0) * moved[k][0][1]);
+        let slip_rate = |k: usize, which: usize| responses[k].slip_rates[which];
+        let [mut gap, mut slip] = laws(wave, |k| [edge[k][0][0], slip_rate(k, 0) * edge[k][0][1]]);
         gap.iter_mut().for_each(|gap| *gap -= contact.interference);
         let surface_speed = contact.rotation_speed * wave.body.radius;
         slip.iter_mut().for_each(|slip| *slip -= surface_speed);
@@ -284,19 +319,18 @@ impl Linearization {
         let phases = &state.phases; // How they change with each frequency and the parameter.
         let scalars = || (1..=phases.len()).chain([3]);
         let slip_change = |k: usize, which: usize| {
-            slip_rate(k, 0) * moved[k][which][1] + slip_rate(k, which) * moved[k][0][1] // d(b u) = b du + u db.
+            slip_rate(k, 0) * edge[k][which][1] + slip_rate(k, which) * edge[k][0][1] // d(b u) = b du + u db.
         };
-        let by = scalars()
-            .map(|which| [gap_of(&|k| moved[k][which][0]), values(&|k| slip_change(k, which))]);
+        let by = scalars().map(|which| laws(wave, |k| [edge[k][which][0], slip_change(k, which)]));
         let mut by: Vec<[Vec<f64>; 2]> = by.collect();
         // The first harmonic of the tangential displacement along each phase, which the choice of its origin fixes.
         let first = phases.iter().enumerate().map(|(number, phase)| {
             let k = wave.first(number);
             let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
             FirstHarmonic {
-                value: share * moved[k][0][1],
+                value: share * edge[k][0][1],
                 row: [0, 1].map(|j| share * responses[k].receptances[0][(1, j)]),
-                by: scalars().map(|which| share * moved[k][which][1]).collect(),
+                by: scalars().map(|which| share * edge[k][which][1]).collect(),
             }
         });
         let [by_gap, by_slip] = &mut by[phases.len()]; // The interference and the speed of the surface move them directly.
@@ -306,18 +340,41 @@ impl Linearization {
             _ => {}
         }
         // And with a normal (j = 0) and a tangential force (j = 1) at one point.
-        let columns = [
-            [0, 1].map(|j| gap_of(&|k| responses[k].receptances[0][(0, j)])),
-            [0, 1].map(|j| values(&|k| slip_rate(k, 0) * responses[k].receptances[0][(1, j)])),
-        ];
+        let response = |k: usize, row: usize, j: usize| responses[k].receptances[0][(row, j)];
+        let columns = [0, 1]
+            .map(|j| laws(wave, |k| [response(k, 0, j), slip_rate(k, 0) * response(k, 1, j)]));
         let largest = |own: &Vec<f64>| own.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
         Self {
             gap,
             slip,
             by,
             scales: [0, 1].map(|law| 1.0 / largest(&columns[law][law])),
-            columns,
             first: first.collect(),
+            columns,
+            wave,
         }
     }
+
+    /// Rates of gap and slip along changes of the normal and the tangential forces, of each frequency and of the parameter.
+    pub fn rates(&self, forces: [&[f64]; 2], scalars: &[f64]) -> [Vec<f64>; 2] {
+        let forces = self.wave.spectra(forces);
+        [0, 1].map(|law| {
+            // A convolution over the phase: products of harmonics.
+            let columns = self.columns.each_ref().map(|own| &own[law][..]);
+            let pairs = self.wave.spectra(columns).into_iter().zip(&forces);
+            let mut rates = self.wave.values(pairs.map(|(a, b)| a[0] * b[0] + a[1] * b[1]));
+            for (i, rate) in rates.iter_mut().enumerate() {
+                let changes = self.by.iter().zip(scalars).map(|(by, change)| by[law][i] * change);
+                *rate += changes.sum::<f64>(); // At fixed forces: by each frequency and by the parameter.
+            }
+            rates
+        })
+    }
+}
+
+/// What the laws of contact see on the points, `u_r + tau v_r` and `v_theta`, from `u_r` and `v_theta` at each harmonic.
+fn laws(wave: &Wave, edge: impl Fn(usize) -> [c64; 2]) -> [Vec<f64>; 2] {
+    let harmonics = || 0..wave.orders.len();
+    let gap = harmonics().map(|k| wave.look_ahead(k) * edge(k)[0]);
+    [wave.values(gap), wave.values(harmonics().map(|k| edge(k)[1]))]
 }

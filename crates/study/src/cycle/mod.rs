@@ -81,7 +81,7 @@ impl<'a> CycleStudy<'a> {
         parallel::map(&self.solvers, |solver| {
             let start = Instant::now();
             let (family, phases, outcome) = match solver {
-                Ok(own) => (own.family, own.grid.points, self.solve(own, frames)),
+                Ok(own) => (own.family, own.phases, self.solve(own, frames)),
                 // A family that cannot be sought at all.
                 Err((family, error)) => {
                     let is_stable = matches!(error, CycleError::NoOnset(_));

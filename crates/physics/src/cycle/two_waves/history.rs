@@ -64,11 +64,10 @@ impl History {
             for step in 0..every {
                 run.advance();
                 let law = run.contact();
-                for (sums, forces) in
-                    sums.iter_mut().zip([&law.normal_force, &law.tangential_force])
-                {
-                    let pairs = sums.iter_mut().zip(forces);
-                    pairs.for_each(|(sum, force)| *sum += force / every as f64);
+                let forces = [&law.normal_force, &law.tangential_force];
+                let pairs = sums.iter_mut().zip(forces);
+                for (sum, force) in pairs.flat_map(|(sums, forces)| sums.iter_mut().zip(forces)) {
+                    *sum += force / every as f64;
                 }
                 if step == every / 2 {
                     let edge = slips(run); // Amid the steps over which forces are averaged.
@@ -157,10 +156,9 @@ impl History {
                 sums[1][at] += forces[1][node];
             }
         }
-        let mean = |sum: &[f64]| -> Vec<f64> {
+        let [normal, tangential] = sums.map(|sum| -> Vec<f64> {
             sum.iter().zip(&counts).map(|(sum, count)| sum / f64::max(*count, 1.0)).collect() // Where no node has been there is no force.
-        };
-        let [normal, tangential] = [mean(&sums[0]), mean(&sums[1])];
+        });
         // Contact states as the mean forces have them.
         let scale = normal.iter().sum::<f64>() / points as f64;
         let contact = normal.iter().zip(&tangential).map(|(normal, shear)| {
@@ -168,7 +166,8 @@ impl History {
             PointState::of(*normal < OPEN * scale, *shear, limit)
         });
         let contact = contact.collect();
-        let phases = Phase::of(&measured.frequencies.map(|frequency| [frequency, 0.0]), sides); // The phases hold their origins already.
+        let phase = |frequency: f64| Phase { frequency, origin: 0.0 }; // The places hold the origins already.
+        let phases = measured.frequencies.map(phase).to_vec();
         WaveState { normal, tangential, contact, phases, point: *point }
     }
 }

@@ -1,7 +1,7 @@
 //! A motion of two frequencies: powers, statuses, amplitudes, fields.
 
 use super::super::field::field;
-use super::super::limit_cycle::{CyclePowers, EdgeMotion, powers};
+use super::super::limit_cycle::{CyclePowers, powers};
 use super::super::state::WaveState;
 use super::TwoWaves;
 use std::f64::consts::TAU;
@@ -29,14 +29,13 @@ impl TwoWaveMotion {
 impl TwoWaves {
     /// Reads a converged state.
     pub(super) fn motion(&self, state: WaveState) -> TwoWaveMotion {
-        let wave = self.wave();
-        let edge = EdgeMotion::of(&wave, &state);
-        let points = edge.points(&wave, &state);
+        let wave = &self.wave;
+        let edge = wave.displacements(&state);
         let count = wave.points() as f64;
-        let own = |phase: usize| edge.displacement[wave.first(phase)][1].norm();
+        let own = |phase: usize| edge[wave.first(phase)][1].norm();
         TwoWaveMotion {
             amplitudes: [0, 1].map(|phase| 2.0 / count * own(phase)), // Unscaled transform, both signs of the harmonic.
-            powers: powers(&wave, &state, &edge, &points),
+            powers: powers(wave, &state, &edge),
             fractions: state.fractions(),
             state,
         }
@@ -44,6 +43,6 @@ impl TwoWaves {
 
     /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at a time (s).
     pub fn field(&self, motion: &TwoWaveMotion, time: f64) -> [Vec<f64>; 2] {
-        field(&self.wave(), &motion.state, self.harmonics, time)
+        field(&self.wave, &motion.state, self.harmonics, time)
     }
 }

@@ -1,11 +1,9 @@
 //! Newton's method on the grid of two phases.
 
-use super::super::body::WaveBody;
-use super::super::grid::{RESOLVED, landing_share};
 use super::super::parameter::Parameter;
 use super::super::state::{PointState, WaveState};
 use super::super::system::{Closure, Heading, System};
-use super::super::wave::{Linearization, Wave, orders};
+use super::super::wave::{Linearization, Wave};
 use super::super::{CycleError, DiscModel};
 
 /// Points along either phase, where the mesh allows for them.
@@ -26,11 +24,9 @@ const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
 /// Two rotating waves of a disc on a grid of both phases.
 pub struct TwoWaves {
-    body: WaveBody,
+    pub(super) wave: Wave,
     /// Points along both phases.
     pub sides: [usize; 2],
-    landing_share: f64,
-    ratio: f64,
     /// `n_1, n_2`, negative for a wave with the rotor.
     pub harmonics: [isize; 2],
 }
@@ -55,22 +51,7 @@ impl TwoWaves {
         };
         let half = (4..=side.unwrap_or(SIDE) / 2).rev().find(is_clear).unwrap_or(4);
         let sides = [2 * half + 1; 2];
-        let all = orders(sides).into_iter();
-        let all = all.map(|[k_1, k_2]| k_1 * harmonics[0] + k_2 * harmonics[1]);
-        let (specification, material) = (&model.specification, &model.material);
-        let body = WaveBody::new(specification, material, all, harmonics[0])?;
-        let landing = landing_share(frequencies[0], body.node_frequency);
-        Ok(Self {
-            landing_share: landing.max(RESOLVED / sides[0] as f64),
-            ratio: frequencies[1] / frequencies[0],
-            body,
-            sides,
-            harmonics,
-        })
-    }
-
-    pub(in super::super) fn wave(&self) -> Wave<'_> {
-        Wave::on(&self.body, self.sides, self.landing_share, self.ratio)
+        Ok(Self { wave: Wave::new(model, harmonics, frequencies, sides)?, sides, harmonics })
     }
 
     /// The state that satisfies the contact laws at all points, near one that does nearly.
@@ -85,8 +66,8 @@ impl TwoWaves {
         parameter: Parameter,
         closure: Closure<'_>,
     ) -> Option<WaveState> {
-        let wave = self.wave();
-        let at = |state: WaveState| Iterate::at(&wave, state, parameter);
+        let wave = &self.wave;
+        let at = |state: WaveState| Iterate::at(wave, state, parameter);
         let mut here = at(start.clone());
         let mut best: Option<(f64, WaveState)> = None;
         let mut improved = (0, f64::INFINITY);
@@ -97,10 +78,8 @@ impl TwoWaves {
                 state.contact.clone_from(&here.contact);
             }
             state.impose_law();
-            let linear = Linearization::at(&wave, &state, parameter);
-            let scale = here.scale();
-            let system = System::new(&state, parameter, scale);
-            let (matrix, residual) = system.assemble(&linear, closure);
+            let system = System::at(wave, &state, parameter, here.scale());
+            let (matrix, residual) = system.assemble(closure);
             let change = system.solve(matrix, &residual)?;
             let mut target = state.clone();
             change.add_to(&mut target, 1.0, parameter);
@@ -144,7 +123,7 @@ struct Iterate {
 }
 
 impl Iterate {
-    fn at(wave: &Wave<'_>, state: WaveState, parameter: Parameter) -> Self {
+    fn at(wave: &Wave, state: WaveState, parameter: Parameter) -> Self {
         let linear = Linearization::at(wave, &state, parameter);
         let friction = state.point.contact.friction_coefficient;
         let mut sum = 0.0;

@@ -60,7 +60,7 @@ impl MeshStepping<'_> {
         side: Option<usize>,
         watch: &dyn SweepWatch,
     ) -> Result<TwoWaveSearch, CycleError> {
-        let harmonics = [self.solver.body.harmonic, second];
+        let harmonics = [self.solver.wave.body.harmonic, second];
         let grid = |settled: &Measured| {
             TwoWaves::new(&self.solver.model, harmonics, settled.frequencies, side)
         };
@@ -100,7 +100,7 @@ impl MeshStepping<'_> {
         harmonics: [isize; 2],
     ) -> Result<(Measured, History), CycleError> {
         let (point, other) = (&cycle.state.point, harmonics[1].unsigned_abs());
-        let surface_speed = point.contact.rotation_speed * self.solver.body.radius;
+        let surface_speed = point.contact.rotation_speed * self.solver.wave.body.radius;
         let (mut run, steps) = self.start(cycle, Some((other, SEED * surface_speed)))?;
         let [window, last] = WINDOWS;
         let (mut before, mut is_constant) = (f64::NAN, false);
