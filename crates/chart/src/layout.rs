@@ -130,14 +130,11 @@ impl<'a> Layout<'a> {
         for cell in &self.placed {
             left[cell.column] = left[cell.column].max(cell.left);
             // What stands at the right may reach into a free cell.
-            let is_free = |column: usize| {
-                column < columns
-                    && !self.placed.iter().any(|other| {
-                        other.column == column
-                            && (other.row..other.row + other.span).contains(&cell.row)
-                    })
+            let is_beside = |other: &Placed<'_>| {
+                let rows = other.row..other.row + other.span;
+                other.column == cell.column + 1 && rows.contains(&cell.row)
             };
-            if !is_free(cell.column + 1) {
+            if cell.column + 1 == columns || self.placed.iter().any(is_beside) {
                 let need = cell.panel.right_need(cell.are_names_inside);
                 right[cell.column] = right[cell.column].max(need);
             }
@@ -231,7 +228,7 @@ impl<'a> Layout<'a> {
         let style = TextStyle::new(NOTE_SIZE).coloured(MUTED);
         let most = self.width - 2.0 * RIM - 2.0;
         let notes = self.grid.notes.iter();
-        let notes = notes.flat_map(|note| text::wrapped(note, (NOTE_SIZE, false), most));
+        let notes = notes.flat_map(|note| text::wrapped(note, NOTE_SIZE, most));
         let notes: Vec<String> = notes.collect();
         let widths = notes.iter().map(|note| text::width(note, NOTE_SIZE, false));
         let widest = widths.fold(0.0, f64::max);

@@ -79,7 +79,7 @@ impl Legend {
         let mut used = 0.0;
         for (key, name) in &self.0 {
             let most = (width - KEY_WIDTH - 3.0).max(20.0);
-            let lines = text::wrapped(name, (LABEL_SIZE, false), most);
+            let lines = text::wrapped(name, LABEL_SIZE, most);
             let need = lines.iter().map(|line| entry_width(line)).fold(0.0, f64::max);
             match rows.last_mut() {
                 Some(row) if used + need - SPACE <= width => row.0.push((key, lines, need)),

@@ -123,14 +123,14 @@ pub fn plain(markup: &str) -> String {
 }
 
 /// Mark-up in lines of at most `width` points, broken at spaces; a word that is longer has a line of its own.
-pub(super) fn wrapped(markup: &str, (size, bold): (f64, bool), most: f64) -> Vec<String> {
-    if width(markup, size, bold) <= most {
+pub(super) fn wrapped(markup: &str, size: f64, most: f64) -> Vec<String> {
+    if width(markup, size, false) <= most {
         return vec![markup.to_owned()];
     }
     let mut lines: Vec<String> = Vec::new();
     for word in words(markup) {
         match lines.last_mut() {
-            Some(line) if width(&format!("{line} {word}"), size, bold) <= most => {
+            Some(line) if width(&format!("{line} {word}"), size, false) <= most => {
                 *line += &format!(" {word}");
             }
             _ => lines.push(word),
@@ -218,12 +218,12 @@ mod tests {
     #[test]
     fn wrapped_text_keeps_its_words_and_their_marks() {
         let text = "damping *ζ over ω* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2 of the disc\\*";
-        let lines = wrapped(text, (7.0, false), 60.0);
+        let lines = wrapped(text, 7.0, 60.0);
         assert!(lines.len() > 2, "{lines:?}");
         assert!(lines.iter().all(|line| width(line, 7.0, false) <= 60.0));
         let joined: Vec<String> = lines.iter().map(|line| plain(line)).collect();
         assert_eq!(joined.join(" "), plain(text));
-        assert_eq!(wrapped(text, (7.0, false), 1e3), [text]);
+        assert_eq!(wrapped(text, 7.0, 1e3), [text]);
     }
 
     #[test]

@@ -40,7 +40,7 @@ impl Placed<'_> {
     fn caption_lines(&self) -> Vec<String> {
         match self.panel.caption.as_str() {
             "" => Vec::new(),
-            caption => text::wrapped(caption, (LABEL_SIZE, false), self.part.1 - LETTER_WIDTH),
+            caption => text::wrapped(caption, LABEL_SIZE, self.part.1 - LETTER_WIDTH),
         }
     }
 
@@ -49,7 +49,7 @@ impl Placed<'_> {
         let wrapped = |(line, colour): &(String, Colour)| {
             let letters = if has_letter { 2.0 * LETTER_WIDTH } else { 0.0 };
             let room = (self.part.1 - letters).max(LETTER_WIDTH);
-            let lines = text::wrapped(line, (HEADING_SIZE, false), room);
+            let lines = text::wrapped(line, HEADING_SIZE, room);
             lines.into_iter().map(|line| (line, *colour)).collect::<Vec<_>>()
         };
         self.panel.headings.iter().flat_map(wrapped).collect()
