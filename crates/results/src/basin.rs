@@ -1,6 +1,6 @@
 //! Results of a search for the boundary between two basins.
 
-use crate::prelude::*;
+use crate::common::*;
 use crate::summary::Bounds;
 use crate::sweep::{FRICTION, PointRecord, SPEED, by_other_keys, swept_text};
 use frictionsim_physics::cycle::{BasinBoundary, BasinRun};

@@ -25,13 +25,9 @@ impl Extent {
     }
 
     /// What is to be said beside numbers for each metre; nothing of those of a whole body.
-    pub fn note(self) -> Option<&'static str> {
-        match self {
-            Self::WholeBody => None,
-            Self::MetreOfThickness => Some(
-                "forces, torques, powers and energies are for each metre of thickness: the case \
-                gives no geometry.thickness",
-            ),
-        }
+    pub fn sentence(self) -> Option<String> {
+        let text = "forces, torques, powers and energies are for each metre of thickness: the case gives no \
+                    geometry.thickness.";
+        (self == Self::MetreOfThickness).then(|| text.to_owned())
     }
 }

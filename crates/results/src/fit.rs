@@ -1,7 +1,7 @@
 //! Results of a fit to measured modes: tables, figure, page.
 
 use crate::cea::mode_name;
-use crate::prelude::*;
+use crate::common::*;
 
 /// Column of whether a mode grows, and what it means.
 pub(super) const GROWS: (&str, &str) = ("unstable", "whether the mode grows");

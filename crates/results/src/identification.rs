@@ -1,6 +1,6 @@
 //! Tables, figure and page of an identified damping.
 
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::significant;
 use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{

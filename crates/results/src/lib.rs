@@ -3,6 +3,7 @@
 pub mod basin;
 pub mod cea;
 pub mod charts;
+mod common;
 pub mod compare;
 pub mod convergence;
 pub mod cycle;

@@ -1,6 +1,6 @@
 //! Results of `mac`: modal assurance of measured shapes.
 
-use crate::prelude::*;
+use crate::common::*;
 
 keys! {
     /// `summary.json` of `mac`.

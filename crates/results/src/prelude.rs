@@ -1,19 +1,6 @@
-//! What tables, fields and figures are made of; what one kind of result has alone is named where it is used.
+//! What most tables and figures are made of, from other crates; [`common`](crate::common) has what is of this one too.
 
-pub(crate) use crate::{
-    Declaration, EncodedMesh, Extent, Field, Finding, FolderError, Head, OutputFolder, PvdEntry,
-    ShownBody, cartesian_vectors,
-    charts::{
-        Disc, ModeLine, MovingBody, SolidView,
-        palette::{STABLE, UNSTABLE},
-    },
-    declared, distinct, grouped,
-    keys::keys,
-    parameter::{parameter_axis, parameter_name},
-    plural, sorted,
-    summary::{CriticalValue, MeanPowers, StatusFractions, present},
-    write_pvd, write_summary, write_table, write_vtu,
-};
+pub(crate) use crate::{keys::keys, plural};
 pub(crate) use frictionsim_chart::{
     Axis, Bars, ColourMap, Figure, Fill, Heat, INK, Label, Line, MUTED, Marker, Motion, MotionKind,
     MotionState, Panel, Points, Rule, SERIES, Scale, Shapes, Side, Stroke, TextStyle, extremes,

@@ -6,7 +6,7 @@ use super::{
     ResponseSummary, basin, cea, compare, convergence, cycle, fit, identification, improve, mac,
     matrices, mesh, signal, sweep, transient, uncertainty,
 };
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_output::{Entry, describe_field, entries, keys_of};
 use serde_json::json;
 

@@ -8,6 +8,7 @@ use super::manifest::Manifest;
 use super::record::{Record, read_record, write_record};
 use super::{DrawingError, DrawingOptions};
 use crate::prelude::*;
+use crate::{FolderError, OutputFolder};
 use frictionsim_chart::ChartError;
 
 /// A page as data, `figures.bin`: what was drawn, to be drawn again at any size.

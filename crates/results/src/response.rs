@@ -1,7 +1,7 @@
 //! Table, figure and report of a computed frequency response.
 
 use super::identification::unit_of;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_signal::reader::{self, NamedResponse};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
 

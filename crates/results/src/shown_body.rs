@@ -1,6 +1,7 @@
 //! A body as results show it.
 
 use crate::prelude::*;
+use crate::{EncodedMesh, Field};
 use frictionsim_physics::fem::{
     NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
 };

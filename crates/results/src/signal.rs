@@ -4,7 +4,7 @@ mod summary;
 
 use crate::cea::{BRANCH, DIRECTION};
 use crate::charts::{run_axis, signal_panel, spectrogram_panels, spectrum_panel};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
 use frictionsim_signal::{AmplitudeSpectrum, spectrogram};

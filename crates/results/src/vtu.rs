@@ -29,9 +29,10 @@ pub struct Field {
 impl Field {
     /// One value for each node or element.
     pub fn scalars(name: &str, values: impl IntoIterator<Item = f64>) -> Self {
-        let mut bytes = Vec::new();
+        let values = values.into_iter();
+        let mut bytes = Vec::with_capacity(8 * values.size_hint().0);
         // Adding zero turns -0.0 into 0.0.
-        values.into_iter().for_each(|value| bytes.extend_from_slice(&(value + 0.0).to_le_bytes()));
+        values.for_each(|value| bytes.extend_from_slice(&(value + 0.0).to_le_bytes()));
         Self { name: name.to_owned(), components: 1, kind: "Float64", bytes }
     }
 

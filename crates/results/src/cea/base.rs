@@ -1,7 +1,7 @@
 //! The steady sliding state that the eigenvalues belong to.
 
 use crate::BodyStress;
-use crate::prelude::*;
+use crate::common::*;
 use std::f64::consts::PI;
 
 keys! {

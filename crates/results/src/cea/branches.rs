@@ -1,7 +1,7 @@
 //! The modes of a sweep and its unstable intervals by branch, and how tables name a mode.
 
 use super::{CeaReport, direction_name};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cea::{FrictionSweep, UnstableInterval};
 
 keys! {
@@ -35,6 +35,15 @@ pub fn mode_name(harmonic: Option<usize>, branch: usize, direction: i8) -> Strin
     match harmonic {
         Some(n) => format!("n = {n}, branch {branch}{}", travels(direction)),
         None => format!("mode {branch}"),
+    }
+}
+
+/// Nodal diameters, of a mode that has them, and frequency.
+pub(super) fn kilohertz(mode: &ModeName) -> String {
+    let frequency = format!("{} kHz", fixed(1e-3 * mode.frequency_hz, 3));
+    match mode.harmonic {
+        Some(harmonic) => format!("n = {harmonic}, {frequency}"),
+        None => frequency,
     }
 }
 

@@ -1,10 +1,9 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
 use super::base::{ContactPlace, POINTS, means_around, or_zero};
-use super::branches::{ModeName, NUMBERS};
-use super::reading::kilohertz;
+use super::branches::{ModeName, NUMBERS, kilohertz};
 use super::{BaseField, CeaReport};
-use crate::prelude::*;
+use crate::common::*;
 
 /// Modes that the figure shows, the fastest first: of plane bodies as lines, of solid ones as pictures.
 const LINES: usize = 6;

@@ -5,7 +5,7 @@ use super::locus::{NamedDamping, locus};
 use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::{BaseField, CeaReport, direction_name, feed, prestress};
-use crate::prelude::*;
+use crate::common::*;
 
 /// Branches whose shape is followed over friction, at most.
 const FOLLOWED_BRANCHES: usize = 4;

@@ -2,7 +2,7 @@
 
 use super::shape::{ModeShape, size};
 use super::{BaseField, CeaReport, feed};
-use crate::prelude::*;
+use crate::common::*;
 use crate::{write_universal_mesh, write_universal_mode};
 
 /// Writes `prestress.vtu` (of a body that no mesh file gives in three dimensions also with friction coefficient and

@@ -1,6 +1,6 @@
 //! Steps of an eigenvalue sweep that an interrupted run leaves in its folder, for the run that goes on.
 
-use crate::prelude::*;
+use crate::common::*;
 use crate::store::framed;
 use frictionsim_bounds::{RESULT, read_file};
 use frictionsim_physics::cea::{SweepProgress, SweepWatch};

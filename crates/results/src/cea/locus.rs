@@ -2,7 +2,7 @@
 
 use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::{CeaReport, direction_name};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::{Mark, Steps, significant};
 use frictionsim_physics::fem::RayleighDamping;
 

@@ -5,7 +5,7 @@ use super::base::{BaseField, ContactState, closed_share};
 use super::shape::{Picture, size};
 use crate::BodyStress;
 use crate::charts::contact_surfaces;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::fem::NodalStress;
 
 /// Half the length of the arrow of the sliding over the size of its surface.

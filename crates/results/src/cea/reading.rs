@@ -1,8 +1,8 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
-use super::branches::{Branch, ModeName, NAMES, SHORT_NAMES};
+use super::branches::{Branch, ModeName, NAMES, SHORT_NAMES, kilohertz};
 use super::{CeaReport, ModeFeed};
-use crate::prelude::*;
+use crate::common::*;
 
 /// What a contribution comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
@@ -148,15 +148,6 @@ const LEAST_RATE: f64 = 1e-3;
 
 /// Share from which on a mode is named.
 const NOTABLE: f64 = 0.05;
-
-/// Nodal diameters, of a mode that has them, and frequency.
-pub(super) fn kilohertz(mode: &ModeName) -> String {
-    let frequency = format!("{} kHz", fixed(1e-3 * mode.frequency_hz, 3));
-    match mode.harmonic {
-        Some(harmonic) => format!("n = {harmonic}, {frequency}"),
-        None => frequency,
-    }
-}
 
 /// Panels of the figure, at most.
 const PANELS: usize = 6;

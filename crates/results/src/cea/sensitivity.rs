@@ -1,7 +1,7 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use super::branches::travels;
-use crate::prelude::*;
+use crate::common::*;
 
 /// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
 #[derive(Clone, Debug, PartialEq)]

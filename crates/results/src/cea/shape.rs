@@ -1,7 +1,7 @@
 //! Mode shapes as pictures of the deformed body: in the plane, of revolution, or of solid bodies.
 
 use super::{CeaReport, arrow};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::Field;
 use frictionsim_physics::mesh::SheetNode;
 

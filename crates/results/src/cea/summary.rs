@@ -2,7 +2,7 @@
 
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cea::{ModeCount, UnstableInterval};
 
 keys! {

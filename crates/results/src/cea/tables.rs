@@ -6,7 +6,7 @@ use super::{
     BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution, direction_name,
     feed,
 };
-use crate::prelude::*;
+use crate::common::*;
 
 /// Longest table of the modes at one friction value on the terminal.
 const MOST_MODES: usize = 40;

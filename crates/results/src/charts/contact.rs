@@ -5,7 +5,7 @@ use super::palette::{
     OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring, status_runs,
 };
 use super::solid::speeds_of_bodies;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::Palette;
 use frictionsim_physics::fem::nodal_stress;
 

@@ -1,5 +1,6 @@
 //! Fields over a body as layers.
 
+use crate::cartesian_vectors;
 use crate::prelude::*;
 use frictionsim_chart::{self, Field};
 

@@ -1,7 +1,7 @@
 //! The curves of several reports over each other.
 
 use super::ComparedRun;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::{PanelData, Series, SeriesKind};
 
 /// Most curves of one panel that are told apart.

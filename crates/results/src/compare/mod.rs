@@ -5,7 +5,7 @@ mod figures;
 pub use figures::overlaid;
 
 use super::sweep::{cell, join};
-use crate::prelude::*;
+use crate::common::*;
 use crate::{Manifest, Page};
 
 /// A finished run.

@@ -2,7 +2,7 @@
 
 mod estimate;
 
-use crate::prelude::*;
+use crate::common::*;
 pub use estimate::{Verdict, estimate};
 
 /// What is refined.

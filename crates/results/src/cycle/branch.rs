@@ -4,7 +4,7 @@ use super::record::CycleMotion;
 use crate::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STICK_POWER,
 };
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cycle::{BranchEnd, Family, Parameter, Verdict};
 
 /// A cycle of a branch.

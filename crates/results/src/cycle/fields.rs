@@ -3,7 +3,7 @@
 use super::found::encode_contact;
 use super::summary::CycleSummary;
 use super::two_waves::TwoWaveSummary;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use std::cell::OnceCell;
 

@@ -8,7 +8,7 @@ use crate::charts::{
     ContactInstant, ContactVelocity, contact_figure, contact_surfaces, place_axis,
     shear_stress_figure, status_curves, status_map, velocity_figure,
 };
-use crate::prelude::*;
+use crate::common::*;
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;

@@ -8,8 +8,8 @@ use super::record::{
 };
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
+use crate::common::*;
 use crate::npz::NpzArchive;
-use crate::prelude::*;
 use frictionsim_physics::cycle::periodic::{
     MotionFrame, PeriodicBranch, PeriodicMotion, REMAINDER, Sound,
 };

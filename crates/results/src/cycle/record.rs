@@ -2,7 +2,7 @@
 //! or a mode of any other body, and its motion.
 
 use super::verdicts::Perturbation;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
 use frictionsim_physics::cycle::{Family, Onset};
 use std::fmt;

@@ -4,7 +4,7 @@ use super::branch::{BranchRecord, BranchSummary, FamilyRecord};
 use super::record::{CycleMotion, CycleName, Exponent, ModeSummary, OnsetSummary, ShownCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cycle::periodic::PeriodicMotion;
 
 keys! {

@@ -6,7 +6,7 @@ use super::record::{CONTACT_NODES, ContactNode, CycleMotion};
 use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
 use super::verdicts::EXPONENTS;
-use crate::prelude::*;
+use crate::common::*;
 use crate::summary::STATUS;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;
 

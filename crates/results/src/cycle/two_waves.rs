@@ -1,6 +1,6 @@
 //! Motions of two frequencies: words, table, summary, curves.
 
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{BranchEnd, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch};
 

@@ -1,6 +1,6 @@
 //! What a transient and small perturbations say of a limit cycle.
 
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cycle::{Confirmation, FloquetMultiplier, FloquetMultipliers, Verdict};
 
 /// What is known of the stability of a cycle, where it was asked for, or why there is nothing.

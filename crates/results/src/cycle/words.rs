@@ -20,8 +20,7 @@ impl CycleSummary {
     pub(super) fn said(&self) -> Vec<String> {
         let critical = self.critical_value.as_ref().filter(|_| !self.has_nothing());
         let critical = critical.map(|at| format!("Steady sliding loses its stability at {at}."));
-        let extent = self.extent.note().map(|note| format!("{note}."));
-        [Some(self.origin()), critical, extent].into_iter().flatten().collect()
+        [Some(self.origin()), critical, self.extent.sentence()].into_iter().flatten().collect()
     }
 
     fn origin(&self) -> String {

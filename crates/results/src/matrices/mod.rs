@@ -8,7 +8,7 @@ use super::framed::write_json;
 use super::keys::keys;
 use super::npz::NpzArchive;
 use super::object;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_output::Entry;
 use frictionsim_physics::linalg::MarketMatrix;
 

@@ -1,7 +1,7 @@
 //! The eigenvalues of a superelement: table, summary, print.
 
 use crate::cea::BRANCH;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::cea::QuadraticMode;
 
 /// The modes of a superelement that stands free.

@@ -8,7 +8,7 @@ pub use plane::{figure as plane_figure, write_revolution};
 pub use solid::figure as solid_figure;
 pub use statistics::{BoundaryStatistics, MeshStatistics, RegionStatistics};
 
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::mesh::BoundaryCondition;
 
 keys! {

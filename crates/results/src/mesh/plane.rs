@@ -1,7 +1,7 @@
 //! Picture of the mesh of a plane body, and fields of a body of revolution.
 
 use super::{REGION_COLOURS, write_nodes};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::Field as Window;
 use frictionsim_physics::mesh::{Boundary, BoundaryCondition};
 

@@ -1,7 +1,7 @@
 //! Pictures of the mesh of solid bodies.
 
 use super::{REGION_COLOURS, Roles, role_of};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::Surface;
 
 /// Colour of the boundaries of each kind, in the order of the legend; the last one of faces that nothing is said of.

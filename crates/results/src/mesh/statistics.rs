@@ -1,7 +1,7 @@
 //! Size and quality of a mesh: of plane bodies, bodies of revolution and solid bodies.
 
 use super::{Roles, condition_name, contact_nodes, role_of};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::mesh::{AnnulusMesh, MeshQuality, SolidContact};
 
 keys! {

@@ -1,6 +1,6 @@
 //! Summary of `signal`, as it is written, printed and reported.
 
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_signal::{ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
 
 /// Largest distance of a line from a mode that it is said to belong to, relative to the line.

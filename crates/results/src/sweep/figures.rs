@@ -7,8 +7,8 @@ use super::table::{FRICTION, SPEED, by_other_keys, printed};
 use crate::basin::basin_map;
 use crate::cea::{CriticalFriction, arrow};
 use crate::charts::palette::{OPEN, SLIP, STICK};
+use crate::common::*;
 use crate::cycle::{FamilyRecord, draw_branches};
-use crate::prelude::*;
 
 /// Most curves of one figure.
 const MOST_SERIES: usize = 12;

@@ -3,8 +3,8 @@
 use super::PointRecord;
 use super::report::{Condition, conditions, unstable};
 use super::table::{printed, swept_text};
+use crate::common::*;
 use crate::parameter::{in_unit, shared_unit};
-use crate::prelude::*;
 
 /// Most panels of the figure.
 const PANELS: usize = 12;

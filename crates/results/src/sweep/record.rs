@@ -1,6 +1,6 @@
 //! Record of one point of a sweep.
 
-use crate::prelude::*;
+use crate::common::*;
 
 /// A finished point: what was swept to which values, and what came out of it.
 ///

@@ -4,8 +4,8 @@
 use super::record::{PointRecord, listed};
 use super::table::{cell, heads, of_points, swept_text};
 use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
+use crate::common::*;
 use crate::number_ranges;
-use crate::prelude::*;
 
 /// What the first summary of a point says that has it; nothing of a point that failed.
 fn first(point: &PointRecord, path: &str) -> Cell {

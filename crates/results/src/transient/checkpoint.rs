@@ -1,7 +1,7 @@
 //! The state of a transient on disk, to go on from.
 
+use crate::common::*;
 use crate::framed::{self, Defect};
-use crate::prelude::*;
 use crate::record::{Record, decoded};
 use crate::reopening::read_existing;
 use frictionsim_physics::transient::{Recorder, TransientState};

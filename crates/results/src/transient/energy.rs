@@ -6,7 +6,7 @@ use crate::charts::palette::{
     STICK_POWER,
 };
 use crate::charts::run_axis;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::significant;
 use frictionsim_physics::transient::SampleRow;
 

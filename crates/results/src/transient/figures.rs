@@ -6,7 +6,7 @@ use crate::charts::{
     ContactInstant, ContactVelocity, contact_figure, shear_stress_figure, status_curves,
     velocity_figure,
 };
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::transient::Snapshot;
 
 /// Whole-field pictures of one kind, at most.

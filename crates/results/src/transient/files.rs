@@ -2,8 +2,8 @@
 
 use super::{RecordedRun, TransientSummary, summary};
 use crate::charts::palette::status_of_code;
+use crate::common::*;
 use crate::npz::NpzArchive;
-use crate::prelude::*;
 use crate::record::write_record;
 use frictionsim_output::csv::{self, format_number};
 use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};

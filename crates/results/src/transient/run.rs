@@ -2,7 +2,7 @@
 
 use super::SolvedTransient;
 use crate::charts::Stage;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::transient::{SampleRow, TransientSettings};
 
 /// What came of a run, the body that it is of, and what its figures show besides. Forces, powers and energies of the

@@ -5,7 +5,7 @@ use crate::charts::{
     ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
     with_stages,
 };
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_chart::significant;
 use frictionsim_signal::{USUAL_WINDOW, Window, averaged_spectrum, spectrogram};
 

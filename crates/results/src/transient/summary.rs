@@ -1,7 +1,7 @@
 //! `summary.json` of a transient.
 
 use super::RecordedRun;
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::transient::{Drift, Growth, Perturbation, ProbeMotion, TransientAnalysis};
 
 keys! {

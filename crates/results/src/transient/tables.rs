@@ -2,7 +2,7 @@
 
 use super::RecordedRun;
 use super::summary::{GrowthSummary, TransientSummary};
-use crate::prelude::*;
+use crate::common::*;
 use frictionsim_physics::transient::ProbeMotion;
 
 /// Periods of the main vibration between two contact frames beyond which they do not show it.
@@ -50,7 +50,7 @@ pub fn document(run: &RecordedRun<'_>, summary: &TransientSummary) -> Document {
     };
     let end = ending(summary, state);
     let end = format!("{end}. The numbers are means over the last fifth of the run.");
-    let extent = summary.extent.note().map(|note| format!("{note}."));
+    let extent = summary.extent.sentence();
     Document::new("Transient")
         .section(Section::new("Results").text([end]).text(extent).facts(facts(summary)))
         .section(

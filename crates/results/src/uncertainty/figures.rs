@@ -1,7 +1,7 @@
 //! The figures of an uncertainty analysis.
 
 use super::{DesignCurve, Index, RobustSummary, UncertaintySummary};
-use crate::prelude::*;
+use crate::common::*;
 
 /// Distribution of critical friction, probability of squeal over friction, indices.
 pub fn uncertainty(summary: &UncertaintySummary) -> Figure {

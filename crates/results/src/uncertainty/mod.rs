@@ -3,7 +3,7 @@
 mod figures;
 
 use crate::cea::arrow;
-use crate::prelude::*;
+use crate::common::*;
 use figures::{indices, robust, uncertainty};
 use frictionsim_signal::Estimate;
 
