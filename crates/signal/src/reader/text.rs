@@ -6,13 +6,18 @@ pub(super) fn decode(bytes: &[u8]) -> String {
         let units: Vec<u16> = rest.chunks_exact(2).map(|p| join([p[0], p[1]])).collect();
         String::from_utf16_lossy(&units)
     };
-    let text = match bytes {
+    let mut text = match bytes {
         [0xff, 0xfe, rest @ ..] => wide(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => wide(rest, u16::from_be_bytes),
         [0xef, 0xbb, 0xbf, rest @ ..] => utf8_or_latin1(rest),
         _ => utf8_or_latin1(bytes),
     };
-    if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n") } else { text }
+    for end in ["\r\n", "\r"] {
+        if text.contains(end) {
+            text = text.replace(end, "\n");
+        }
+    }
+    text
 }
 
 fn utf8_or_latin1(bytes: &[u8]) -> String {
