@@ -64,23 +64,15 @@ pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgEr
     complex_decomposed(matrix, [None, None])
 }
 
-/// Eigenvalues, right vectors and, where they are asked for, left vectors, as columns.
-pub type ComplexEigen = (Vec<c64>, Mat<c64>, Option<Mat<c64>>);
-
-/// Eigenvalues `lambda` of a complex square matrix `A`, right vectors `A x = lambda x` and, where they are asked for, left ones
-/// `y^H A = lambda y^H`, as columns, in no particular order.
+/// Eigenvalues `lambda` of a complex square matrix `A`, right vectors `A x = lambda x` and left ones `y^H A = lambda y^H`, as columns, in no
+/// particular order.
 ///
 /// # Errors
 /// As [`complex_eigenvalues`].
-pub fn complex_eigen(
-    matrix: MatRef<'_, c64>,
-    with_left: bool,
-) -> Result<ComplexEigen, LinalgError> {
-    let n = matrix.nrows();
-    let mut right = Mat::<c64>::zeros(n, n);
-    let mut left = with_left.then(|| Mat::<c64>::zeros(n, n));
-    let values = complex_decomposed(matrix, [left.as_mut(), Some(&mut right)])?;
-    Ok((values, right, left))
+pub fn complex_eigen(matrix: MatRef<'_, c64>) -> Result<(Vec<c64>, [Mat<c64>; 2]), LinalgError> {
+    let [mut right, mut left] = [(); 2].map(|()| Mat::zeros(matrix.nrows(), matrix.nrows()));
+    let values = complex_decomposed(matrix, [Some(&mut left), Some(&mut right)])?;
+    Ok((values, [right, left]))
 }
 
 /// Eigenvalues of a complex square matrix, with the vectors that there is room for, left and right ones.

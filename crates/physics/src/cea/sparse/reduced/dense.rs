@@ -154,9 +154,8 @@ impl ReducedModel {
         };
         let (lu, operator) = lossy_operator(at, structural, omega);
         let m = at.stiffness.nrows();
-        let (values, right, left) = complex_eigen(operator.as_ref(), true)?;
+        let (values, [right, left]) = complex_eigen(operator.as_ref())?;
         // The upper half of a left vector y^H of the operator is (K + i H)^T times that of the problem.
-        let left = left.expect("left vectors are asked for");
         let mut upper = Mat::from_fn(m, left.ncols(), |i, j| left[(i, j)].conj());
         lu.solve_transpose_in_place(upper.as_mut());
         let mut order: Vec<usize> = (0..values.len()).collect();
