@@ -4,6 +4,7 @@ use super::prelude::*;
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
 use crate::case::{case_from, reference};
 use std::fmt::Write as _;
+use std::fs::File;
 use std::io::Write;
 
 /// Short names of shipped cases.
@@ -165,9 +166,8 @@ fn write(path: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    let mut options = std::fs::OpenOptions::new();
-    options.write(true).create(force).truncate(force).create_new(!force);
-    let result = options.open(path).and_then(|mut file| file.write_all(bytes));
+    let file = if force { File::create(path) } else { File::create_new(path) };
+    let result = file.and_then(|mut file| file.write_all(bytes));
     result.map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => exists(path),
         _ => failed(error),

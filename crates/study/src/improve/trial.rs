@@ -73,11 +73,15 @@ impl Places {
                 uses[node as usize] += 1;
             }
         }
+        // The contact curve of a plane body is a hole of one body with a rigid cylinder in it, and not its only curve.
+        let is_inside = matches!(mesh.counterface, Counterface::Cylinder { is_inside: true, .. });
+        let is_alone = mesh.opposite.is_none() && mesh.boundaries.len() > 1;
+        let is_one = mesh.dimension == 2 && base.case.body.assembly().is_none();
         Ok(Self {
             uses,
             nodes: nodes.collect(),
             patches: patches.collect(),
-            has_hole: has_hole(base, mesh),
+            has_hole: is_inside && is_alone && is_one,
         })
     }
 }
@@ -96,13 +100,6 @@ fn contact_nodes(base: &Base<'_>) -> BTreeSet<u32> {
         None => std::iter::once(mesh.contact).chain(mesh.opposite).collect(),
     };
     boundaries.iter().flat_map(|&b| &mesh.boundaries[b].nodes).copied().collect()
-}
-
-/// Whether the contact curve of a plane body is a hole of one body with a rigid cylinder in it, and not its only curve.
-fn has_hole(base: &Base<'_>, mesh: &Mesh) -> bool {
-    let is_inside = matches!(mesh.counterface, Counterface::Cylinder { is_inside: true, .. });
-    let is_alone = mesh.opposite.is_none() && mesh.boundaries.len() > 1;
-    mesh.dimension == 2 && is_inside && is_alone && base.case.body.assembly().is_none()
 }
 
 fn refuse_unknown(base: &Base<'_>, forbidden: &[String]) -> Result<(), CaseErrors> {
