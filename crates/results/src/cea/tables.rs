@@ -63,6 +63,9 @@ columns! {
         = row.own.axial_share;
 }
 
+/// Those of every body.
+const COMMON: &[Column<ModeRow>] = parted(MODES, "axial_share").0;
+
 columns! {
     /// A mode in words.
     MODE_WORDS: row as ModeRow;
@@ -92,8 +95,7 @@ pub enum View {
 fn eigenvalues(report: &CeaReport<'_>) -> Table {
     let rows: Vec<ModeRow> =
         report.tabulated().flat_map(|point| ModeRow::all(report, point)).collect();
-    let is_revolution = report.body.sector.is_some();
-    let columns = if is_revolution { MODES } else { const { parted(MODES, "axial_share").0 } };
+    let columns = if report.body.sector.is_some() { MODES } else { COMMON };
     Table::new("eigenvalues.csv", "").columns(columns, &rows)
 }
 
@@ -115,7 +117,7 @@ fn modes(caption: String, rows: &[ModeRow], with_friction: bool) -> Table {
     let friction = rows.iter().map(|row| row.friction);
     let look = Some(("friction", Format::Plain));
     let table = if with_friction { table.column("", look, friction) } else { table };
-    table.columns(MODES, rows).columns(MODE_WORDS, rows)
+    table.columns(COMMON, rows).columns(MODE_WORDS, rows)
 }
 
 /// All modes at the friction values that have shapes, or at the last value of the sweep.
