@@ -37,8 +37,8 @@ pub struct SweepRequest<'a> {
     pub limit: ModeLimit,
     /// Those of the friction coefficients at which mode shapes are wanted.
     pub shapes_at: &'a [f64],
-    /// Those of them at which left vectors are wanted too; at critical friction where there are any.
-    pub lefts_at: &'a [f64],
+    /// The one of them at which left vectors are wanted too, to two digits; with it at critical friction.
+    pub lefts_at: Option<f64>,
     /// Whether modes are counted by the argument principle under friction, too.
     pub count_modes: bool,
     /// Whether it goes on from a sweep that ends at its first friction coefficient: branches begin there, not without friction, and
@@ -53,7 +53,7 @@ impl<'a> SweepRequest<'a> {
             friction_coefficients,
             limit,
             shapes_at: &[],
-            lefts_at: &[],
+            lefts_at: None,
             count_modes: false,
             is_continued: false,
         }

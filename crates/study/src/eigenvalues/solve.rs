@@ -28,14 +28,14 @@ pub fn solve(
     let frictions = cea.solved_friction_coefficients();
     let waves_at: &[f64] = if with_reading { &frictions } else { &[] };
     let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
-    let (mut shown, mut lefts_at) = (cea.shapes_at.clone(), Vec::new());
+    let (mut shown, mut lefts_at) = (cea.shapes_at.clone(), None);
     if with_reading {
         shown.extend(shapes_needed(case, &model.model, &frictions, modes));
         lefts_at = lefts_needed(case, cea.mass, &shown);
     }
     let request = SweepRequest {
         shapes_at: &shown,
-        lefts_at: &lefts_at,
+        lefts_at,
         count_modes: cea.count_modes && with_reading,
         ..SweepRequest::new(&frictions, cea.modes)
     };

@@ -25,14 +25,15 @@ fn is_made(case: &Case, mass: MassKind) -> bool {
     mass == MassKind::Consistent && case.body.tables().next().is_none()
 }
 
-/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed: the
-/// least and the largest one and the case's own. Between them the error of a mode moves by a fortieth to a quarter of
-/// itself (medians of three bodies; 0.8 the most), less than the estimate may be wrong by.
-pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64]) -> Vec<f64> {
-    let [least, most] = order::range(shown.iter().copied());
+/// The one of the friction values `shown` with their shapes at which it is made, and so left vectors are needed: the
+/// case's own, or the largest. Over the others the error of a mode moves by a fortieth to a quarter of itself (medians
+/// of three bodies; 0.8 the most), less than the estimate may be wrong by.
+pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64]) -> Option<f64> {
     let own = case.contact.sliding.friction_coefficient;
-    let is_wanted = |mu: &f64| is_made(case, mass) && [least, most, own].contains(mu);
-    shown.iter().copied().filter(is_wanted).collect()
+    let of_point = || {
+        if shown.contains(&own) { Some(own) } else { shown.iter().copied().max_by(f64::total_cmp) }
+    };
+    is_made(case, mass).then(of_point).flatten()
 }
 
 /// Gives its error to each mode that has both vectors, and to each critical friction of the sweep.

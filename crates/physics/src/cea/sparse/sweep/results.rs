@@ -21,7 +21,7 @@ impl SparseSweep<'_> {
         let points: Vec<FrictionPoint> = frictions
             .map(|&mu| {
                 let k = self.grid.partition_point(|&g| g < mu);
-                let wanted = [request.shapes_at, request.lefts_at].map(|at| at.contains(&mu));
+                let wanted = [request.shapes_at.contains(&mu), request.lefts_at == Some(mu)];
                 self.friction_point(k, wanted, branches)
             })
             .collect();
@@ -49,7 +49,7 @@ impl SparseSweep<'_> {
             is_told(own) || goes_on && is_alone && !others.any(|is_same| is_same)
         });
         let vectors = |own: &FoundInterval| {
-            let ModeAt { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
+            let ModeAt { mu, mode } = own.onset().filter(|_| request.lefts_at.is_some())?;
             self.vectors((*mu, true), std::slice::from_ref(mode)).pop()
         };
         let crossed = |own: &FoundInterval| UnstableInterval {
