@@ -176,6 +176,18 @@ impl<'a> Assembly<'a> {
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
     /// [`PrestressError::NoEquilibrium`] where a node would open.
     pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
+        self.range_beside(&PressedRange::default(), friction_coefficients)
+    }
+
+    /// [`Self::range`] where some states of the same bodies are known: these are not solved again.
+    ///
+    /// # Errors
+    /// As [`Self::range`].
+    pub fn range_beside(
+        &self,
+        known: &PressedRange,
+        friction_coefficients: &[f64],
+    ) -> Result<PressedRange> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();
         let of_points = || {
@@ -217,7 +229,7 @@ impl<'a> Assembly<'a> {
             points: &points,
         };
         if !self.mesh.is_cyclic {
-            return pressing.states(self.mesh, friction_coefficients);
+            return pressing.states(self.mesh, friction_coefficients, known);
         }
         let state = ContactSystem::new(&pressing)?.unaltered_state(vec![true; points.len()])?;
         let state = state.pressed_all_round((&ContactInterface::of(self.mesh), &points), 1)?;

@@ -17,10 +17,11 @@ const SHORTEST_RANGE: f64 = 1e-3;
 const ROUND_OFF: f64 = 1e-12;
 
 /// States at every one of `friction_coefficients`, each from the state at friction 0, of which there is one: it is the same whatever other
-/// values are asked for.
+/// values are asked for. What is `known` of the same bodies is not solved again.
 pub(super) fn range(
     bodies: &mut ContactSystem<'_>,
     friction_coefficients: &[f64],
+    known: &PressedRange,
 ) -> Result<PressedRange> {
     let mut order: Vec<usize> = (0..friction_coefficients.len()).collect();
     crate::order::sort_by_number(&mut order, |&a| friction_coefficients[a]);
@@ -35,21 +36,26 @@ pub(super) fn range(
     let mut before = 0.0;
     for &i in &order {
         let friction = friction_coefficients[i];
-        let set = pressed_points(bodies, friction, &at_rest)?;
+        let set = match known.set_at(friction) {
+            Some(set) => set.to_vec(),
+            None => pressed_points(bodies, friction, &at_rest)?,
+        };
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
         }
         let last = sets.last().map(|own| &own.0);
         if last != Some(&set) {
             if let Some(last) = last {
-                found.changes.push(end_between(bodies, last, [before, friction])?);
+                let end = known.end_of(last, [before, friction]);
+                let end = end.map_or_else(|| end_between(bodies, last, [before, friction]), Ok);
+                found.changes.push(end?);
             }
             sets.push((set, friction));
         }
         found.state_of[i] = sets.len() - 1;
         before = friction;
     }
-    follow(bodies, &sets, &mut found)?;
+    follow(bodies, &sets, &mut found, known)?;
     Ok(found)
 }
 
@@ -59,16 +65,21 @@ fn follow(
     bodies: &mut ContactSystem<'_>,
     sets: &[(Vec<bool>, f64)],
     found: &mut PressedRange,
+    known: &PressedRange,
 ) -> Result<()> {
     // Downwards from where it was found each set but the first begins where it breaks.
     for (&change, (set, lowest)) in found.changes.iter().zip(sets.iter().skip(1)) {
-        let begin = end_between(bodies, set, [*lowest, change])?;
-        found.begins.push(begin.max(change));
+        let begin = known.begin_of(set, [change, *lowest]);
+        let begin = begin.map_or_else(|| end_between(bodies, set, [*lowest, change]), Ok);
+        found.begins.push(begin?.max(change));
     }
     for (k, (set, lowest)) in sets.iter().enumerate() {
-        let own = found.state_of.iter().zip(&found.friction_coefficients);
-        let asked: Vec<f64> = own.filter(|own| *own.0 == k).map(|own| *own.1).collect();
-        let [lower, upper] = found.span(k);
+        let (asked, [lower, upper]) = (found.asked_of(k), found.span(k));
+        if let Some(state) = known.state_over(set, [lower, upper], &asked) {
+            found.left_out = found.left_out.max(known.left_out);
+            found.states.push(state.clone());
+            continue;
+        }
         // The first set holds below what is asked, too: as far as its polynomial needs.
         let own_range = |bodies: &mut ContactSystem<'_>| {
             let begin = match k.checked_sub(1) {

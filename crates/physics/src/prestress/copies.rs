@@ -16,15 +16,20 @@ const ALIKE: f64 = 1e-7;
 const NO_GAP: f64 = 1e-4;
 
 impl Pressing<'_> {
-    /// The states at every one of `friction_coefficients`, of a body of equal sectors from one of them: its loads and points are the
-    /// same in each, and so is its state, in frames that turn with it.
+    /// The states at every one of `friction_coefficients` beside those `known`, of a body of equal sectors from one of them: its loads
+    /// and points are the same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
     /// [`NoState`](super::PrestressError::NoState) at the first friction coefficient without one; otherwise as [`super::Assembly::range`].
-    pub fn states(&self, mesh: &Mesh, friction_coefficients: &[f64]) -> Result<PressedRange> {
+    pub fn states(
+        &self,
+        mesh: &Mesh,
+        friction_coefficients: &[f64],
+        known: &PressedRange,
+    ) -> Result<PressedRange> {
         let count = mesh.symmetry.as_ref().map_or(1, |symmetry| symmetry.count);
         let Some(first_of) = self.copies(count) else {
-            return range(&mut ContactSystem::new(self)?, friction_coefficients);
+            return range(&mut ContactSystem::new(self)?, friction_coefficients, known);
         };
         // One sector, whose neighbours move as it does.
         let size = self.load.len() / count;
@@ -47,7 +52,8 @@ impl Pressing<'_> {
             pushed: firsts.iter().map(|&i| self.pushed[i]).collect(),
             laws: firsts.iter().map(|&i| self.laws[i]).collect(),
         };
-        let mut range = range(&mut ContactSystem::new(&own)?, friction_coefficients)?;
+        let none = PressedRange::default();
+        let mut range = range(&mut ContactSystem::new(&own)?, friction_coefficients, &none)?;
 
         // The state of the whole body: which point of the sector each of the body is a copy of.
         let copy_of = first_of.iter().map(|first| firsts.partition_point(|own| own < first));

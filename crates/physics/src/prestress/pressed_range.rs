@@ -45,6 +45,44 @@ impl PressedRange {
         [lower, self.changes.get(state).copied().unwrap_or(last)]
     }
 
+    /// Those asked for that have a state.
+    pub(super) fn asked_of(&self, state: usize) -> Vec<f64> {
+        let own = self.state_of.iter().zip(&self.friction_coefficients);
+        own.filter(|own| *own.0 == state).map(|own| *own.1).collect()
+    }
+
+    /// The pressed points at one of the friction coefficients asked for.
+    pub(super) fn set_at(&self, friction: f64) -> Option<&[bool]> {
+        let place = self.friction_coefficients.iter().position(|own| *own == friction)?;
+        Some(&self.states[self.state_of[place]].is_pressed)
+    }
+
+    /// Where a set of pressed points ends to hold on the way up, if that is known and lies between two friction coefficients.
+    pub(super) fn end_of(&self, set: &[bool], [from, to]: [f64; 2]) -> Option<f64> {
+        let ends = self.changes.iter().zip(&self.states);
+        let mut ends = ends.filter(|(_, own)| own.is_pressed == set).map(|own| *own.0);
+        ends.find(|end| (from..to).contains(end))
+    }
+
+    /// Where it begins to, likewise.
+    pub(super) fn begin_of(&self, set: &[bool], [from, to]: [f64; 2]) -> Option<f64> {
+        let begins = self.begins.iter().zip(self.states.iter().skip(1));
+        let mut begins = begins.filter(|(_, own)| own.is_pressed == set).map(|own| *own.0);
+        begins.find(|begin| (from..to).contains(begin))
+    }
+
+    /// The state of a set over a span in which it serves the same friction coefficients.
+    pub(super) fn state_over(
+        &self,
+        set: &[bool],
+        span: [f64; 2],
+        asked: &[f64],
+    ) -> Option<&PressedState> {
+        let states = self.states.iter().enumerate().filter(|(_, own)| own.is_pressed == set);
+        let mut same = states.filter(|(k, _)| self.span(*k) == span && self.asked_of(*k) == asked);
+        same.next().map(|own| own.1)
+    }
+
     /// Friction coefficients between the state `before` and the next one at which neither is known to hold; empty where one gives way to
     /// the other.
     pub fn unknown_between(&self, before: usize) -> Range<f64> {

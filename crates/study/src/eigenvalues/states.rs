@@ -77,7 +77,7 @@ impl WholeMesh {
                 });
             }
             let more = [frictions, &open].concat();
-            match self.states_at(case, &more) {
+            match self.states_at(case, (range, &more)) {
                 Ok(range) => finer.push((range, more)),
                 // There may be no state between.
                 Err(_) => unsolved = true,

@@ -52,18 +52,18 @@ impl WholeMesh {
         Ok(Self { symmetry, mesh, range, options, joined })
     }
 
-    /// Base states at some friction coefficients, which come first.
+    /// Base states at some friction coefficients, which come first, of which some are known.
     pub(super) fn states_at(
         &self,
         case: &Case,
-        frictions: &[f64],
+        (known, frictions): (&PressedRange, &[f64]),
     ) -> Result<PressedRange, CeaError> {
         let (assembly, own) = (self.assembly(case), [case.contact.sliding.friction_coefficient]);
         let further = match self.mesh.dimension {
             2 => &own[..],
             _ => start_of(assembly.contacts()),
         };
-        Ok(assembly.range(&[frictions, further].concat())?)
+        Ok(assembly.range_beside(known, &[frictions, further].concat())?)
     }
 
     /// The model of a case with the base states of this one: for a case that differs in nothing that these depend on.

@@ -20,17 +20,20 @@ impl SparseSweep<'_> {
         if self.tangent.is_tabled() {
             return Ok(None);
         }
-        let first = self.grid[self.first_asked()];
-        // Of two the determinant has no sign.
-        let is_unstable = (self.is_continued || self.is_unheld)
-            && (self.sign_at(first)? < 0.0 || self.builder.model.static_growth(first)? > 1);
+        let (start, first) = (self.grid[0], self.grid[self.first_asked()]);
+        // At rest all is held by positive stiffness.
+        let is_held = start == 0.0 && !self.is_unheld;
+        let at_start = if is_held { 1.0 } else { self.sign_at(start)? };
+        let is_unstable = (self.is_continued || self.is_unheld) && {
+            let at_first = if first == start { at_start } else { self.sign_at(first)? };
+            at_first < 0.0 || self.builder.model.static_growth(first)? > 1 // Of two the determinant has no sign.
+        };
         let ends = all.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
         let mut place = ends.chain(is_unstable.then_some(first)).min_by(f64::total_cmp);
         let after = &self.grid[1..];
         let last = &after[after.len().saturating_sub(1)..];
         if place.is_none() {
-            let is_held = self.grid[0] == 0.0 && !self.is_unheld; // At rest all is held by positive stiffness.
-            let start = (self.grid[0], if is_held { 1.0 } else { self.sign_at(self.grid[0])? });
+            let start = (start, at_start);
             if self.sign_change(start, last)?.is_some() {
                 place = self.sign_change(start, after)?;
             }
