@@ -1,5 +1,6 @@
 //! Growth rate and frequency of the exponential stage of a vibration.
 
+mod beat;
 mod demodulation;
 mod harmonic;
 
@@ -114,6 +115,16 @@ pub enum NoGrowth {
         "the envelope at {0:.1} Hz has no exponential stretch over which it changes by a factor e"
     )]
     NotExponential(f64),
+    /// A part of the beat of two vibrations that are steady.
+    #[error(
+        "the envelope at {frequency_hz:.1} Hz is the beat of two lines {apart_hz:.3} Hz apart, not growth or decay"
+    )]
+    Beat {
+        /// Frequency about which they are, Hz.
+        frequency_hz: f64,
+        /// Their distance, Hz.
+        apart_hz: f64,
+    },
     /// A power of another wave, which grows so many times as fast at so many times its frequency.
     #[error("it holds a power of the growing wave of harmonic {0}, and no mode of its own")]
     Power(usize),
@@ -135,7 +146,7 @@ pub enum NoGrowth {
 /// each end is cut off, where saturation would bias the slope. Rate and frequency are least-squares slopes of `ln |z|`
 /// and of the phase; their intervals count one independent value for each window length. A stage lasts 24 periods at
 /// least, and its rate's interval leaves out zero. Does not separate two modes closer than a third of the frequency:
-/// they beat, and the stage found is one where they do not.
+/// they beat, and the stage found is one where they do not; where both are steady there is none.
 ///
 /// # Errors
 /// [`NoGrowth`]: a record under 36 periods, nothing above round-off, no such interval, samples that are not finite.
@@ -174,7 +185,11 @@ fn stage_at(
         let Ok(better) = search(samples, sampling_rate, frequency) else { break };
         stage = better;
     }
-    Ok(stage)
+    let signal = demodulated(samples, sampling_rate, frequency)?;
+    match beat::beat(&signal, &stage) {
+        Some(apart_hz) => Err(NoGrowth::Beat { frequency_hz: frequency, apart_hz }),
+        None => Ok(stage),
+    }
 }
 
 fn search(
@@ -353,6 +368,29 @@ mod tests {
         }
         let none = exponential_stage(&heard(3.0, 1e-3, |_| 0.0), 51_200.0).unwrap_err();
         assert_eq!(none, NoGrowth::NoLine(3.0));
+    }
+
+    /// Closed form: two steady lines, of which an envelope rises and falls by `(1 + r) / (1 - r)`; and one that grows beside a steady one.
+    #[test]
+    fn steady_lines_that_beat_neither_grow_nor_decay() {
+        let mut gaussian = gaussian_sequence(5);
+        let mut beside = |apart_hz: f64, envelope: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            let tones = |t: f64| {
+                (TAU * 1000.0 * t).sin() + envelope(t) * (TAU * (1000.0 + apart_hz) * t + 1.0).sin()
+            };
+            (0..20_000).map(|j| tones(f64::from(j) / 2e4) + 1e-3 * gaussian()).collect()
+        };
+        for (apart_hz, r) in
+            [(0.5, 1.0), (2.0, 0.5), (2.0, 0.9), (3.0, 0.5), (5.0, 1.0), (8.0, 0.7)]
+        {
+            let found = exponential_stage(&beside(apart_hz, &|_| r), 2e4);
+            let Err(NoGrowth::Beat { apart_hz: own, .. }) = found else {
+                panic!("{apart_hz} {r}: {found:?}")
+            };
+            assert!((own / apart_hz - 1.0).abs() < 0.05, "{own} {apart_hz}");
+        }
+        let grown = beside(3.0, &|t| 0.05 * (6.0 * t).exp());
+        assert!(exponential_stage(&grown, 2e4).is_ok_and(|stage| stage.is_growing()));
     }
 
     #[test]
