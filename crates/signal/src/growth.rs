@@ -125,6 +125,11 @@ pub enum NoGrowth {
         /// Their distance, Hz.
         apart_hz: f64,
     },
+    /// A rate whose interval holds zero.
+    #[error(
+        "its rate of {:.3} 1/s may be anything from {:.3} to {:.3} 1/s: neither growth nor decay", .0.value, .0.low, .0.high
+    )]
+    Unclear(Estimate),
     /// A power of another wave, which grows so many times as fast at so many times its frequency.
     #[error("it holds a power of the growing wave of harmonic {0}, and no mode of its own")]
     Power(usize),

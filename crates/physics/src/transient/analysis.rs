@@ -257,9 +257,13 @@ impl ProbeMotion {
 fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Growth> {
     let series = amplitudes(record, stage.clone(), harmonic)?;
     let motion = record.largest_motion(stage);
+    let found = harmonic_growth(&series, 1.0 / record.sample_interval, motion);
+    let is_clear = |own: &ExponentialStage| own.is_growing() || own.is_decaying();
     Some(Growth {
         harmonic: Some(harmonic),
-        stage: harmonic_growth(&series, 1.0 / record.sample_interval, motion),
+        stage: found.and_then(|own| {
+            if is_clear(&own) { Ok(own) } else { Err(NoGrowth::Unclear(own.rate_per_s)) }
+        }),
         rotation_direction: record.rotation_direction,
     })
 }
