@@ -24,13 +24,11 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
         case.contact.sliding.friction_coefficient = friction;
     }
     let case = &case;
-    if case.body.tables().next().is_some() {
-        let refusal = case.loss_error(
-            "the files hold one problem, and a modulus over frequency is another one at each frequency",
-            "not written",
-            "give the material one modulus and a loss factor",
-        );
-        return Err(StudyError::Case(refusal));
+    if let Some(table) = case.body.tables().next() {
+        return Err(refusal!(case, &table.key,
+            "{}: the files hold one problem, and a modulus over frequency is another one at each frequency", table.key;
+            "not written"; "give the material one modulus and a loss factor")
+        .into());
     }
     // The whole mesh, whatever the case's own method; what no method solves is refused.
     Solver::of(case, CeaMethod::Auto)?;

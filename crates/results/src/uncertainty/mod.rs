@@ -191,7 +191,7 @@ columns! {
     probability_in_range = family.probability_in_range,
         Always "turns unstable in the range" Fixed(4);
     critical_friction_median = family.critical_friction_median,
-        Always "median critical friction" Fixed(4);
+        Always "median onset there" Fixed(4);
     frequency_hz = family.frequency_hz, Always "frequency" Fixed(2);
     beyond_limit = (family.beyond_limit > 0.0).then_some(family.beyond_limit),
         IfAny "beyond the frequency limit" Fixed(4);
@@ -245,8 +245,12 @@ impl Finding for UncertaintySummary {
         .columns(FAMILIES, &self.families)]);
         if !self.sobol.is_empty() {
             let rows = sorted(self.sobol.clone(), |a| -a.1.total);
-            let caption =
-                "Sobol's indices of the lowest critical friction: which parameter decides it";
+            let mut caption =
+                "Sobol's indices of the lowest critical friction: which parameter decides it"
+                    .to_owned();
+            if self.critical_friction.without_onset > 0.0 {
+                caption += &format!(" (taken as {} where there is none)", self.largest_friction);
+            }
             results = results.tables([Table::new("", caption).columns(INDICES, rows)]);
         }
         if let Some(robust) = &self.robust {
@@ -282,13 +286,18 @@ fn facts(summary: &UncertaintySummary) -> Vec<(String, String)> {
     let (p, c) = (summary.probability_unstable, &summary.critical_friction);
     let number = |value: f64| Format::Fixed(4).number(value);
     let text = |value: Option<f64>| value.map_or("beyond the range".to_owned(), number);
+    // Samples without an onset have a place in the order, and no value.
+    let of_mean = match c.without_onset > 0.0 {
+        true => "mean of the samples that have one",
+        false => "its mean",
+    };
     let rows = [
         (
             format!("probability of squeal at {}", summary.friction_text()),
             format!("{} (95 % {} to {})", number(p.value), number(p.low), number(p.high)),
         ),
         ("lowest critical friction, median".into(), text(c.median)),
-        ("its mean".into(), text(c.mean)),
+        (of_mean.into(), text(c.mean)),
         ("5 % of the samples below".into(), text(c.p05)),
         ("5 % of the samples above".into(), text(c.p95)),
         ("samples".into(), (summary.samples - summary.failed).to_string()),

@@ -53,6 +53,8 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
     mixed.iter().map(of).collect()
 }
 
+/// Relative distance of critical frictions within which they are one: their round-off would have indices.
+const SAME: f64 = 1e-9;
 /// Resamples that the intervals of indices rest on.
 const RESAMPLES: usize = 400;
 
@@ -122,6 +124,11 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
             sample.error.as_deref().unwrap_or_default()
         ));
     }
+    if index_samples > 0 && sobol.is_empty() {
+        let why = "the lowest critical friction is the same in all samples (the end of the range where none turns \
+                   unstable): it has no Sobol indices";
+        notes.push(why.to_owned());
+    }
     let families = families(&solved, largest_friction);
     notes.extend(beyond_note(&families));
     UncertaintySummary {
@@ -144,7 +151,8 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     }
 }
 
-/// The indices of the lowest critical friction, which is the end of the range where there is none.
+/// The indices of the lowest critical friction, which is the end of the range where there is none, and how many samples they rest
+/// on; none where it is the same in all.
 fn sobol_of(keys: &[String], solved: &[&Sample], most: f64) -> (BTreeMap<String, Index>, usize) {
     let used: Vec<&&Sample> =
         solved.iter().filter(|sample| sample.mixed.len() == keys.len() + 1).collect();
@@ -156,6 +164,11 @@ fn sobol_of(keys: &[String], solved: &[&Sample], most: f64) -> (BTreeMap<String,
     let a: Vec<f64> = used.iter().map(own).collect();
     let column = |k: usize| used.iter().map(|sample| capped(sample.mixed[k])).collect();
     let mixed: Vec<Vec<f64>> = (1..=keys.len()).map(column).collect();
+    let all = mixed.iter().flatten().chain(&a).copied();
+    let [least, highest] = order::range(all.chain(column(0)));
+    if highest - least <= SAME * highest {
+        return (BTreeMap::new(), used.len());
+    }
     let found = indices_with_intervals(&a, &column(0), &mixed);
     (keys.iter().cloned().zip(found).collect(), used.len())
 }
