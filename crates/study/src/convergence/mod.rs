@@ -22,6 +22,9 @@ use crate::prelude::*;
 use frictionsim_case::TimeStep;
 use frictionsim_results::convergence::{Quantity, Refinement, Series};
 
+/// Distance of the finest value from the limit, relative to that, from which on order and limit are rough.
+const FAR: f64 = 0.05;
+
 /// Levels of one series: the same case refined.
 pub struct Levels {
     /// What runs.
@@ -145,9 +148,9 @@ fn series(case: &Case, study: &Levels, done: Vec<Done>) -> Result<Vec<Series>, S
         refinement: study.refinement,
         levels: levels.clone(),
         sizes: sizes.clone(),
+        notes: notes.into_iter().chain(grading.clone()).chain(far_note(&quantities)).collect(),
         quantities,
         wall_s: wall_s.clone(),
-        notes: notes.into_iter().chain(grading.clone()).collect(),
     };
     Ok(match study.analysis {
         Analysis::Cea => {
@@ -186,6 +189,24 @@ fn series(case: &Case, study: &Levels, done: Vec<Done>) -> Result<Vec<Series>, S
             })
             .collect(),
     })
+}
+
+/// Limits that lie far from what the finest level has.
+fn far_note(quantities: &[Quantity]) -> Option<String> {
+    let away = |own: &Quantity| {
+        let (limit, finest) = own.extrapolated.zip(own.values.last().copied().flatten())?;
+        let away = ((finest - limit) / limit).abs();
+        (away > FAR).then(|| (away, own.name.clone()))
+    };
+    let far = sorted(quantities.iter().filter_map(away), |own| -own.0);
+    let (away, name) = far.first()?;
+    Some(format!(
+        "the finest level is {:.0} % away from the limit of {name}. A limit more than {:.0} % away, here of {} \
+         quantities, is an extrapolation of levels too coarse to tell order and error: refine further",
+        100.0 * away,
+        100.0 * FAR,
+        far.len()
+    ))
 }
 
 /// Element size and name of a mesh: the size is the side of a square of the mean element area, m.

@@ -91,6 +91,12 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
             base.multiple
         ));
     }
+    if let ModeLimit::MaxFrequency(limit_hz) = base.reach {
+        notes.push(format!(
+            "modes above {limit_hz:.0} Hz are not looked at, with a modification or without: raise cea.modes or \
+             cea.max_frequency_hz to see what grows there"
+        ));
+    }
     let summary = ImproveSummary {
         dofs: base.tangent.unknowns.len(),
         friction_coefficient: base.friction,

@@ -280,6 +280,38 @@ mod tests {
         x1.sin() + 7.0 * x2.sin().powi(2) + 0.1 * x3.powi(4) * x1.sin()
     }
 
+    /// An onset that no parameter moves, but for round-off, and samples without any.
+    #[test]
+    fn what_is_the_same_in_all_samples_has_no_indices() {
+        let onset_at = |critical_friction: f64| Onset {
+            critical_friction,
+            harmonic: None,
+            branch: 1,
+            direction: 0,
+            frequency_hz: 1e3,
+            restabilized: None,
+            unstable_from_start: false,
+        };
+        let sample = |number: usize, onset: Option<f64>| Sample {
+            number,
+            values: vec![0.0],
+            friction_coefficient: 0.3,
+            onsets: onset.map(onset_at).into_iter().collect(),
+            within: Vec::new(),
+            error: None,
+            mixed: vec![onset; 2],
+        };
+        let keys = ["key".to_owned()];
+        for onset in [None, Some(0.2)] {
+            let samples: Vec<Sample> =
+                (1..=8).map(|k| sample(k, onset.map(|mu| mu + 1e-15 * k as f64))).collect();
+            let (found, count) = sobol_of(&keys, &samples.iter().collect::<Vec<_>>(), 0.6);
+            assert!(found.is_empty() && count == 8, "{found:?}");
+        }
+        let samples = [sample(1, Some(0.2)), sample(2, Some(0.3))];
+        assert_eq!(sobol_of(&keys, &samples.iter().collect::<Vec<_>>(), 0.6).0.len(), 1);
+    }
+
     #[test]
     fn indices_of_ishigamis_function_are_the_exact_ones_within_a_hundredth() {
         // V1 = (1 + b pi^4 / 5)^2 / 2, V2 = a^2 / 8, V13 = b^2 pi^8 (1/18 - 1/50).
