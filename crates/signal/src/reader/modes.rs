@@ -34,6 +34,9 @@ const COLUMNS: [&[&str]; 8] = [
     &["damping_%", "damping_factor_%", "damping_ratio_%", "zeta_%", "damping_percent"],
 ];
 
+/// Words in the name of a column that holds damping.
+const DAMPING: [&str; 6] = ["damp", "zeta", "q_factor", "quality", "loss", "decrement"];
+
 /// Reads a table with a head of names, of which `frequency_hz` must be one and `real_hz`, `damping_factor`, `harmonic`,
 /// `sigma_hz` and `unstable` (1 or 0) may be; units may stand in brackets, damping in per cent.
 ///
@@ -52,6 +55,17 @@ fn modes(bytes: &[u8]) -> Result<Vec<MeasuredMode>, ReadError> {
         let remedy = "the first line names the columns: frequency_hz, and where known real_hz, \
             damping_factor, harmonic, sigma_hz, unstable";
         return Err(ReadError::missing("frequencies", &first_of(&names), remedy));
+    }
+    // What is damping by another name, or in a unit that is not said, would be left out of the fit.
+    let is_damping = |name: &&String| DAMPING.iter().any(|word| name.contains(word));
+    if let Some(name) = names.iter().find(is_damping)
+        && [2, 3, 7].iter().all(|&column| places[column].is_none())
+    {
+        let problem = format!(
+            "the damping in column `{name}` is not read; give it as `damping_factor` (zeta), in per cent as \
+             `damping_%`, or as `real_hz`"
+        );
+        return Err(ReadError::whole(problem));
     }
     let modes = rows.map(|row| mode(&row, &places)).collect::<Result<Vec<_>, ReadError>>()?;
     if modes.is_empty() {
@@ -160,6 +174,8 @@ mod tests {
             ("f,sigma_hz\n-5,1\n", ["modes.csv:2:1", "`-5`"]),
             ("f\n1e-320\n", ["modes.csv:2:1", "`1e-320`"]),
             ("hertz\n5\n", ["modes.csv: ", "frequency_hz"]),
+            ("f,Damping\n5,1\n", ["`damping` is not read", "damping_%"]),
+            ("f,q_factor\n5,1\n", ["`q_factor` is not read", "damping_factor"]),
             ("f\n", ["modes.csv", "no row of numbers"]),
             ("# nothing\n", ["modes.csv", "empty"]),
             ("f,n\n,1\n", ["modes.csv:2", "`frequency_hz`"]),
