@@ -235,9 +235,9 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         let [first, last] = [values.first(), values.last()].map(|v| v.copied().unwrap_or(0.0));
         let range = format!("turns unstable for friction from {first} to {last}.");
         if report.solution.sweep.unconverged.is_empty() {
-            format!("No mode {range}")
+            format!("No listed mode {range}")
         } else {
-            format!("No mode that converged {range} What did not converge may.")
+            format!("No listed mode that converged {range} What did not converge may.")
         }
     });
     // Pages of the same case are the same bytes.
@@ -305,7 +305,7 @@ fn facts(report: &CeaReport<'_>) -> Vec<(String, String)> {
         Some(own) if !own.is_located() => format!("below {}", own.critical_friction),
         Some(interval) => fixed(interval.critical_friction, 6),
         None if report.solution.sweep.unconverged.is_empty() => {
-            "none: stable throughout".to_owned()
+            "none: the modes listed are stable".to_owned()
         }
         None => "none of the modes that converged".to_owned(),
     };
