@@ -1,6 +1,7 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
 use super::prelude::*;
+use crate::frf::Terminal;
 use crate::results::{response_figure, write_response};
 use crate::signal::FrequencyResponse;
 use crate::study::response::FrequencyStudy;
@@ -17,8 +18,9 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     })?;
     bar.finish_and_clear();
     let values = computed.observed(frf);
-    let is_universal = case.output.universal;
-    write_response(&folder, frf.quantity, &frf.frequencies_hz, &values, is_universal)?;
+    let place = |own: Terminal| (case.body.node_label(own.node), own.direction.number());
+    let universal = case.output.universal.then(|| [frf.response, frf.force].map(place));
+    write_response(&folder, frf.quantity, &frf.frequencies_hz, &values, universal)?;
     let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
     // A few lines are numbers, but no curve.
     let figures = || response.iter().map(response_figure).collect();

@@ -81,7 +81,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let block = summary.damping_block();
     folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
     if let Some(copy) = copy {
-        let text: String = file.responses.iter().map(write_response).collect();
+        let text: String =
+            file.responses.iter().map(|own| write_response(own, [(0, 0); 2])).collect();
         copy.write(text.as_bytes())?;
     }
     let figures = || vec![identification(&responses[0], &found)];

@@ -2,7 +2,7 @@
 
 use super::identification::unit_of;
 use crate::common::*;
-use frictionsim_signal::reader::{self, NamedResponse};
+use frictionsim_signal::reader::{self, NamedResponse, Place};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
 
 keys! {
@@ -21,14 +21,14 @@ keys! {
     }
 }
 
-/// Writes frequency, real and imaginary part as `frf.csv`, which `frictionsim identify` reads; as a universal file
-/// (dataset 58), too, where that is asked for.
+/// Writes frequency, real and imaginary part as `frf.csv`, which `frictionsim identify` reads; as a `universal` file
+/// (dataset 58), too, where the places of motion and force are given for it.
 pub fn write_response(
     folder: &OutputFolder,
     quantity: ResponseQuantity,
     frequencies_hz: &[f64],
     values: &[c64],
-    is_universal: bool,
+    universal: Option<[Place; 2]>,
 ) -> Result<(), FolderError> {
     let name = quantity.name();
     let table = Table::new("frf.csv", "")
@@ -36,14 +36,12 @@ pub fn write_response(
         .column(&format!("{name}_real"), None, values.iter().map(|h| h.re))
         .column(&format!("{name}_imaginary"), None, values.iter().map(|h| h.im));
     write_table(folder, &table)?;
-    if !is_universal {
-        return Ok(());
-    }
+    let Some(places) = universal else { return Ok(()) };
     folder.write("frf.unv", |out| {
         let response = FrequencyResponse::new(frequencies_hz.to_vec(), values.to_vec(), quantity);
         let response = response.map_err(io::Error::other)?;
         let named = NamedResponse { name: quantity.name().to_owned(), response };
-        out.write_all(reader::write_response(&named).as_bytes())
+        out.write_all(reader::write_response(&named, places).as_bytes())
     })
 }
 

@@ -41,6 +41,16 @@ pub struct Axis {
 }
 
 impl Direction {
+    /// Its number among those of the mesh, 1 to 3; 0 of one that turns with the node.
+    pub fn number(self) -> u32 {
+        match self {
+            Self::X => 1,
+            Self::Y => 2,
+            Self::Z => 3,
+            Self::Radial | Self::Tangential | Self::Axial => 0,
+        }
+    }
+
     /// Its name in case files.
     pub const fn name(self) -> &'static str {
         match self {

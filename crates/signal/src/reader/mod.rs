@@ -32,7 +32,7 @@ pub use named_columns::{ModulusRow, read_gaps, read_moduli};
 pub use response::{NamedResponse, ResponseFile, ResponseOptions, read_response};
 pub use shapes::{MeasuredShape, read_shapes};
 pub use time_signal::{Channel, SignalFile, SignalOptions, read_signal};
-pub use uff_writing::{write_mesh, write_mode, write_response, write_signal};
+pub use uff_writing::{Place, write_mesh, write_mode, write_response, write_signal};
 pub use wav::{slowdown, write_wav};
 
 use table::{Table, read_table};

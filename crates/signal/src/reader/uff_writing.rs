@@ -9,8 +9,11 @@ use faer::c64;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// A frequency response as dataset 58 in text, complex double precision.
-pub fn write_response(named: &NamedResponse) -> String {
+/// A node by its label and a direction there, 1 to 3 for x, y, z; zeros where they are not known.
+pub type Place = (usize, u32);
+
+/// A frequency response as dataset 58 in text, complex double precision, with the places of motion and force.
+pub fn write_response(named: &NamedResponse, places: [Place; 2]) -> String {
     let response = &named.response;
     let (ordinate, _) = ORDINATES[response.quantity() as usize];
     let (f, values) = (response.frequencies_hz(), response.values());
@@ -19,7 +22,8 @@ pub fn write_response(named: &NamedResponse) -> String {
     let is_even = numbered.all(|(k, f_k)| (f_k - f[0] - k as f64 * step).abs() <= 1e-6 * step);
     let axis = if is_even { [f[0], step] } else { [0.0; 2] };
     let form = [6, values.len(), usize::from(is_even)];
-    let mut out = header(&named.name, FREQUENCY_RESPONSE, form, axis, [18, ordinate, 13]);
+    let kind = (FREQUENCY_RESPONSE, places);
+    let mut out = header(&named.name, kind, form, axis, [18, ordinate, 13]);
     if is_even {
         for two in values.chunks(2) {
             out += &(complex_row(two, 20, 12) + "\n");
@@ -37,7 +41,8 @@ pub fn write_signal(file: &SignalFile) -> String {
     let mut out = String::new();
     for channel in &file.channels {
         let axis = [file.start, 1.0 / file.sampling_rate];
-        out += &header(&channel.name, TIME, [4, channel.samples.len(), 1], axis, [TIME_AXIS, 0, 0]);
+        let (kind, form) = ((TIME, [(0, 0); 2]), [4, channel.samples.len(), 1]);
+        out += &header(&channel.name, kind, form, axis, [TIME_AXIS, 0, 0]);
         for four in channel.samples.chunks(4) {
             out.extend(four.iter().map(|v| fortran(*v, 20, 12)));
             out.push('\n');
@@ -99,15 +104,15 @@ pub fn write_mode(
 /// Opening lines and the eleven records of a dataset.
 fn header(
     name: &str,
-    kind: u32,
+    (kind, places): (u32, [Place; 2]),
     [form, count, even]: [usize; 3],
     [first, step]: [f64; 2],
     [axis, ordinate, divided_by]: [u32; 3],
 ) -> String {
     let name: String = name.chars().filter(char::is_ascii).take(80).collect();
     let mut out = format!("    -1\n    58\n{name}\nNONE\nNONE\nNONE\nNONE\n");
-    let place = format!(" {:<10}{:>10}{:>4}", "NONE", 0, 0);
-    let _ = writeln!(out, "{kind:>5}{:>10}{:>5}{:>10}{place}{place}", 0, 0, 0);
+    let places = places.map(|(node, along)| format!(" {:<10}{node:>10}{along:>4}", "NONE"));
+    let _ = writeln!(out, "{kind:>5}{:>10}{:>5}{:>10}{}", 0, 0, 0, places.concat());
     let numbers = [first, step, 0.0].map(axis_value).concat();
     let _ = writeln!(out, "{form:>10}{count:>10}{even:>10}{numbers}");
     for kind in [axis, ordinate, divided_by, 0] {
