@@ -137,7 +137,9 @@ impl Finding for BasinSummary {
     fn document(&self) -> Document {
         let is_open = !self.is_kick() && self.runs.iter().any(|run| !run.is_settled);
         let open = is_open.then(|| {
-            "Some transients end before one wave has gone: raise basin.periods.".to_owned()
+            "Some transients end before one wave has gone: raise basin.periods. Where that changes nothing, an \
+             overtone of the winner has the shape of the other and does not go."
+                .to_owned()
         });
         let runs = Table::new("basin.csv", "Transients in the order of the search")
             .columns(RUNS, &self.runs)

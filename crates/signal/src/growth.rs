@@ -7,7 +7,7 @@ mod harmonic;
 pub use harmonic::{harmonic_growth, strongest_vibration};
 
 use super::error::SignalError;
-use super::lines::{largest, loudest_part};
+use super::lines::{largest, loudest_parts};
 use super::modal::Estimate;
 use super::spectrum::{centred, check_signal};
 use super::{Window, main_frequency};
@@ -144,7 +144,7 @@ pub enum NoGrowth {
 /// Finds the exponential stage of a signal and fits its rate and frequency.
 ///
 /// The signal is demodulated at its strongest line, or the part about its loudest block at the line of that where the
-/// whole has none (a burst), then at the strongest within the stage found,
+/// whole has none (a burst) or where that neither grows nor decays (a hum), then at the strongest within the stage found,
 /// `z(t) = sum_j w_j x_j e^{-2 pi i f t_j}` over 12 periods; for a pure exponential the filter is exact. The stage is
 /// the interval over which `ln |z|` changes most while it deviates from a line by no more than 1 % rms (then 3, 10,
 /// 20 %) and stays above 1024 eps of the largest sample; a growing stage is preferred to a decaying one. A tenth at
@@ -163,12 +163,24 @@ pub fn exponential_stage(
     let (frequency, part) = match main_frequency(samples, sampling_rate) {
         Err(SignalError::NoResonance { .. }) => {
             let none = NoGrowth::NoLine(samples.len() as f64 / sampling_rate);
-            loudest_part(samples, sampling_rate).ok_or(none)?
+            loudest_parts(samples, sampling_rate).next().ok_or(none)?
         }
         line => (line?.frequency_hz, 0..samples.len()),
     };
     let begin = part.start as f64 / sampling_rate;
-    Ok(stage_at(&samples[part], sampling_rate, frequency)?.later(begin))
+    let stage = stage_at(&samples[part], sampling_rate, frequency);
+    stage.map(|own| own.later(begin)).or_else(|none| {
+        // Beside a steady hum another line may grow, of which the loudest part has more.
+        let louder =
+            loudest_parts(samples, sampling_rate).find(|(own, _)| !is_near(*own, frequency));
+        let found = louder.and_then(|(own, _)| stage_at(samples, sampling_rate, own).ok());
+        found.ok_or(none)
+    })
+}
+
+/// Whether two frequencies are of one vibration, which changes a little as it grows.
+fn is_near(one: f64, other: f64) -> bool {
+    (one / other - 1.0).abs() < 0.02
 }
 
 /// The exponential stage about a frequency, Hz, or about that of the stage found.
@@ -183,12 +195,11 @@ fn stage_at(
         let range = |t: f64| ((t * sampling_rate) as usize).min(samples.len());
         let part = &samples[range(stage.start_s)..range(stage.end_s)];
         let Ok(line) = main_frequency(part, sampling_rate) else { break };
-        if (line.frequency_hz / frequency - 1.0).abs() < 0.02 {
+        if is_near(line.frequency_hz, frequency) {
             break;
         }
-        frequency = line.frequency_hz;
-        let Ok(better) = search(samples, sampling_rate, frequency) else { break };
-        stage = better;
+        let Ok(better) = search(samples, sampling_rate, line.frequency_hz) else { break };
+        (stage, frequency) = (better, line.frequency_hz);
     }
     let signal = demodulated(samples, sampling_rate, frequency)?;
     match beat::beat(&signal, &stage) {
@@ -396,6 +407,23 @@ mod tests {
         }
         let grown = beside(3.0, &|t| 0.05 * (6.0 * t).exp());
         assert!(exponential_stage(&grown, 2e4).is_ok_and(|stage| stage.is_growing()));
+    }
+
+    #[test]
+    fn what_grows_beside_a_steady_hum_is_found() {
+        let mut gaussian = gaussian_sequence(3);
+        for (rate, first) in [(8.0, 1e-3), (12.0, 1e-5), (40.0, 1e-9)] {
+            let samples: Vec<f64> = (0..20_000)
+                .map(|j| {
+                    let t = f64::from(j) / 2e4;
+                    let squeal = (first * (rate * t).exp()).min(3.0) * (TAU * 3010.0 * t).sin();
+                    0.1 * (TAU * 500.0 * t).sin() + squeal + 1e-4 * gaussian()
+                })
+                .collect();
+            let stage = exponential_stage(&samples, 2e4).unwrap();
+            assert!((stage.rate_per_s.value / rate - 1.0).abs() < 0.02, "{rate}: {stage:?}");
+            assert!((stage.frequency_hz.value / 3010.0 - 1.0).abs() < 1e-3, "{stage:?}");
+        }
     }
 
     #[test]

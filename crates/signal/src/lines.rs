@@ -129,15 +129,19 @@ pub fn main_frequency(samples: &[f64], sampling_rate: f64) -> Result<SpectralLin
     lines.first().copied().ok_or(none)
 }
 
-/// Frequency, Hz, of the line of the loudest part of a signal whose mean spectrum has none, and that part.
+/// Frequency, Hz, of the line of the loudest part of a signal, and that part, in ever shorter blocks.
 ///
-/// Blocks are quartered until a line stands out in one of them, of which the loudest counts: 36 periods of it in the
-/// block, and so strong that noise alone shows one in a record out of 1000. The part reaches a block to either side.
-pub(super) fn loudest_part(samples: &[f64], sampling_rate: f64) -> Option<(f64, Range<usize>)> {
-    let longest = SpectralResolution::of(samples.len(), sampling_rate, None).ok()?.block;
+/// Blocks are quartered; of those of one length the line of the loudest counts: 36 periods of it in the block, and so
+/// strong that noise alone shows one in a record out of 1000. The part reaches a block to either side.
+pub(super) fn loudest_parts(
+    samples: &[f64],
+    sampling_rate: f64,
+) -> impl Iterator<Item = (f64, Range<usize>)> {
+    let longest = SpectralResolution::of(samples.len(), sampling_rate, None);
+    let longest = longest.map_or(0, |resolution| resolution.block);
     let blocks = successors(Some(longest), |block| Some(block / 4));
-    let mut blocks = blocks.take_while(|block| *block as f64 > 2.0 * FEWEST_PERIODS);
-    blocks.find_map(|block| {
+    let blocks = blocks.take_while(|block| *block as f64 > 2.0 * FEWEST_PERIODS);
+    blocks.filter_map(move |block| {
         let (frequency_hz, start) = loudest_block(samples, sampling_rate, block)?;
         Some((frequency_hz, start.saturating_sub(block)..(start + 2 * block).min(samples.len())))
     })
@@ -305,7 +309,7 @@ mod tests {
                 }
             }
             false_alarms += lines(&x, rate, None).len() + lines(&x, rate, Some(40.0)).len();
-            false_alarms += usize::from(loudest_part(&x, rate).is_some());
+            false_alarms += usize::from(loudest_parts(&x, rate).next().is_some());
         }
         // 120 spectra and records at one in a thousand each: two would happen once in 150 times.
         assert!(false_alarms <= 1, "{false_alarms}");

@@ -69,5 +69,14 @@ fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<us
             "basin.modes: there is no mode {beyond}, {count} are looked at"; "1 to {count}";
             "raise cea.modes, or cea.max_frequency_hz")));
     }
+    let still = asked.iter().find(|&&mode| !growing.contains(&(mode - 1)));
+    if let ([_, _], Some(still)) = (&asked[..], still) {
+        let numbers = number_ranges(&growing.iter().map(|place| place + 1).collect::<Vec<_>>());
+        return Err(StudyError::Case(refusal!(case, "basin.modes",
+            "basin.modes: mode {still} does not grow at contact.friction_coefficient = {}, and wins from no small start \
+             (modes that grow: {})", case.contact.sliding.friction_coefficient,
+            if growing.is_empty() { "none" } else { &numbers };
+            "two modes that grow"; "name others, or one mode alone against steady sliding")));
+    }
     Ok(asked.iter().map(|mode| mode - 1).collect())
 }

@@ -53,6 +53,8 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
     mixed.iter().map(of).collect()
 }
 
+/// The key of the friction coefficient of a sample.
+const FRICTION: &str = "contact.friction_coefficient";
 /// Relative distance of critical frictions within which they are one: their round-off would have indices.
 const SAME: f64 = 1e-9;
 /// Resamples that the intervals of indices rest on.
@@ -115,6 +117,9 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     // Where no sample turns unstable nothing decides.
     let varying = sobol.iter().filter(|own| own.1.total > 0.0);
     let decisive = varying.max_by(|a, b| a.1.total.total_cmp(&b.1.total));
+    // What decides between squeal and none is the critical friction less that of the sample.
+    let is_own = keys.iter().any(|key| key == FRICTION);
+    let decisive = decisive.filter(|_| !is_own);
     let failed = samples.len() - count;
     let mut notes = Vec::new();
     if let Some(sample) = samples.iter().find(|sample| sample.error.is_some()) {
@@ -128,6 +133,11 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
         let why = "the lowest critical friction is the same in all samples (the end of the range where none turns \
                    unstable): it has no Sobol indices";
         notes.push(why.to_owned());
+    }
+    if is_own && !sobol.is_empty() {
+        notes.push(format!(
+            "the indices are of the critical friction, which {FRICTION} does not move: no parameter is called decisive"
+        ));
     }
     let families = families(&solved, largest_friction);
     notes.extend(beyond_note(&families));
