@@ -8,6 +8,8 @@ use frictionsim_signal::reader::MeasuredShape;
 
 /// Distance from the nearest node, as a share of half the body's size, beyond which a point lies off the body.
 const FAR: f64 = 0.05;
+/// Relative distance of eigenvalues that are one.
+const EQUAL: f64 = 1e-6;
 /// Factors to metres that a file may have been written without, with the units.
 const UNITS: [(f64, &str); 4] =
     [(1e-3, "millimetres"), (1e-2, "centimetres"), (0.0254, "inches"), (1e3, "kilometres")];
@@ -27,7 +29,8 @@ pub struct MeasuredShapes {
 /// MAC = |phi^H y|^2 / (phi^H phi  y^H y)
 /// ```
 ///
-/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points,
+/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, of modes with one eigenvalue, as
+/// of a disc at rest, with the space of all of them, over the measured points,
 /// each at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. Points
 /// off the body are left out, and said. The source of the shapes is left open.
 ///
@@ -107,9 +110,15 @@ impl MeasuredShapes {
         modes: &[&ComplexMode],
         placed: &[Placed],
     ) -> Vec<Vec<f64>> {
+        // The shapes of the modes that have one eigenvalue with each.
+        let alike = modes.iter().map(|own| {
+            let away = |other: &&&ComplexMode| (other.eigenvalue - own.eigenvalue).norm();
+            let alike = modes.iter().filter(|other| away(other) <= EQUAL * own.eigenvalue.norm());
+            alike.map(|other| other.shape.as_deref().unwrap_or_default()).collect()
+        });
+        let alike: Vec<Vec<&[c64]>> = alike.collect();
         let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
-            let shapes = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
-            shapes.map(|phi| criterion(mesh, phi, shape, placed)).collect()
+            alike.iter().map(|modes| criterion(mesh, modes, shape, placed)).collect()
         };
         self.shapes.iter().zip(placed).map(row).collect()
     }
@@ -196,28 +205,35 @@ fn nearest_node(mesh: &Mesh, point: [f64; 3]) -> (usize, f64) {
     nearest.map_or((0, f64::INFINITY), |(node, square)| (node, square.sqrt()))
 }
 
-/// The criterion of one shape with one mode, over all dofs in nodal frames.
-fn criterion(mesh: &Mesh, mode: &[c64], shape: &MeasuredShape, placed: &Placed) -> f64 {
-    let d = mesh.dimension;
-    let (mut product, mut own, mut measured) = (c64::ZERO, 0.0, 0.0);
+/// The criterion of one shape with the space of modes over all dofs in nodal frames, `b^H G^-1 b / y^H y` of `b = Phi^H y` and
+/// `G = Phi^H Phi`.
+fn criterion(mesh: &Mesh, modes: &[&[c64]], shape: &MeasuredShape, placed: &Placed) -> f64 {
+    let (d, count) = (mesh.dimension, modes.len());
+    let (mut products, mut own) = (DVector::zeros(count), DMatrix::zeros(count, count));
+    let mut measured = 0.0;
     let points = shape.motion.iter().zip(&placed.nodes);
     for (motion, node) in points.filter_map(|(motion, node)| Some((motion, (*node)?))) {
         let frame = mesh.frame(node);
-        let part = |of: fn(&c64) -> f64| {
+        let part = |mode: &[c64], of: fn(&c64) -> f64| {
             let mut local = Vector3::zeros();
             (0..d).for_each(|k| local[k] = of(&mode[d * node + k]));
             frame * local
         };
-        let (re, im) = (part(|z| z.re), part(|z| z.im));
+        let moved = modes.iter().map(|mode| [part(mode, |z| z.re), part(mode, |z| z.im)]);
+        let moved: Vec<[Vector3<f64>; 2]> = moved.collect();
         for (axis, y) in motion.iter().enumerate() {
             let Some(y) = y else { continue };
-            let phi = c64::new(re[axis], im[axis]);
-            product += phi.conj() * y;
-            own += phi.norm_sqr();
+            let along = moved.iter().map(|[re, im]| c64::new(re[axis], im[axis]));
+            let phi = DVector::from_iterator(count, along).conjugate();
+            products += &phi * *y;
+            own += &phi * phi.adjoint();
             measured += y.norm_sqr();
         }
     }
-    if own * measured > 0.0 { product.norm_sqr() / (own * measured) } else { 0.0 }
+    // Modes that are one at the measured points span less.
+    let least = f64::EPSILON * own.norm();
+    let found = own.pseudo_inverse(least).map(|inverse| products.dotc(&(inverse * &products)).re);
+    if measured > 0.0 { found.unwrap_or(0.0) / measured } else { 0.0 }
 }
 
 /// Pairs of shapes and modes with the largest sum of the criterion.

@@ -23,8 +23,8 @@ pub(crate) use frictionsim_physics::{
     },
     transient::TransientModel,
 };
-pub(crate) use frictionsim_results::{Manifest, ShownBody, sorted};
-pub(crate) use nalgebra::{DMatrix, Matrix3, Vector3};
+pub(crate) use frictionsim_results::{Manifest, ShownBody, number_ranges, sorted};
+pub(crate) use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 pub(crate) use serde_json::Value;
 pub(crate) use std::{
     collections::{BTreeMap, BTreeSet},

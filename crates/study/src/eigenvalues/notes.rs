@@ -5,7 +5,7 @@ use super::contact::{SteadyState, mean_friction};
 use crate::prelude::*;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
-use frictionsim_results::{number_ranges, plural};
+use frictionsim_results::plural;
 
 /// What the counts of modes say.
 pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {
