@@ -6,6 +6,8 @@ use crate::eigenvalues::WholeMesh;
 use crate::prelude::*;
 use frictionsim_results::improve::State;
 
+/// Relative distance of critical frictions that are one.
+const SAME: f64 = 1e-9;
 /// Name of the section that makes a candidate.
 const NAME: &str = "improve";
 
@@ -85,7 +87,9 @@ pub(super) fn verdict(base: &State, changed: &State) -> String {
     }
     let growth = |state: &State| state.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY);
     let onset = |state: &State| state.critical_friction.unwrap_or(f64::INFINITY);
-    match (growth(changed) < growth(base), onset(changed) > onset(base)) {
+    // An onset where a contact point opens may stay where it is.
+    let is_later = onset(changed) >= onset(base) * (1.0 - SAME);
+    match (growth(changed) < growth(base), is_later) {
         (true, true) => "confirmed".to_owned(),
         (true, false) => "struck off: modes begin to grow at less friction".to_owned(),
         (false, _) => format!(

@@ -10,6 +10,7 @@ use crate::{ScrambledSobol, eigenvalues, one_line};
 use frictionsim_case::Uncertainty;
 use frictionsim_results::uncertainty::{Onset, Sample};
 pub use robust::{Design, curves};
+use summary::FRICTION;
 pub use summary::{indices, indices_with_intervals, summarize, wilson};
 
 /// Samples of one block, the first of which proves which harmonics hold modes.
@@ -114,7 +115,9 @@ impl<'a> Sampler<'a> {
         let found = self.onsets(case, &values, harmonics);
         let error = found.as_ref().err().map(|error| one_line(error));
         let (friction_coefficient, onsets, found) = found.unwrap_or_else(|_| {
-            (case.contact.sliding.friction_coefficient, Vec::new(), OnsetSearch::default())
+            let place = self.uncertainty.keys().iter().position(|key| key == FRICTION);
+            let own = place.map_or(case.contact.sliding.friction_coefficient, |k| values[k]);
+            (own, Vec::new(), OnsetSearch::default())
         });
         let (number, within, mixed) = (index + 1, found.within, Vec::new());
         let sample = Sample { number, values, friction_coefficient, onsets, within, error, mixed };

@@ -54,7 +54,7 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
 }
 
 /// The key of the friction coefficient of a sample.
-const FRICTION: &str = "contact.friction_coefficient";
+pub(super) const FRICTION: &str = "contact.friction_coefficient";
 /// Relative distance of critical frictions within which they are one: their round-off would have indices.
 const SAME: f64 = 1e-9;
 /// Resamples that the intervals of indices rest on.
