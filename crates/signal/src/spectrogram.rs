@@ -23,8 +23,8 @@ pub struct Spectrogram {
     pub magnitudes: Vec<f64>,
 }
 
-/// Amplitude spectra of successive Hann windows of a length, s, with three quarters overlap, each less its own mean, up to
-/// a frequency, Hz.
+/// Amplitude spectra of successive Hann windows of a length, s, with three quarters overlap, each less its own mean,
+/// up to a frequency, Hz.
 ///
 /// One scale for the whole record: a quiet window stays quiet beside a loud one.
 ///

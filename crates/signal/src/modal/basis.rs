@@ -88,7 +88,7 @@ pub(super) fn fill(matrix: &mut Mat<f64>, k: usize, values: impl Iterator<Item =
 }
 
 impl<'a> Lines<'a> {
-    /// Weights from a noise model and the moduli (the data's own, or a model's), and from what is known of single lines.
+    /// Weights from a noise model and the moduli (the data's own, or a model's), and from what is known of each line.
     pub(super) fn new(
         response: &'a FrequencyResponse,
         noise: &NoiseModel,
