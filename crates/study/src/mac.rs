@@ -251,3 +251,40 @@ fn paired(matrix: &[Vec<f64>]) -> Vec<MacPair> {
     pairs.sort_by_key(|pair| pair.shape);
     pairs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Closed form: a standing wave is wholly in the space of the two travelling ones of a disc at rest, and half in each.
+    #[test]
+    fn a_standing_wave_agrees_with_the_two_travelling_ones_together() {
+        let cases = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases");
+        let bytes = std::fs::read(format!("{cases}/polycarbonate-disc.toml")).unwrap();
+        let sets = ["mesh.circumferential_elements=24", "mesh.radial_elements=2"];
+        let case = Case::parse("disc", &bytes, &sets.map(str::to_owned)).unwrap();
+        let mesh = case.body.mesh().unwrap();
+        let angle = |node: &[f64; 3]| node[1].atan2(node[0]);
+        let travelling = [2.0, -2.0].map(|n: f64| -> Vec<c64> {
+            let nodes = mesh.nodes.iter();
+            nodes.flat_map(|node| [c64::from_polar(1.0, n * angle(node)), c64::ZERO]).collect()
+        });
+        let standing = |node: &[f64; 3]| {
+            let radial = (2.0 * angle(node) + 0.3).cos();
+            [radial * angle(node).cos(), radial * angle(node).sin(), 0.0].map(|u| Some(u.into()))
+        };
+        let shape = MeasuredShape {
+            name: String::new(),
+            frequency_hz: None,
+            points: mesh.nodes.clone(),
+            motion: mesh.nodes.iter().map(standing).collect(),
+        };
+        let placed = Placed::of(&case, &mesh, &shape, 1.0).unwrap();
+        let [one, other] = travelling.each_ref().map(Vec::as_slice);
+        for (modes, expected) in [(vec![one], 0.5), (vec![one, other], 1.0), (vec![one, one], 0.5)]
+        {
+            let found = criterion(&mesh, &modes, &shape, &placed);
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+    }
+}
