@@ -148,7 +148,7 @@ pub fn linearized(
     options: &TangentOptions,
 ) -> SlidingTangent {
     let body = Assembly::of_edge(mesh, material, contact, options.contact).unwrap();
-    body.tangent(&body.range(&[0.0, 0.4]).unwrap().states[0], options).unwrap()
+    body.tangent(&body.range(&[0.0, 0.4], &Default::default()).unwrap().states[0], options).unwrap()
 }
 
 /// Eigenvalues over friction.

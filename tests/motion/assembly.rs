@@ -89,7 +89,7 @@ fn modes(assembly: &Assembly<'_>, count: usize) -> Vec<ComplexMode> {
     let options =
         TangentOptions { mass: Lumped, damping: DAMPING, damping_model: BodyOnly, ..TANGENT };
     // The eigenvalue analysis starts without friction: stiffness that depends on friction is known there too.
-    let range = assembly.range(&[FRICTION, 0.0]).unwrap();
+    let range = assembly.range(&[FRICTION, 0.0], &Default::default()).unwrap();
     let state = &range.states[range.state_of[0]];
     let tangent = assembly.tangent(state, &options).unwrap();
     let at = [FRICTION];
@@ -120,7 +120,7 @@ fn steady_sliding_of_an_assembly_is_an_equilibrium_of_its_transient() {
         let assembly = assembly(&mesh, &STEEL, springs, None, 10.0);
         let (record, speed) = run(&assembly, &settings(InitialState::SteadySliding, 1e-4, 0.0));
         let counts = record.rows.last().unwrap().counts;
-        let state = &assembly.range(&[FRICTION]).unwrap().states[0];
+        let state = &assembly.range(&[FRICTION], &Default::default()).unwrap().states[0];
         let pressed = state.is_pressed.iter().filter(|pressed| **pressed);
         let open = state.is_pressed.len() - pressed.count();
         // Sliding at 2 m/s; round-off of the pressed displacement over a step.

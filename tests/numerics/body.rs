@@ -115,7 +115,7 @@ fn pressed(
     let edge = ContactInterface::of(&mesh);
     let contact = sliding_at(0.3, interference, 1.5);
     let body = Assembly::of_edge(&mesh, &POLYCARBONATE, &contact, RIGID).unwrap();
-    let range = body.range(frictions).unwrap();
+    let range = body.range(frictions, &Default::default()).unwrap();
     let states = frictions.iter().zip(&range.state_of).map(|(friction, &k)| {
         let state = &range.states[k];
         let (forces, moved) = (state.normal_forces(*friction), state.displacement(*friction));

@@ -26,7 +26,8 @@ pub fn significant(value: f64, digits: usize) -> String {
 pub fn prefixed(reach: f64, unit: &str) -> (f64, String) {
     #[rustfmt::skip]
     const PREFIXES: [(f64, &str); 9] = [
-        (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"),
+        (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""),
+        (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"),
     ];
     let is_meant = |size: f64| reach.is_finite() && reach.abs() >= size;
     let (size, prefix) = PREFIXES.into_iter().find(|known| is_meant(known.0)).unwrap_or((1.0, ""));

@@ -1,7 +1,7 @@
 //! Basin boundary of two waves: the amplitude ratio at saturation that separates them.
 
+use super::body::DiscModel;
 use super::field::{amplitude, slips};
-use super::onset::DiscModel;
 use super::{CycleError, OperatingPoint};
 use crate::contact::ContactStatus;
 use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};

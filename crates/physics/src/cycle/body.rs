@@ -13,6 +13,17 @@ use nalgebra::Matrix2;
 /// Receptance of the contact edge: `(u_r, u_theta) = R (f_r, f_theta)`, m for each N/m.
 pub type Receptance = Matrix2<c64>;
 
+/// A rotationally symmetric disc as its limit cycles see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscModel {
+    /// The annulus and its mesh.
+    pub specification: AnnulusSpecification,
+    /// Its material.
+    pub material: ElasticMaterial,
+    /// Rayleigh coefficients.
+    pub damping: RayleighDamping,
+}
+
 /// Real 2 x 2 blocks of one circumferential harmonic of the stiffness, outwards from the contact edge.
 struct HarmonicStiffness {
     diagonal: Vec<Receptance>,

@@ -37,13 +37,14 @@ mod two_waves;
 mod wave;
 
 pub use basin::{BasinBoundary, BasinRequest, BasinRun};
+pub use body::DiscModel;
 pub use confirmation::Confirmation;
 pub use continuation::BranchEnd;
 pub use error::CycleError;
 pub use family::{Family, LARGEST_FRICTION};
 pub use floquet::SteppedCycle;
 pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
-pub use onset::{DiscModel, MODES, Onset};
+pub use onset::{MODES, Onset};
 pub use parameter::{OperatingPoint, Parameter};
 pub use solver::{CycleBranch, CycleSolver};
 pub use stability::{FloquetMultiplier, FloquetMultipliers, RidingMode};

@@ -1,6 +1,6 @@
 //! Onsets of limit cycles: steady sliding that neither damps nor feeds a wave.
 
-use super::body::DynamicCoefficients;
+use super::body::{DiscModel, DynamicCoefficients};
 use super::parameter::OperatingPoint;
 use super::state::{Event, Phase, PointState, WaveState};
 use super::wave::Wave;
@@ -8,7 +8,7 @@ use super::{CycleError, Family, LARGEST_FRICTION};
 use crate::cea::cyclic;
 use crate::cea::{ModeLimit, SweepRequest, UnstableInterval};
 use crate::contact::SlidingContact;
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::fem::{MassKind, RayleighDamping};
 use crate::linalg::c64;
 use crate::mesh::AnnulusSpecification;
 use crate::prestress::TangentOptions;
@@ -28,17 +28,6 @@ pub struct Onset {
     pub friction_coefficient: f64,
     /// `omega`, rad/s.
     pub frequency: f64,
-}
-
-/// A rotationally symmetric disc as its limit cycles see it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DiscModel {
-    /// The annulus and its mesh.
-    pub specification: AnnulusSpecification,
-    /// Its material.
-    pub material: ElasticMaterial,
-    /// Rayleigh coefficients.
-    pub damping: RayleighDamping,
 }
 
 impl DiscModel {

@@ -1,12 +1,13 @@
 //! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
 
+use super::body::DiscModel;
 use super::body::WaveBody;
 use super::branch::Branch;
 use super::continuation::{BranchEnd, Values, both_halves, joined};
 use super::field::{field, start_of};
 use super::grid::phases;
 use super::limit_cycle::LimitCycle;
-use super::onset::{DiscModel, largest_linear_wave, refined};
+use super::onset::{largest_linear_wave, refined};
 use super::parameter::{OperatingPoint, Parameter};
 use super::wave::Wave;
 use super::{CycleError, Family, Onset};

@@ -17,9 +17,8 @@
 //! has `n = k_1 n_1 + k_2 n_2` around the circumference; `s` and `b` are the sums of those along either phase.
 
 use super::CycleError;
-use super::body::{DynamicCoefficients, Receptance, WaveBody};
+use super::body::{DiscModel, DynamicCoefficients, Receptance, WaveBody};
 use super::grid::landing_share;
-use super::onset::DiscModel;
 use super::parameter::Parameter;
 use super::state::WaveState;
 use crate::fem::RayleighDamping;

@@ -165,28 +165,22 @@ impl<'a> Assembly<'a> {
     /// # Errors
     /// As [`Self::range`].
     pub fn state(&self, friction_coefficient: f64) -> Result<PressedState> {
-        let PressedRange { states, state_of, .. } = self.range(&[friction_coefficient])?;
+        let PressedRange { states, state_of, .. } =
+            self.range(&[friction_coefficient], &Default::default())?;
         let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
         state.ok_or(PrestressError::NoState { friction_coefficient })
     }
 
-    /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.
+    /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn. What is `known` of the same bodies
+    /// is not solved again.
     ///
     /// # Errors
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
     /// [`PrestressError::NoEquilibrium`] where a node would open.
-    pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange> {
-        self.range_beside(&PressedRange::default(), friction_coefficients)
-    }
-
-    /// [`Self::range`] where some states of the same bodies are known: these are not solved again.
-    ///
-    /// # Errors
-    /// As [`Self::range`].
-    pub fn range_beside(
+    pub fn range(
         &self,
-        known: &PressedRange,
         friction_coefficients: &[f64],
+        known: &PressedRange,
     ) -> Result<PressedRange> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();

@@ -46,7 +46,7 @@ pub(super) fn range(
         let last = sets.last().map(|own| &own.0);
         if last != Some(&set) {
             if let Some(last) = last {
-                let end = known.end_of(last, [before, friction]);
+                let end = known.bound_of(last, true, [before, friction]);
                 let end = end.map_or_else(|| end_between(bodies, last, [before, friction]), Ok);
                 found.changes.push(end?);
             }
@@ -69,7 +69,7 @@ fn follow(
 ) -> Result<()> {
     // Downwards from where it was found each set but the first begins where it breaks.
     for (&change, (set, lowest)) in found.changes.iter().zip(sets.iter().skip(1)) {
-        let begin = known.begin_of(set, [change, *lowest]);
+        let begin = known.bound_of(set, false, [change, *lowest]);
         let begin = begin.map_or_else(|| end_between(bodies, set, [*lowest, change]), Ok);
         found.begins.push(begin?.max(change));
     }

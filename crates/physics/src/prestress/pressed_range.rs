@@ -57,18 +57,12 @@ impl PressedRange {
         Some(&self.states[self.state_of[place]].is_pressed)
     }
 
-    /// Where a set of pressed points ends to hold on the way up, if that is known and lies between two friction coefficients.
-    pub(super) fn end_of(&self, set: &[bool], [from, to]: [f64; 2]) -> Option<f64> {
-        let ends = self.changes.iter().zip(&self.states);
-        let mut ends = ends.filter(|(_, own)| own.is_pressed == set).map(|own| *own.0);
-        ends.find(|end| (from..to).contains(end))
-    }
-
-    /// Where it begins to, likewise.
-    pub(super) fn begin_of(&self, set: &[bool], [from, to]: [f64; 2]) -> Option<f64> {
-        let begins = self.begins.iter().zip(self.states.iter().skip(1));
-        let mut begins = begins.filter(|(_, own)| own.is_pressed == set).map(|own| *own.0);
-        begins.find(|begin| (from..to).contains(begin))
+    /// Where a set of pressed points ends to hold on the way up, or begins to, if that is known and lies between two friction coefficients.
+    pub(super) fn bound_of(&self, set: &[bool], is_end: bool, [from, to]: [f64; 2]) -> Option<f64> {
+        let (bounds, first) = if is_end { (&self.changes, 0) } else { (&self.begins, 1) };
+        let own = bounds.iter().zip(self.states.iter().skip(first));
+        let mut own = own.filter(|(_, state)| state.is_pressed == set).map(|own| *own.0);
+        own.find(|bound| (from..to).contains(bound))
     }
 
     /// The state of a set over a span in which it serves the same friction coefficients.

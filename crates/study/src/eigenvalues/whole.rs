@@ -44,7 +44,7 @@ impl WholeMesh {
         let assembly = assembled(case, &mesh, &options)?;
         let own = [case.contact.sliding.friction_coefficient];
         let start = start_of(assembly.contacts());
-        let range = assembly.range(&[frictions, start, &own].concat())?;
+        let range = assembly.range(&[frictions, start, &own].concat(), &Default::default())?;
         // The eigenvalue analysis uses no symmetry where the whole mesh is asked for.
         let is_whole = |cea: &Cea| cea.method == CeaMethod::Sparse;
         let symmetry = mesh.symmetry.filter(|_| !case.cea.as_ref().is_some_and(is_whole));
@@ -63,7 +63,7 @@ impl WholeMesh {
             2 => &own[..],
             _ => start_of(assembly.contacts()),
         };
-        Ok(assembly.range_beside(known, &[frictions, further].concat())?)
+        Ok(assembly.range(&[frictions, further].concat(), known)?)
     }
 
     /// The model of a case with the base states of this one: for a case that differs in nothing that these depend on.

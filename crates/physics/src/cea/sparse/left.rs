@@ -16,9 +16,6 @@ use std::sync::LazyLock;
 
 /// Modes that are corrected together: each is worked on by three vectors.
 const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
-/// Energy of a further correction, relative to that of its left vector, below which none is made: the vector then has two digits, and so
-/// have estimates made of it.
-const NEGLIGIBLE: f64 = NEAR;
 
 /// Corrects left vectors of modes over the unknowns, by the stiffness without friction, `P`, and the modes without friction, `Z`: the
 /// least `P^-1 T(lambda)^T w` over
@@ -153,7 +150,7 @@ fn correct_group(
     let mut among: Vec<ComplexDenseLu> = Vec::new();
     let mut open: Vec<usize> = (0..pairs.len()).collect();
     for _ in 0..MOST_STEPS {
-        open.retain(|&k| energy(&lefts[k]) > NEGLIGIBLE * goals[k]);
+        open.retain(|&k| energy(&lefts[k]) > NEAR * goals[k]); // Two digits of the vector: as many as estimates of errors have.
         if open.is_empty() {
             break;
         }
@@ -244,7 +241,7 @@ mod tests {
                 let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
                 let cosine = dot(w, exact).norm() / (length(w) * length(exact));
                 let away = 1.0 - cosine * cosine;
-                assert!(away < NEGLIGIBLE, "{is_proportional} {}: {away}", own.eigenvalue);
+                assert!(away < NEAR, "{is_proportional} {}: {away}", own.eigenvalue);
                 let slope = full.slope(own.eigenvalue, w, &own.right);
                 assert!((slope - 1.0).norm() < 1e-12, "{slope}");
             }

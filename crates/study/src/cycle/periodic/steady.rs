@@ -31,7 +31,7 @@ impl Steady {
                 ..SweepRequest::new(&own, asked_modes(case, MODES_IN_TIME))
             };
             // Their contact points are at nodes, as the transient has them.
-            let range = assembly.range(&own)?;
+            let range = assembly.range(&own, &Default::default())?;
             let state = &range.states[range.state_of[0]];
             let tangent = assembly.tangent(state, &options_in_time(case))?;
             let found = sparse::sweep(&tangent, &request, &Unwatched)?;

@@ -33,9 +33,8 @@ impl SparseSweep<'_> {
         let after = &self.grid[1..];
         let last = &after[after.len().saturating_sub(1)..];
         if place.is_none() {
-            let start = (start, at_start);
-            if self.sign_change(start, last)?.is_some() {
-                place = self.sign_change(start, after)?;
+            if self.sign_change((start, at_start), last)?.is_some() {
+                place = self.sign_change((start, at_start), after)?;
             }
         }
         Ok(place.map(|mu| mu.max(first)).map(|critical_friction| UnstableInterval {
