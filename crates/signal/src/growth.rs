@@ -127,7 +127,8 @@ pub enum NoGrowth {
     },
     /// A rate whose interval holds zero.
     #[error(
-        "its rate of {:.3} 1/s may be anything from {:.3} to {:.3} 1/s: neither growth nor decay", .0.value, .0.low, .0.high
+        "its rate of {:.3} 1/s may be anything from {:.3} to {:.3} 1/s: neither growth nor decay",
+        .0.value, .0.low, .0.high
     )]
     Unclear(Estimate),
     /// A power of another wave, which grows so many times as fast at so many times its frequency.
@@ -144,7 +145,7 @@ pub enum NoGrowth {
 /// Finds the exponential stage of a signal and fits its rate and frequency.
 ///
 /// The signal is demodulated at its strongest line, or the part about its loudest block at the line of that where the
-/// whole has none (a burst) or where that neither grows nor decays (a hum), then at the strongest within the stage found,
+/// whole has none (a burst) or where that neither grows nor decays (a hum), then at the strongest within the stage,
 /// `z(t) = sum_j w_j x_j e^{-2 pi i f t_j}` over 12 periods; for a pure exponential the filter is exact. The stage is
 /// the interval over which `ln |z|` changes most while it deviates from a line by no more than 1 % rms (then 3, 10,
 /// 20 %) and stays above 1024 eps of the largest sample; a growing stage is preferred to a decaying one. A tenth at
@@ -386,7 +387,7 @@ mod tests {
         assert_eq!(none, NoGrowth::NoLine(3.0));
     }
 
-    /// Closed form: two steady lines, of which an envelope rises and falls by `(1 + r) / (1 - r)`; and one that grows beside a steady one.
+    /// Closed form: two steady lines, whose envelope rises and falls by `(1 + r) / (1 - r)`; and one that grows beside one.
     #[test]
     fn steady_lines_that_beat_neither_grow_nor_decay() {
         let mut gaussian = gaussian_sequence(5);

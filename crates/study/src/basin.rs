@@ -73,8 +73,8 @@ fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<us
     if let ([_, _], Some(still)) = (&asked[..], still) {
         let numbers = number_ranges(&growing.iter().map(|place| place + 1).collect::<Vec<_>>());
         return Err(StudyError::Case(refusal!(case, "basin.modes",
-            "basin.modes: mode {still} does not grow at contact.friction_coefficient = {}, and wins from no small start \
-             (modes that grow: {})", case.contact.sliding.friction_coefficient,
+            "basin.modes: mode {still} does not grow at contact.friction_coefficient = {}, and wins from no small \
+             start (modes that grow: {})", case.contact.sliding.friction_coefficient,
             if growing.is_empty() { "none" } else { &numbers };
             "two modes that grow"; "name others, or one mode alone against steady sliding")));
     }

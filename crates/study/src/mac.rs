@@ -29,8 +29,8 @@ pub struct MeasuredShapes {
 /// MAC = |phi^H y|^2 / (phi^H phi  y^H y)
 /// ```
 ///
-/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, of modes with one eigenvalue, as
-/// of a disc at rest, with the space of all of them, over the measured points,
+/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, of modes with one eigenvalue,
+/// as of a disc at rest, with the space of all of them, over the measured points,
 /// each at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. Points
 /// off the body are left out, and said. The source of the shapes is left open.
 ///
@@ -205,8 +205,8 @@ fn nearest_node(mesh: &Mesh, point: [f64; 3]) -> (usize, f64) {
     nearest.map_or((0, f64::INFINITY), |(node, square)| (node, square.sqrt()))
 }
 
-/// The criterion of one shape with the space of modes over all dofs in nodal frames, `b^H G^-1 b / y^H y` of `b = Phi^H y` and
-/// `G = Phi^H Phi`.
+/// The criterion of one shape with the space of modes over all dofs in nodal frames, `b^H G^-1 b / y^H y` of
+/// `b = Phi^H y` and `G = Phi^H Phi`.
 fn criterion(mesh: &Mesh, modes: &[&[c64]], shape: &MeasuredShape, placed: &Placed) -> f64 {
     let (d, count) = (mesh.dimension, modes.len());
     let (mut products, mut own) = (DVector::zeros(count), DMatrix::zeros(count, count));
@@ -256,7 +256,7 @@ fn paired(matrix: &[Vec<f64>]) -> Vec<MacPair> {
 mod tests {
     use super::*;
 
-    /// Closed form: a standing wave is wholly in the space of the two travelling ones of a disc at rest, and half in each.
+    /// Closed form: a standing wave is wholly in the space of two travelling ones of a disc at rest, and half in each.
     #[test]
     fn a_standing_wave_agrees_with_the_two_travelling_ones_together() {
         let cases = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases");

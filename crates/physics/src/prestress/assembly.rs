@@ -223,7 +223,7 @@ impl<'a> Assembly<'a> {
             points: &points,
         };
         if !self.mesh.is_cyclic {
-            return pressing.states(self.mesh, friction_coefficients, known);
+            return pressing.states(self.mesh, (friction_coefficients, known));
         }
         let state = ContactSystem::new(&pressing)?.unaltered_state(vec![true; points.len()])?;
         let state = state.pressed_all_round((&ContactInterface::of(self.mesh), &points), 1)?;

@@ -2,7 +2,7 @@
 
 use super::contact_system::ContactSystem;
 use super::polynomials::{LEAST_RANGE, polynomial_state};
-use super::pressed_range::{CHANGE_WIDTH, PressedRange};
+use super::pressed_range::{Asked, CHANGE_WIDTH, PressedRange};
 use super::pressed_state::ContactState;
 use super::{PrestressError, Result};
 use crate::linalg::Bracket;
@@ -18,11 +18,8 @@ const ROUND_OFF: f64 = 1e-12;
 
 /// States at every one of `friction_coefficients`, each from the state at friction 0, of which there is one: it is the same whatever other
 /// values are asked for. What is `known` of the same bodies is not solved again.
-pub(super) fn range(
-    bodies: &mut ContactSystem<'_>,
-    friction_coefficients: &[f64],
-    known: &PressedRange,
-) -> Result<PressedRange> {
+pub(super) fn range(bodies: &mut ContactSystem<'_>, asked: Asked<'_>) -> Result<PressedRange> {
+    let (friction_coefficients, known) = asked;
     let mut order: Vec<usize> = (0..friction_coefficients.len()).collect();
     crate::order::sort_by_number(&mut order, |&a| friction_coefficients[a]);
     let mut found = PressedRange {
@@ -36,19 +33,15 @@ pub(super) fn range(
     let mut before = 0.0;
     for &i in &order {
         let friction = friction_coefficients[i];
-        let set = match known.set_at(friction) {
-            Some(set) => set.to_vec(),
-            None => pressed_points(bodies, friction, &at_rest)?,
-        };
+        let set = known.set_at(friction).map(|set| Ok(set.to_vec()));
+        let set = set.unwrap_or_else(|| pressed_points(bodies, friction, &at_rest))?;
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
         }
         let last = sets.last().map(|own| &own.0);
         if last != Some(&set) {
             if let Some(last) = last {
-                let end = known.bound_of(last, true, [before, friction]);
-                let end = end.map_or_else(|| end_between(bodies, last, [before, friction]), Ok);
-                found.changes.push(end?);
+                found.changes.push(end_between((bodies, known), last, [before, friction])?);
             }
             sets.push((set, friction));
         }
@@ -69,15 +62,16 @@ fn follow(
 ) -> Result<()> {
     // Downwards from where it was found each set but the first begins where it breaks.
     for (&change, (set, lowest)) in found.changes.iter().zip(sets.iter().skip(1)) {
-        let begin = known.bound_of(set, false, [change, *lowest]);
-        let begin = begin.map_or_else(|| end_between(bodies, set, [*lowest, change]), Ok);
-        found.begins.push(begin?.max(change));
+        let begin = end_between((bodies, known), set, [*lowest, change])?;
+        found.begins.push(begin.max(change));
     }
     for (k, (set, lowest)) in sets.iter().enumerate() {
         let (asked, [lower, upper]) = (found.asked_of(k), found.span(k));
-        if let Some(state) = known.state_over(set, [lower, upper], &asked) {
+        let is_over = |k: &usize| known.span(*k) == [lower, upper] && known.asked_of(*k) == asked;
+        let is_known = |k: &usize| known.states[*k].is_pressed == *set && is_over(k);
+        if let Some(own) = (0..known.states.len()).find(is_known) {
             found.left_out = found.left_out.max(known.left_out);
-            found.states.push(state.clone());
+            found.states.push(known.states[own].clone());
             continue;
         }
         // The first set holds below what is asked, too: as far as its polynomial needs.
@@ -86,7 +80,7 @@ fn follow(
                 Some(before) => found.begins[before],
                 None => {
                     let least = lower.min(upper - LEAST_RANGE).max(0.0);
-                    end_between(bodies, set, [lowest.min(upper), least])?
+                    end_between((bodies, known), set, [lowest.min(upper), least])?
                 }
             };
             Ok([begin.min(upper - SHORTEST_RANGE), upper]) // Long enough for a polynomial.
@@ -163,10 +157,13 @@ fn bound(state: &ContactState) -> f64 {
 /// The friction coefficient up to which the set at `inside` holds on the way to `outside`, which may be smaller: the root of the largest
 /// violation; `outside` where it holds all the way.
 fn end_between(
-    bodies: &mut ContactSystem<'_>,
+    (bodies, known): (&mut ContactSystem<'_>, &PressedRange),
     set: &[bool],
     [inside, outside]: [f64; 2],
 ) -> Result<f64> {
+    if let Some(end) = known.end_of(set, [inside, outside]) {
+        return Ok(end);
+    }
     let mut violation = |friction: f64| -> Result<f64> {
         let state = bodies.state_of(friction, set)?;
         let largest = excesses(bodies, &state, set).into_iter().fold(f64::NEG_INFINITY, f64::max);

@@ -4,7 +4,7 @@ use super::Result;
 use super::complementarity::range;
 use super::contact_system::ContactSystem;
 use super::elimination::Elimination;
-use super::pressed_range::PressedRange;
+use super::pressed_range::{Asked, PressedRange};
 use super::pressed_state::Pressing;
 use crate::contact::Row;
 use crate::fem::Triplets;
@@ -16,20 +16,15 @@ const ALIKE: f64 = 1e-7;
 const NO_GAP: f64 = 1e-4;
 
 impl Pressing<'_> {
-    /// The states at every one of `friction_coefficients` beside those `known`, of a body of equal sectors from one of them: its loads
-    /// and points are the same in each, and so is its state, in frames that turn with it.
+    /// The states at every friction coefficient `asked` for, of a body of equal sectors from one of them: its loads and points are the
+    /// same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
     /// [`NoState`](super::PrestressError::NoState) at the first friction coefficient without one; otherwise as [`super::Assembly::range`].
-    pub fn states(
-        &self,
-        mesh: &Mesh,
-        friction_coefficients: &[f64],
-        known: &PressedRange,
-    ) -> Result<PressedRange> {
+    pub(super) fn states(&self, mesh: &Mesh, asked: Asked<'_>) -> Result<PressedRange> {
         let count = mesh.symmetry.as_ref().map_or(1, |symmetry| symmetry.count);
         let Some(first_of) = self.copies(count) else {
-            return range(&mut ContactSystem::new(self)?, friction_coefficients, known);
+            return range(&mut ContactSystem::new(self)?, asked);
         };
         // One sector, whose neighbours move as it does.
         let size = self.load.len() / count;
@@ -52,8 +47,8 @@ impl Pressing<'_> {
             pushed: firsts.iter().map(|&i| self.pushed[i]).collect(),
             laws: firsts.iter().map(|&i| self.laws[i]).collect(),
         };
-        let none = PressedRange::default();
-        let mut range = range(&mut ContactSystem::new(&own)?, friction_coefficients, &none)?;
+        let asked = (asked.0, &PressedRange::default());
+        let mut range = range(&mut ContactSystem::new(&own)?, asked)?;
 
         // The state of the whole body: which point of the sector each of the body is a copy of.
         let copy_of = first_of.iter().map(|first| firsts.partition_point(|own| own < first));

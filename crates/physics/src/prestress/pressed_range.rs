@@ -9,6 +9,9 @@ pub(super) const CHANGE_WIDTH: f64 = 1e-9;
 /// Share of the largest force that the polynomial of a state may leave out.
 pub(super) const RESOLVED: f64 = 1e-8;
 
+/// Friction coefficients, and what states of the same bodies are known.
+pub(super) type Asked<'a> = (&'a [f64], &'a PressedRange);
+
 /// States over a range of friction coefficients.
 #[derive(Clone, Debug, Default)]
 pub struct PressedRange {
@@ -57,24 +60,12 @@ impl PressedRange {
         Some(&self.states[self.state_of[place]].is_pressed)
     }
 
-    /// Where a set of pressed points ends to hold on the way up, or begins to, if that is known and lies between two friction coefficients.
-    pub(super) fn bound_of(&self, set: &[bool], is_end: bool, [from, to]: [f64; 2]) -> Option<f64> {
-        let (bounds, first) = if is_end { (&self.changes, 0) } else { (&self.begins, 1) };
-        let own = bounds.iter().zip(self.states.iter().skip(first));
-        let mut own = own.filter(|(_, state)| state.is_pressed == set).map(|own| *own.0);
-        own.find(|bound| (from..to).contains(bound))
-    }
-
-    /// The state of a set over a span in which it serves the same friction coefficients.
-    pub(super) fn state_over(
-        &self,
-        set: &[bool],
-        span: [f64; 2],
-        asked: &[f64],
-    ) -> Option<&PressedState> {
-        let states = self.states.iter().enumerate().filter(|(_, own)| own.is_pressed == set);
-        let mut same = states.filter(|(k, _)| self.span(*k) == span && self.asked_of(*k) == asked);
-        same.next().map(|own| own.1)
+    /// Where a set of pressed points ceases to hold on the way from one friction coefficient to another, up or down, if that is known.
+    pub(super) fn end_of(&self, set: &[bool], [from, to]: [f64; 2]) -> Option<f64> {
+        let (bounds, first) = if from < to { (&self.changes, 0) } else { (&self.begins, 1) };
+        let is_own = |k: &usize| self.states[k + first].is_pressed == set;
+        let mut own = (0..bounds.len()).filter(is_own).map(|k| bounds[k]);
+        own.find(|end| (from.min(to)..from.max(to)).contains(end))
     }
 
     /// Friction coefficients between the state `before` and the next one at which neither is known to hold; empty where one gives way to

@@ -161,8 +161,8 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     }
 }
 
-/// The indices of the lowest critical friction, which is the end of the range where there is none, and how many samples they rest
-/// on; none where it is the same in all.
+/// The indices of the lowest critical friction, which is the end of the range where there is none, and how many samples
+/// they rest on; none where it is the same in all.
 fn sobol_of(keys: &[String], solved: &[&Sample], most: f64) -> (BTreeMap<String, Index>, usize) {
     let used: Vec<&&Sample> =
         solved.iter().filter(|sample| sample.mixed.len() == keys.len() + 1).collect();
