@@ -386,8 +386,8 @@ mod tests {
         let none = exponential_stage(&heard(3.0, 1e-3, |_| 0.0), 51_200.0).unwrap_err();
         assert_eq!(none, NoGrowth::NoLine(3.0));
     }
+
     /// Closed form: two steady lines, whose envelope rises and falls by `(1 + r) / (1 - r)`; one that grows beside one.
-    /// Closed form: two steady lines, whose envelope rises and falls by `(1 + r) / (1 - r)`; and one that grows beside one.
     #[test]
     fn steady_lines_that_beat_neither_grow_nor_decay() {
         let mut gaussian = gaussian_sequence(5);
