@@ -7,7 +7,7 @@ use super::prelude::*;
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
 };
-use crate::signal::reader::{ResponseOptions, read_response, write_response};
+use crate::signal::reader::{ResponseOptions, read_response};
 use crate::signal::{FrequencyResponse, ResponseQuantity, identify};
 
 /// Find damping from a measured frequency response
@@ -81,8 +81,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let block = summary.damping_block();
     folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
     if let Some(copy) = copy {
-        let text: String =
-            file.responses.iter().map(|own| write_response(own, [(0, 0); 2])).collect();
+        let text: String = file.responses.iter().map(|own| own.written([(0, 0); 2])).collect();
         copy.write(text.as_bytes())?;
     }
     let figures = || vec![identification(&responses[0], &found)];

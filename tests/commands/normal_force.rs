@@ -74,8 +74,7 @@ fn every_contact_gets_its_own_force() {
 }
 
 /// Closed forms: a block without Poisson's ratio under a rigid plane is a spring `E A / h`; springs of `k` on the length `l` give way by
-/// `F / (k l)`, and a stiff block with them. The force that is found on springs so soft is rounded by more than the share to which it is
-/// met elsewhere.
+/// `F / (k l)`, and a stiff block with them. On springs so soft a force is rounded by more than the share to which others are met.
 #[test]
 fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
     let folder = folder();

@@ -80,8 +80,7 @@ fn eigenvalues_do_not_depend_on_the_polynomial_degree() {
 #[test]
 fn the_published_table_is_reproduced() {
     // The fit's own quality with rounded constants: 0.18 % and 0.058 % rms in frequency; 10 Hz in
-    // real part for the pair of modes 20 and 21, 5.2 Hz for all others (the paper prints 1 Hz and
-    // 0.1 Hz).
+    // real part for the pair of modes 20 and 21, 5.2 Hz for all others (the paper prints 1 Hz and 0.1 Hz).
     let contact = Contact::penalty(0.3, NORMAL_STIFFNESS);
     let mut squares = 0.0;
     for (row, mode) in table_1_reference(&FITTED, &contact).iter().enumerate() {

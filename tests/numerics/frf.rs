@@ -64,8 +64,7 @@ fn reduction_agrees_with_direct_solution_for_every_boundary() {
         let direct = direct_response(system, &a, &b, &f, &|_| {}).unwrap();
         let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
         for (x, y) in reduced.receptance.iter().zip(&direct) {
-            // Between the check lines the stated error is an estimate: ten times it, and at an
-            // antiresonance relative to a thousandth of the largest response.
+            // Between the check lines the error is an estimate: ten times it; at an antiresonance relative to a thousandth of the largest.
             assert!((x - y).norm() < 1e-5 * y.norm().max(1e-3 * top), "{k}: {x} {y}");
         }
     }

@@ -2,7 +2,7 @@
 
 use super::identification::unit_of;
 use crate::common::*;
-use frictionsim_signal::reader::{self, NamedResponse, Place};
+use frictionsim_signal::reader::{self, Place};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
 
 keys! {
@@ -38,10 +38,8 @@ pub fn write_response(
     write_table(folder, &table)?;
     let Some(places) = universal else { return Ok(()) };
     folder.write("frf.unv", |out| {
-        let response = FrequencyResponse::new(frequencies_hz.to_vec(), values.to_vec(), quantity);
-        let response = response.map_err(io::Error::other)?;
-        let named = NamedResponse { name: quantity.name().to_owned(), response };
-        out.write_all(reader::write_response(&named, places).as_bytes())
+        let lines = (frequencies_hz, values);
+        out.write_all(reader::write_response(name, quantity, lines, places).as_bytes())
     })
 }
 

@@ -115,16 +115,11 @@ pub enum NoGrowth {
         "the envelope at {0:.1} Hz has no exponential stretch over which it changes by a factor e"
     )]
     NotExponential(f64),
-    /// A part of the beat of two vibrations that are steady.
+    /// A part of the beat of two steady vibrations about a frequency, and their distance, Hz.
     #[error(
-        "the envelope at {frequency_hz:.1} Hz is the beat of two lines {apart_hz:.3} Hz apart, not growth or decay"
+        "the envelope at {0:.1} Hz is the beat of two lines {1:.3} Hz apart, not growth or decay"
     )]
-    Beat {
-        /// Frequency about which they are, Hz.
-        frequency_hz: f64,
-        /// Their distance, Hz.
-        apart_hz: f64,
-    },
+    Beat(f64, f64),
     /// A rate whose interval holds zero.
     #[error(
         "its rate of {:.3} 1/s may be anything from {:.3} to {:.3} 1/s: neither growth nor decay",
@@ -174,8 +169,7 @@ pub fn exponential_stage(
         // Beside a steady hum another line may grow, of which the loudest part has more.
         let louder =
             loudest_parts(samples, sampling_rate).find(|(own, _)| !is_near(*own, frequency));
-        let found = louder.and_then(|(own, _)| stage_at(samples, sampling_rate, own).ok());
-        found.ok_or(none)
+        louder.and_then(|(own, _)| stage_at(samples, sampling_rate, own).ok()).ok_or(none)
     })
 }
 
@@ -204,7 +198,7 @@ fn stage_at(
     }
     let signal = demodulated(samples, sampling_rate, frequency)?;
     match beat::beat(&signal, &stage) {
-        Some(apart_hz) => Err(NoGrowth::Beat { frequency_hz: frequency, apart_hz }),
+        Some(apart_hz) => Err(NoGrowth::Beat(frequency, apart_hz)),
         None => Ok(stage),
     }
 }
@@ -401,9 +395,7 @@ mod tests {
             [(0.5, 1.0), (2.0, 0.5), (2.0, 0.9), (3.0, 0.5), (5.0, 1.0), (8.0, 0.7)]
         {
             let found = exponential_stage(&beside(apart_hz, &|_| r), 2e4);
-            let Err(NoGrowth::Beat { apart_hz: own, .. }) = found else {
-                panic!("{apart_hz} {r}: {found:?}")
-            };
+            let Err(NoGrowth::Beat(_, own)) = found else { panic!("{apart_hz} {r}: {found:?}") };
             assert!((own / apart_hz - 1.0).abs() < 0.05, "{own} {apart_hz}");
         }
         let grown = beside(3.0, &|t| 0.05 * (6.0 * t).exp());

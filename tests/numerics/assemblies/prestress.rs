@@ -146,8 +146,7 @@ fn the_whole_mesh_of_a_disc_has_the_prestress_of_its_harmonics() {
                  mesh.radial_elements=2";
     let compliant = "contact.normal_stiffness=1e13 ; contact.base_state=compliant";
     for (contact, bound) in [(&[rigid][..], 5e-4), (&[rigid, compliant], 2e-2)] {
-        // Frequencies of the modes of the section's plane: of the others friction across the sliding, which is distributed in
-        // another way, is a part.
+        // Frequencies of the modes of the section's plane: to others belongs friction across the sliding, distributed in another way.
         let frequencies = |method: &str, stressed: bool| -> Vec<f64> {
             let how = format!("cea.method={method} ; cea.geometric_stiffness={stressed}");
             let case = case_of("disc.toml", SOLID_RING, &[contact, &[&how]].concat());

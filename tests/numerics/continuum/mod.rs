@@ -12,8 +12,7 @@ use crate::prelude::*;
 use prestress::Stress;
 use radial::RadialElement;
 
-/// Polynomial degree in `r`; a few degrees more or less change no eigenvalue below 20 kHz by more
-/// than round-off (asserted in `continuum_reference.rs`).
+/// Polynomial degree in `r`: some more or less change eigenvalues below 20 kHz by round-off (see `continuum_reference.rs`).
 pub const DEGREE: usize = 24;
 
 /// An isotropic annulus with radii `a` and `b`, clamped outside (SI units, per metre of thickness), in plane strain or plane stress.
@@ -146,8 +145,7 @@ impl Annulus {
             let r = point.radius;
             let weight = point.weight * r;
             let initial = stress.as_ref().map(|state| state.stress(r));
-            // Displacement gradients (rr, r theta, theta r, theta theta) of each unknown, without
-            // the factor i that the second and third carry.
+            // Displacement gradients (rr, r theta, theta r, theta theta) of each unknown, without the factor i of the second and third.
             let gradient = |dof: usize| {
                 let (value, slope) = (point.values[dof / 2], point.slopes[dof / 2]);
                 if dof.is_multiple_of(2) {

@@ -87,7 +87,7 @@ fn binary(text: &str, values: &[c64], is_big: bool) -> Vec<u8> {
 #[test]
 fn universal_files_in_text_and_binary_give_back_the_response() {
     let want = named();
-    let text = write_response(&want, [(0, 0); 2]);
+    let text = want.written([(0, 0); 2]);
     let check = |bytes: &[u8], tolerance: f64| {
         let file = reader::read_response(bytes, "x", &ResponseOptions::default()).unwrap();
         assert_eq!(file.responses[0].name, want.name);
@@ -113,7 +113,7 @@ fn universal_files_in_text_and_binary_give_back_the_response() {
 #[test]
 fn every_function_of_a_universal_file_is_read_in_its_units() {
     let want = named();
-    let text = write_response(&want, [(0, 0); 2]);
+    let text = want.written([(0, 0); 2]);
     let bytes = binary(&text, want.response.values(), false);
     let read = |bytes: &[u8]| reader::read_response(bytes, "x", &ResponseOptions::default());
     for bytes in [text.as_bytes(), &bytes] {

@@ -3,7 +3,7 @@
 use super::formats::{matlab, signal, wave};
 use super::{read_response, read_signal};
 use crate::prelude::*;
-use frictionsim::signal::reader::{NamedResponse, write_response, write_signal};
+use frictionsim::signal::reader::{NamedResponse, write_signal};
 use frictionsim::signal::*;
 use proptest::prelude::*;
 
@@ -62,7 +62,7 @@ fn corpus() -> Vec<Vec<u8>> {
         format!("t\tx\n{timed}").into_bytes(),
         format!("Zeit [s]\tKanal 1\n{timed}").replace('.', ",").into_bytes(),
         samples.iter().map(|x| format!("{x}\n")).collect::<String>().into_bytes(),
-        write_response(&named, [(5, 3), (70, 1)]).into_bytes(),
+        named.written([(5, 3), (70, 1)]).into_bytes(),
         write_signal(&signal(&["a"], &samples)).into_bytes(),
         wave(&samples),
         matlab(&samples, false),

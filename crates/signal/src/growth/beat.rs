@@ -21,10 +21,7 @@ pub(super) fn beat(signal: &Demodulated, stage: &ExponentialStage) -> Option<f64
         .map(|place| signal.times.partition_point(|time| *time < place));
     let value = |k: usize| c64::from_polar(signal.log_amplitude[k].exp(), signal.phase[k]);
     let z: Vec<c64> = (first..end).map(value).collect();
-    let lag = (z.len() / 4).max(1);
-    if z.len() < 4 * lag {
-        return None;
-    }
+    let lag = z.len() / 4; // Of fewer than four the factors are no numbers.
     let step = signal.times[first + lag] - signal.times[first];
 
     // The two roots.
@@ -38,11 +35,8 @@ pub(super) fn beat(signal: &Demodulated, stage: &ExponentialStage) -> Option<f64
     let time = |k: usize| signal.times[first + k] - stage.start_s;
     let terms = |k: usize| exponents.map(|p| (p * time(k)).exp());
     let [a, b] = fitted(z.iter().enumerate().map(|(k, z)| (terms(k), *z)))?;
-    let left = |(k, z): (usize, &c64)| {
-        let [p, q] = terms(k);
-        (z - a * p - b * q).norm_sqr()
-    };
-    let left: f64 = z.iter().enumerate().map(left).sum();
+    let left = |(k, z): (usize, &c64)| z - a * terms(k)[0] - b * terms(k)[1];
+    let left: f64 = z.iter().enumerate().map(|own| left(own).norm_sqr()).sum();
     let whole: f64 = z.iter().map(|z| z.norm_sqr()).sum();
     let is_beat = exponents.iter().all(is_steady) && left <= LEFT * LEFT * whole;
     is_beat.then(|| (exponents[0] - exponents[1]).im.abs() / std::f64::consts::TAU)

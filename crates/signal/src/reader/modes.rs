@@ -61,11 +61,11 @@ fn modes(bytes: &[u8]) -> Result<Vec<MeasuredMode>, ReadError> {
     if let Some(name) = names.iter().find(is_damping)
         && [2, 3, 7].iter().all(|&column| places[column].is_none())
     {
-        let problem = format!(
-            "the damping in column `{name}` is not read; give it as `damping_factor` (zeta), in per cent as \
-             `damping_%`, or as `real_hz`"
-        );
-        return Err(ReadError::whole(problem));
+        let remedy =
+            "give it as `damping_factor` (zeta), in per cent as `damping_%`, or as `real_hz`";
+        return Err(ReadError::whole(format!(
+            "the damping in column `{name}` is not read; {remedy}"
+        )));
     }
     let modes = rows.map(|row| mode(&row, &places)).collect::<Result<Vec<_>, ReadError>>()?;
     if modes.is_empty() {

@@ -6,6 +6,7 @@ use super::error::ReadError;
 use super::table::Table;
 use super::text::{first_of, shortened};
 use super::uff::ORDINATES;
+use super::uff_writing::{Place, write_response};
 use super::units::{hertz, response_unit};
 use super::{Format, selected, uff};
 
@@ -16,6 +17,14 @@ pub struct NamedResponse {
     pub name: String,
     /// The response.
     pub response: FrequencyResponse,
+}
+
+impl NamedResponse {
+    /// As [`super::write_response`].
+    pub fn written(&self, places: [Place; 2]) -> String {
+        let lines = (self.response.frequencies_hz(), self.response.values());
+        write_response(&self.name, self.response.quantity(), lines, places)
+    }
 }
 
 /// Frequency responses and what the reader had to decide.

@@ -2,9 +2,9 @@
 //!
 //! Source: SDRC, "Universal file datasets", by their numbers.
 
-use super::response::NamedResponse;
 use super::time_signal::SignalFile;
 use super::uff::{FREQUENCY_RESPONSE, ORDINATES, TIME, TIME_AXIS};
+use crate::ResponseQuantity;
 use faer::c64;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -13,17 +13,19 @@ use std::io::{self, Write};
 pub type Place = (usize, u32);
 
 /// A frequency response as dataset 58 in text, complex double precision, with the places of motion and force.
-pub fn write_response(named: &NamedResponse, places: [Place; 2]) -> String {
-    let response = &named.response;
-    let (ordinate, _) = ORDINATES[response.quantity() as usize];
-    let (f, values) = (response.frequencies_hz(), response.values());
+pub fn write_response(
+    name: &str,
+    quantity: ResponseQuantity,
+    (f, values): (&[f64], &[c64]),
+    places: [Place; 2],
+) -> String {
+    let (ordinate, _) = ORDINATES[quantity as usize];
     let step = (f[f.len() - 1] - f[0]) / (f.len() - 1) as f64;
     let mut numbered = f.iter().enumerate();
     let is_even = numbered.all(|(k, f_k)| (f_k - f[0] - k as f64 * step).abs() <= 1e-6 * step);
     let axis = if is_even { [f[0], step] } else { [0.0; 2] };
     let form = [6, values.len(), usize::from(is_even)];
-    let kind = (FREQUENCY_RESPONSE, places);
-    let mut out = header(&named.name, kind, form, axis, [18, ordinate, 13]);
+    let mut out = header(name, (FREQUENCY_RESPONSE, places), form, axis, [18, ordinate, 13]);
     if is_even {
         for two in values.chunks(2) {
             out += &(complex_row(two, 20, 12) + "\n");

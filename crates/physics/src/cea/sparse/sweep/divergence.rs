@@ -32,10 +32,8 @@ impl SparseSweep<'_> {
         let mut place = ends.chain(is_unstable.then_some(first)).min_by(f64::total_cmp);
         let after = &self.grid[1..];
         let last = &after[after.len().saturating_sub(1)..];
-        if place.is_none() {
-            if self.sign_change((start, at_start), last)?.is_some() {
-                place = self.sign_change((start, at_start), after)?;
-            }
+        if place.is_none() && self.sign_change((start, at_start), last)?.is_some() {
+            place = self.sign_change((start, at_start), after)?;
         }
         Ok(place.map(|mu| mu.max(first)).map(|critical_friction| UnstableInterval {
             critical_friction,
