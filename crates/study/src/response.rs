@@ -131,16 +131,17 @@ impl<'a> FrequencyStudy<'a> {
         };
         found.method = method.to_owned();
         found.description = described(self.case, frf, &found);
+        if solved.iter().all(|own| *own == c64::ZERO) {
+            found.description += "; it is zero, as nothing joins the two nodes";
+        }
         Ok(Response { summary: found, solved, thickness: self.case.depth() })
     }
 }
 
 /// What was computed, in a sentence.
 fn described(case: &Case, frf: &Frf, found: &ResponseSummary) -> String {
-    let place = |t: Terminal| {
-        let direction = t.direction.name();
-        format!("node {} {direction}", case.body.node_label(t.node))
-    };
+    let place =
+        |t: Terminal| format!("node {} {}", case.body.node_label(t.node), t.direction.name());
     let error = match (found.largest_error, found.basis_vectors, found.backward_error) {
         (Some(error), Some(vectors), _) => {
             format!(" ({vectors} vectors, largest relative error at the check lines {error:.1e})")

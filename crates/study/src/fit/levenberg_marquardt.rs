@@ -3,7 +3,6 @@
 use super::matching::{Weights, assign, differences};
 use super::{FitProblem, ModelMode};
 use crate::prelude::*;
-use nalgebra::DVector;
 
 /// Iterations at most.
 const ITERATIONS: usize = 40;
