@@ -112,8 +112,7 @@ fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
     let study = Study::new();
     study.sweep("full", &["--shard", "1/2"]).done();
     let before = points(&study.folder("full"));
-    // No file above 512 bytes, which no point fits into; the signal that comes with the limit is
-    // ignored, so that writing fails as it does on a full disk.
+    // No file above 512 bytes, which no point fits into; its signal is ignored, so that writing fails as on a full disk.
     let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
     let words = ["sweep", "study.toml", "--quiet", "--out", "full", "--shard", "2/2"];
     shell(&study.root, script, &words).code(1).warns(&["no room left", "point-"]);

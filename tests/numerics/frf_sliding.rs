@@ -57,7 +57,7 @@ impl ModalForm {
 
     /// `sum_k r_k l_k^T b / (i omega - lambda_k)` of the response, and a bound of its error.
     ///
-    /// The sum is exact for `A + E`, `|E|` the defect: its error `c R E R b` is at most `|c R| |E| |R b|`, `R = (i omega - A)^{-1}`.
+    /// The sum is exact for `A + E`, `|E|` the defect: to first order off by `c R E R b <= |c R| |E| |R b|`, `R = (i omega - A)^{-1}`.
     fn response(&self, frequency_hz: f64, force: usize, response: usize) -> (c64, f64) {
         let size = self.poles.len() / 2;
         let mut input = Mat::<f64>::zeros(size, 1);

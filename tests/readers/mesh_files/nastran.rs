@@ -67,7 +67,8 @@ fn an_orthotropic_stiffness_gives_engineering_constants() {
 fn wrong_bulk_data_is_told_by_line_and_name() {
     check_errors("brick.bdf", BRICK, include_str!("../meshes/wrong-nastran.txt"));
     has(&error("a.bdf", "GRID,1,,0.,0.,0.\n"), &["no solid elements"]);
-    let wedge = "GRID,1\nGRID,2,,1.\nGRID,3,,,1.\nGRID,4,,,,1.\nGRID,5,,1.,,1.\nGRID,6,,,1.,1.\nCPENTA,1,1,1,2,3,4,5,6\nPSOLID,1,1\nMAT1,1,1.,,.3";
+    let wedge = "GRID,1\nGRID,2,,1.\nGRID,3,,,1.\nGRID,4,,,,1.\nGRID,5,,1.,,1.\nGRID,6,,,1.,1.\n\
+                 CPENTA,1,1,1,2,3,4,5,6\nPSOLID,1,1\nMAT1,1,1.,,.3";
     // Two neighbouring corners name none of its faces, on whichever edge of a triangle.
     for ends in ["1,2", "2,3", "1,3", "4,6"] {
         let pressed = format!("{wedge}\nPLOAD4,1,1,1.,,,,{ends}");

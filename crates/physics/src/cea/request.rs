@@ -37,7 +37,7 @@ pub struct SweepRequest<'a> {
     pub limit: ModeLimit,
     /// Those of the friction coefficients at which mode shapes are wanted.
     pub shapes_at: &'a [f64],
-    /// The one of them at which left vectors are wanted too, to two digits; with it at critical friction.
+    /// The one of them at which left vectors are wanted too, to three digits; with it at critical friction.
     pub lefts_at: Option<f64>,
     /// Whether modes are counted by the argument principle under friction, too.
     pub count_modes: bool,

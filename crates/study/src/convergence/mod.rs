@@ -22,7 +22,7 @@ use crate::prelude::*;
 use frictionsim_case::TimeStep;
 use frictionsim_results::convergence::{Quantity, Refinement, Series};
 
-/// Distance of the finest value from the limit, relative to that, from which on order and limit are rough.
+/// Distance of the finest value from the limit, relative to the largest, from which on order and limit are rough.
 const FAR: f64 = 0.05;
 
 /// Levels of one series: the same case refined.
@@ -195,16 +195,16 @@ fn series(case: &Case, study: &Levels, done: Vec<Done>) -> Result<Vec<Series>, S
 fn far_note(quantities: &[Quantity]) -> Option<String> {
     let away = |own: &Quantity| {
         let (limit, finest) = own.extrapolated.zip(own.values.last().copied().flatten())?;
-        let away = ((finest - limit) / limit).abs();
+        let values = own.values.iter().flatten();
+        let away = (finest - limit).abs() / values.fold(limit.abs(), |most, v| most.max(v.abs()));
         (away > FAR).then(|| (away, own.name.clone()))
     };
     let far = sorted(quantities.iter().filter_map(away), |own| -own.0);
     let (away, name) = far.first()?;
+    let [away, most] = [*away, FAR].map(|share| 100.0 * share);
     Some(format!(
-        "the finest level is {:.0} % away from the limit of {name}. A limit more than {:.0} % away, here of {} \
-         quantities, is an extrapolation of levels too coarse to tell order and error: refine further",
-        100.0 * away,
-        100.0 * FAR,
+        "{name}: the limit is {away:.0} % of its largest value away from the finest level. More than {most:.0} % ({} \
+         here) is an extrapolation of levels too coarse to tell order and error: refine further",
         far.len()
     ))
 }

@@ -5,7 +5,7 @@ use super::linearization::Linearization;
 use super::packed::{PackedEntry, PackedModes, add_complex_multiple};
 use super::projected::weighted_sum;
 use super::structure::StructureMatrices;
-use super::{BESIDE, GROUP_WIDTH, MOST_STEPS, NEAR};
+use super::{BESIDE, GROUP_WIDTH, MOST_STEPS};
 use crate::cea::ModeVectors;
 use crate::linalg::dense::{add_product, product, transpose_product};
 use crate::linalg::vectors::{dot, length};
@@ -150,7 +150,7 @@ fn correct_group(
     let mut among: Vec<ComplexDenseLu> = Vec::new();
     let mut open: Vec<usize> = (0..pairs.len()).collect();
     for _ in 0..MOST_STEPS {
-        open.retain(|&k| energy(&lefts[k]) > NEAR * goals[k]); // Two digits of the vector: as many as estimates of errors have.
+        open.retain(|&k| energy(&lefts[k]) > BESIDE * BESIDE * goals[k]); // Three digits of the vector.
         if open.is_empty() {
             break;
         }
@@ -241,7 +241,7 @@ mod tests {
                 let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
                 let cosine = dot(w, exact).norm() / (length(w) * length(exact));
                 let away = 1.0 - cosine * cosine;
-                assert!(away < NEAR, "{is_proportional} {}: {away}", own.eigenvalue);
+                assert!(away < 1e-6, "{is_proportional} {}: {away}", own.eigenvalue);
                 let slope = full.slope(own.eigenvalue, w, &own.right);
                 assert!((slope - 1.0).norm() < 1e-12, "{slope}");
             }
