@@ -180,11 +180,13 @@ impl Body {
 
     /// The mesh of the body, of one in three dimensions that of its section across the axis.
     pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
-        let generate =
-            |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));
+        let generate = |grid: &AnnulusSpecification| Ok(AnnulusMesh::generate(grid)?.mesh);
         match &self.kind {
-            BodyKind::Annulus(annulus) => generate(annulus),
-            BodyKind::Revolution(solid) => generate(&solid.plane()),
+            BodyKind::Annulus(annulus) => generate(annulus).map(Arc::new),
+            BodyKind::Revolution(solid) => {
+                let regions = solid.region_names();
+                generate(&solid.plane()).map(|mesh| Arc::new(Mesh { regions, ..mesh }))
+            }
             BodyKind::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
             BodyKind::Assembly(assembly) => Ok(Arc::clone(&assembly.mesh)),
         }

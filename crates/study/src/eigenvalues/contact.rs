@@ -9,20 +9,6 @@ use frictionsim_results::cea::{ContactPlace, ContactState};
 /// Name of the only contact of a body that slides on a rigid counterface.
 pub(super) const CONTACT: &str = "contact";
 
-/// What slides, in the base state at the case's own friction coefficient.
-#[derive(Clone)]
-pub enum SteadyState {
-    /// Contacts of bodies on a mesh, of a plane one its edge, and the state of their points.
-    Mesh {
-        /// The contacts with their points.
-        contacts: Arc<[(SlidingSurfaces, ContactSurface)]>,
-        /// Displacement and normal forces.
-        state: PressedState,
-    },
-    /// A body of revolution in three dimensions.
-    Solid(Box<SolidState>),
-}
-
 /// One sector of a body of revolution, and its base state.
 #[derive(Clone)]
 pub struct SolidState {
@@ -58,34 +44,32 @@ pub(super) fn places<'s>(
     all.collect()
 }
 
-impl SteadyState {
-    /// The contact place by place: pressure `p_i = N_i / w_i` of points, zero of a state that is free of stress, and
-    /// friction traction `mu drag_i p_i`.
-    pub(super) fn contact(&self, case: &Case, mesh: &Mesh) -> Vec<ContactState> {
-        let friction = case.contact.sliding.friction_coefficient;
-        let (contacts, state) = match self {
-            Self::Solid(solid) => return solid.contact(friction),
-            Self::Mesh { contacts, state } => (contacts, state),
-        };
-        let forces = state.normal_forces(friction);
-        let points = places(case, mesh, contacts).into_iter().enumerate();
-        let states = points.map(|(i, (place, point))| {
-            let pressure = forces.get(i).map_or(0.0, |force| force / point.weight);
-            ContactState {
-                place,
-                speed: point.speed,
-                pressure,
-                shear: friction * point.friction.drag * pressure,
-                is_pressed: state.is_pressed[i],
-            }
-        });
-        states.collect()
-    }
+/// The contact point by point: pressure `p_i = N_i / w_i`, zero of a state that is free of stress, and friction traction
+/// `mu drag_i p_i`.
+pub(super) fn contact_of(
+    case: &Case,
+    mesh: &Mesh,
+    (contacts, state): (&[(SlidingSurfaces, ContactSurface)], &PressedState),
+) -> Vec<ContactState> {
+    let friction = case.contact.sliding.friction_coefficient;
+    let forces = state.normal_forces(friction);
+    let points = places(case, mesh, contacts).into_iter().enumerate();
+    let states = points.map(|(i, (place, point))| {
+        let pressure = forces.get(i).map_or(0.0, |force| force / point.weight);
+        ContactState {
+            place,
+            speed: point.speed,
+            pressure,
+            shear: friction * point.friction.drag * pressure,
+            is_pressed: state.is_pressed[i],
+        }
+    });
+    states.collect()
 }
 
 impl SolidState {
     /// The rings of contact nodes, each at angle 0 with the area of all its nodes.
-    fn contact(&self, friction_coefficient: f64) -> Vec<ContactState> {
+    pub(super) fn contact(&self, friction_coefficient: f64) -> Vec<ContactState> {
         let Self { sector, base } = self;
         let sectors = sector.sector_count();
         let state = |(i, ring): (usize, &ContactRing)| {

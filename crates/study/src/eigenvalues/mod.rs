@@ -23,7 +23,7 @@ mod spectrum;
 mod states;
 mod whole;
 
-pub use contact::{SolidState, SteadyState};
+pub use contact::SolidState;
 pub use model::{Model, Solver, asked_modes, wave_tangent};
 pub use sensitivity::body_sensitivities;
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};

@@ -1,7 +1,7 @@
 //! What is said beside the results of an eigenvalue analysis.
 
 use super::SlidingModel;
-use super::contact::{SteadyState, mean_friction};
+use super::contact::mean_friction;
 use crate::prelude::*;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
@@ -230,7 +230,7 @@ pub(super) fn overdamped_note(
     overdamped: &[Overdamped],
 ) -> Option<String> {
     let most = overdamped.iter().max_by_key(|own| own.count);
-    let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid()?);
+    let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid.as_ref()?);
     let [slowest, fastest] = most.decay;
     let grows = match slowest < 0.0 {
         true => " (a negative one grows: steady sliding is statically unstable)",
@@ -266,14 +266,14 @@ pub(super) fn ratio_note(case: &Case) -> Option<String> {
 pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
     case.contact.sliding.decay?;
     let friction = case.contact.sliding.friction_coefficient;
-    let (law, pressure) = match &model.state {
-        SteadyState::Solid(solid) => {
+    let (law, pressure) = match (&model.solid, model.mesh.dimension) {
+        (Some(solid), _) => {
             let (_, law, pressure) = mean_friction(solid);
             (law, pressure)
         }
         // Each contact of solid bodies has its own.
-        SteadyState::Mesh { .. } if model.mesh.dimension == 3 => return None,
-        SteadyState::Mesh { .. } => {
+        (None, 3) => return None,
+        (None, _) => {
             let pressures = model.contact.iter().map(|own| own.pressure);
             let mean = pressures.sum::<f64>() / model.contact.len().max(1) as f64;
             let edge = ContactInterface::of(&model.mesh);

@@ -1,11 +1,11 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
-use super::contact::{SolidState, SteadyState};
+use super::contact::{SolidState, contact_of};
 use super::model::Model;
 use crate::extent_of;
 use crate::prelude::*;
 use frictionsim_chart::literal;
-use frictionsim_physics::prestress::{SectorSliding, SolidSliding};
+use frictionsim_physics::prestress::{PressedState, SectorSliding, SolidSliding};
 use frictionsim_results::cea::{BaseField, BaseState, ContactState, NamedDamping};
 use frictionsim_results::grouped;
 
@@ -18,41 +18,14 @@ pub struct SlidingModel {
     pub mesh: Arc<Mesh>,
     /// What the solver takes.
     pub model: Model,
-    /// Its base state.
-    pub state: SteadyState,
-    /// The contact in it.
+    /// The contacts with their points, of a plane body its edge; none of a body of revolution, whose contact is rings.
+    contacts: Arc<[(SlidingSurfaces, ContactSurface)]>,
+    /// Base state at the case's own friction coefficient, of a body of revolution that of a sector.
+    state: PressedState,
+    /// The body of revolution in three dimensions, if it is one.
+    pub solid: Option<SolidState>,
+    /// The contact in the base state.
     pub contact: Vec<ContactState>,
-}
-
-/// The mesh and the base state of a body of equal sectors, from one of them.
-fn sliding_sector(
-    case: &Case,
-    options: &TangentOptions,
-) -> Result<(Arc<Mesh>, SteadyState), StudyError> {
-    let sliding = &case.contact.sliding;
-    Ok(match &case.body.kind {
-        BodyKind::Annulus(specification) => {
-            let mesh = AnnulusMesh::generate(specification)?.mesh;
-            let sector = Strip::of_annulus(specification)?;
-            let elastic = sector.stiffness_alike(&case.body.materials);
-            let base = SectorSliding::solve(&sector, &elastic, sliding, options.contact.law)?;
-            let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
-            let contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);
-            (Arc::new(mesh), SteadyState::Mesh { contacts, state: base.repeated(sector.count) })
-        }
-        BodyKind::Revolution(specification) => {
-            let sector = SolidSector::generate(specification)?;
-            let elastic = sector.strip.stiffness_alike(case.materials());
-            let stiffness = &case.contact.stiffness;
-            let base = SolidSliding::solve(&sector, &elastic, sliding, stiffness, case.mass())?;
-            let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
-            mesh.regions = specification.region_names();
-            (Arc::new(mesh), SteadyState::Solid(Box::new(SolidState { sector, base })))
-        }
-        BodyKind::Imported(_) | BodyKind::Assembly(_) => {
-            unreachable!("a body of equal sectors has waves")
-        }
-    })
 }
 
 impl SlidingModel {
@@ -62,16 +35,42 @@ impl SlidingModel {
     /// A mesh that cannot be built; contact that would open on an annulus; no state of sliding; a method that needs a
     /// symmetry which is not there.
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
+        let (sliding, materials) = (&case.contact.sliding, &case.body.materials);
         let model = Model::new(case, cea)?;
-        let (mesh, state) = match &model {
-            Model::Whole(whole) => {
-                let (contacts, state) = (Arc::clone(&whole.joined.contacts), whole.state().clone());
-                (Arc::clone(&whole.mesh), SteadyState::Mesh { contacts, state })
-            }
-            Model::Waves(options) => sliding_sector(case, options)?,
+        let mesh = match &model {
+            Model::Whole(whole) => Arc::clone(&whole.mesh),
+            Model::Waves(_) => case.body.mesh()?,
         };
-        let contact = state.contact(case, &mesh);
-        let model = Self { mesh, model, state, contact };
+        let (mut contacts, mut solid): (Arc<[_]>, _) = ([].into(), None);
+        let state = match (&model, &case.body.kind) {
+            (Model::Whole(whole), _) => {
+                contacts = Arc::clone(&whole.joined.contacts);
+                whole.state().clone()
+            }
+            (Model::Waves(options), BodyKind::Annulus(specification)) => {
+                let sector = Strip::of_annulus(specification)?;
+                let elastic = sector.stiffness_alike(materials);
+                let base = SectorSliding::solve(&sector, &elastic, sliding, options.contact.law)?;
+                let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
+                contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);
+                base.repeated(sector.count)
+            }
+            (Model::Waves(_), BodyKind::Revolution(specification)) => {
+                let sector = SolidSector::generate(specification)?;
+                let elastic = sector.strip.stiffness_alike(materials);
+                let stiffness = &case.contact.stiffness;
+                let base = SolidSliding::solve(&sector, &elastic, sliding, stiffness, case.mass())?;
+                solid.insert(SolidState { sector, base }).base.sliding.state.clone()
+            }
+            (Model::Waves(_), BodyKind::Imported(_) | BodyKind::Assembly(_)) => {
+                unreachable!("a body of equal sectors has waves")
+            }
+        };
+        let contact = match &solid {
+            Some(solid) => solid.contact(sliding.friction_coefficient),
+            None => contact_of(case, &mesh, (&contacts, &state)),
+        };
+        let model = Self { mesh, model, contacts, state, solid, contact };
         model.refuse_no_pressure(case)?;
         Ok(model)
     }
@@ -99,11 +98,6 @@ impl SlidingModel {
                 "give an interference above zero, or a boundary with condition = \"pressure\"")))
     }
 
-    /// The body of revolution in three dimensions and its base state, if it is one.
-    pub fn solid(&self) -> Option<&SolidState> {
-        if let SteadyState::Solid(own) = &self.state { Some(own) } else { None }
-    }
-
     /// Friction coefficients at which contact nodes open or close, rising.
     pub fn contact_changes(&self) -> &[f64] {
         match &self.model {
@@ -118,26 +112,26 @@ impl SlidingModel {
         let (friction, speed) = (sliding.friction_coefficient, sliding.rotation_speed);
         let contact = || self.contact.iter();
         // Torque or drag, and its power.
-        let [drive, power_w] = match &self.state {
-            SteadyState::Solid(solid) => {
+        let [drive, power_w] = match (&self.solid, self.mesh.dimension) {
+            (Some(solid), _) => {
                 let torque = solid.base.torque(&solid.sector, friction);
                 [torque, torque * speed]
             }
-            SteadyState::Mesh { state, .. } if self.mesh.dimension == 2 => {
+            (None, 2) => {
                 let edge = ContactInterface::of(&self.mesh);
-                let forces = state.normal_forces(friction);
+                let forces = self.state.normal_forces(friction);
                 let torque = case.thickness * edge.torque(sliding, friction, &forces);
                 [torque, torque * speed]
             }
-            SteadyState::Mesh { .. } => {
+            (None, _) => {
                 let power = contact().map(|own| own.shear * own.place.area * own.speed).sum();
                 [if speed == 0.0 { 0.0 } else { power / speed }, power]
             }
         };
         // Points of a mesh lie at nodes or between them, a ring has many.
-        let nodes = |own: &ContactState| match self.state {
-            SteadyState::Mesh { .. } => 1,
-            SteadyState::Solid(_) => own.place.shares.len(),
+        let nodes = |own: &ContactState| match self.solid {
+            None => 1,
+            Some(_) => own.place.shares.len(),
         };
         let count = |is_pressed: bool| {
             contact().filter(|own| own.is_pressed == is_pressed).map(nodes).sum()
@@ -159,19 +153,16 @@ impl SlidingModel {
 
     /// The body as results show it.
     pub fn body(&self) -> ShownBody<'_> {
-        ShownBody { mesh: &self.mesh, sector: self.solid().map(|own| &own.sector) }
+        ShownBody { mesh: &self.mesh, sector: self.solid.as_ref().map(|own| &own.sector) }
     }
 
     /// The base state place by place.
     pub fn base_field(&self, case: &Case) -> BaseField {
         let friction = case.contact.sliding.friction_coefficient;
-        let (displacement, contacts) = match &self.state {
-            SteadyState::Mesh { contacts, state } => (state.displacement(friction), &contacts[..]),
-            SteadyState::Solid(solid) => (solid.base.sliding.state.displacement(friction), &[][..]),
-        };
-        let surfaces = contacts.iter().filter(|(own, _)| !own.is_edge());
+        let displacement = self.state.displacement(friction);
+        let surfaces = self.contacts.iter().filter(|(own, _)| !own.is_edge());
         let surfaces = surfaces.map(|(own, _)| (own.name.clone(), own.surface)).collect();
-        let sectors = self.solid().map_or(1, |own| own.sector.sector_count());
+        let sectors = self.solid.as_ref().map_or(1, |own| own.sector.sector_count());
         BaseField {
             contact: self.contact.clone(),
             surfaces,

@@ -56,7 +56,7 @@ pub fn solve(
     notes.extend(count_notes(cea, &found.sweep, waves.is_some()));
     notes.append(&mut found.notes);
     notes.extend(waves.and_then(|waves| overdamped_note(case, model, &waves.overdamped)));
-    notes.extend(model.solid().and_then(open_note));
+    notes.extend(model.solid.as_ref().and_then(open_note));
     notes.extend(table_notes(case));
     notes.extend(ratio_note(case));
     notes.extend(rate_note);
