@@ -9,7 +9,7 @@ use super::prelude::*;
 use super::session::machine_memory;
 use super::share::ShareOptions;
 use super::transient::linear_stage;
-use crate::case::Analysis;
+use crate::case::{Analysis, Choice};
 use crate::results::sweep::{
     FailedPoint, SweepFolder, SweepReport, SweepSummary, document, draw_sweep, tables,
 };

@@ -2,7 +2,7 @@
 
 use super::elastic::loss_factor;
 use super::value::quote;
-use super::words::{BaseContact, NormalLawWord, word_of};
+use super::words::{BaseContact, NormalLawWord};
 use super::{imported, solid};
 use crate::prelude::*;
 use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw};
@@ -218,7 +218,7 @@ fn law(section: &Section<'_>, stiffness: Option<f64>) -> Option<NormalLaw> {
     let word: NormalLawWord = section.choice("normal_law");
     for (key, laws) in LAW_KEYS {
         if !laws.contains(&word) && section.has(key) {
-            refuse!(section, key => "has no effect with normal_law = \"{}\"", word_of(word);
+            refuse!(section, key => "has no effect with normal_law = \"{}\"", word.word();
                 "not a number of this law"; "leave it out, or give the law that it belongs to");
         }
         if laws.contains(&word) && word != NormalLawWord::Linear {

@@ -1,7 +1,6 @@
 //! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
 
 use super::parameters::{number, only, read_all};
-use super::words::choice_of;
 use super::{RawItem, RawValue, Spacing, VariedKey};
 use crate::prelude::*;
 
@@ -78,7 +77,7 @@ fn bounds(section: &Section<'_>, parameter: VariedKey, entry: &RawItem) -> FitPa
         RawValue::Table(table) => {
             only(section, table, &["from", "to", "scale", "also"]);
             if let Some(given) = table.get("scale").map(|scale| &scale.value) {
-                match given.text().and_then(choice_of) {
+                match given.text().and_then(Spacing::of) {
                     Some(word) => scale = word,
                     None => refuse_at!(section, at, "scale = {} of {key}", given.shortened();
                         "must be \"linear\" or \"log\""; "{help}"),

@@ -86,7 +86,7 @@ pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
 pub use value::{RawItem, RawTable, RawValue};
 pub use words::{
-    Analysis, CeaMethod, Combination, FrfMethod, ModificationKind, OnsetChoice, Spacing,
+    Analysis, CeaMethod, Choice, Combination, FrfMethod, ModificationKind, OnsetChoice, Spacing,
     StabilityChoice, UnitsWord,
 };
 

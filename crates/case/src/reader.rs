@@ -4,10 +4,9 @@
 mod lists;
 
 use super::value::{cut, with_point};
-use super::words::Choice;
 use super::{
     Bound, CaseKey, Default, Diagnostic, Kind, Location, RawItem, RawTable, RawValue, keys,
-    suggestion, words,
+    suggestion,
 };
 use crate::prelude::*;
 pub(super) use lists::NodePlace;
@@ -408,15 +407,15 @@ impl<'a> Section<'a> {
     pub fn choice<T: Choice>(&self, key: &str) -> T {
         self.item(key).and_then(|item| self.read_choice(key, item)).unwrap_or_else(|| {
             let default = self.declared(key).default_text().trim_matches('"');
-            words::choice_of(default).unwrap_or(T::WORDS[0].1)
+            T::of(default).unwrap_or(T::WORDS[0].1)
         })
     }
 
     fn read_choice<T: Choice>(&self, key: &str, item: &RawItem) -> Option<T> {
-        let words = words::words::<T>();
+        let words = T::words();
         let bound = format!("must be one of \"{}\"", words.join("\", \""));
         if let RawValue::String(text) = &item.value {
-            if let Some(choice) = words::choice_of(text) {
+            if let Some(choice) = T::of(text) {
                 return Some(choice);
             }
             if let Some(near) = suggestion::nearest_word(text, &words) {

@@ -4,7 +4,6 @@
 use super::file_sections::{sections, text};
 use super::taken::drop_key;
 use super::value::quote;
-use super::words::word_of;
 use super::{FileSection, RawValue, UnitsWord, inclusion};
 use crate::prelude::*;
 use frictionsim_physics::mesh::{FileElement, SurfaceFace};
@@ -43,7 +42,7 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
         here wins over the file.\n\
          title = {title}\n\n[mesh]\nfile = {}\nunits = \"{}\"    # of the file: {reason}\n",
         text(shown),
-        word_of(units)
+        units.word()
     );
     let lost: Vec<LeftOut> = left_out.iter().filter(|own| own.is_part).cloned().collect();
     if !lost.is_empty() {

@@ -8,7 +8,6 @@
 use super::elastic::ORTHOTROPIC;
 use super::file_sections::{list, sections, text};
 use super::value::table_of;
-use super::words::choice_of;
 use super::{
     Diagnostic, FileSection, Location, MeshBytes, RawCase, RawItem, RawTable, RawValue, UnitsWord,
     imported,
@@ -43,7 +42,7 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     let table = raw.root.clone();
     let text = |key: &str| raw.find(key)?.value.text();
     let (name, units) = (text("mesh.file").map(str::to_owned), text("mesh.units"));
-    let units = units.and_then(choice_of).unwrap_or(UnitsWord::MKgS);
+    let units = units.and_then(UnitsWord::of).unwrap_or(UnitsWord::MKgS);
     raw.mesh = name.as_ref().and_then(|name| imported::mesh_bytes(raw, name).ok());
     let Some(name) = name else { return (table, Taken::default()) };
     // A file that cannot be read is told where the body is made of it.

@@ -6,14 +6,29 @@ use frictionsim_physics::mesh::ElementKind;
 use frictionsim_physics::transient::InitialState;
 
 /// A choice that a case names by a word.
-pub(super) trait Choice: Copy + 'static {
+pub trait Choice: Copy + PartialEq + 'static {
     /// Every word with what it stands for, in the order of the documentation.
     const WORDS: &'static [(&'static str, Self)];
-}
 
-/// The words of a choice.
-pub(super) fn words<T: Choice>() -> Vec<&'static str> {
-    T::WORDS.iter().map(|pair| pair.0).collect()
+    /// All of them.
+    fn all() -> impl Iterator<Item = Self> {
+        Self::WORDS.iter().map(|pair| pair.1)
+    }
+
+    /// All words.
+    fn words() -> Vec<&'static str> {
+        Self::WORDS.iter().map(|pair| pair.0).collect()
+    }
+
+    /// What a word stands for.
+    fn of(word: &str) -> Option<Self> {
+        Self::WORDS.iter().find(|pair| pair.0 == word).map(|pair| pair.1)
+    }
+
+    /// Its word.
+    fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|pair| pair.1 == self).map_or("", |pair| pair.0)
+    }
 }
 
 /// Choices by the names of their types, each with its words.
@@ -24,33 +39,6 @@ pub(super) fn words_named(name: &str) -> Option<fn() -> Vec<&'static str>> {
     let mut all = [OWN, OTHERS, NAMED].into_iter().flatten();
     all.find(|pair| pair.0 == name).map(|pair| pair.1)
 }
-
-/// What a word stands for.
-pub(super) fn choice_of<T: Choice>(word: &str) -> Option<T> {
-    T::WORDS.iter().find(|pair| pair.0 == word).map(|pair| pair.1)
-}
-
-/// The word of a choice.
-pub(super) fn word_of<T: Choice + PartialEq>(choice: T) -> &'static str {
-    T::WORDS.iter().find(|pair| pair.1 == choice).map_or("", |pair| pair.0)
-}
-
-/// Lets others name and list choices.
-macro_rules! listed {
-    ($($name:ident),+) => {$(impl $name {
-        /// Its word.
-        pub fn word(self) -> &'static str {
-            word_of(self)
-        }
-
-        /// All of them.
-        pub fn all() -> impl Iterator<Item = Self> {
-            Self::WORDS.iter().map(|pair| pair.1)
-        }
-    })+};
-}
-
-listed!(ModificationKind, Analysis);
 
 impl UnitsWord {
     /// Power of ten that takes numbers to an SI unit: t / (mm s2) = 1e6 Pa, t / mm3 = 1e12 kg / m3.
@@ -78,7 +66,7 @@ macro_rules! words {
             const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),+];
         }
     )+
-        const OWN: Named = &[$((stringify!($name), words::<$name>)),+];
+        const OWN: Named = &[$((stringify!($name), $name::words)),+];
     };
 }
 
@@ -217,7 +205,7 @@ macro_rules! choices {
             const WORDS: &'static [(&'static str, Self)] = &[$(($word, $value)),+];
         }
     )+
-        const OTHERS: Named = &[$((stringify!($choice), words::<$choice>)),+];
+        const OTHERS: Named = &[$((stringify!($choice), $choice::words)),+];
     };
 }
 
@@ -241,7 +229,7 @@ macro_rules! named {
             const WORDS: &'static [(&'static str, Self)] = &[$(($value.name(), $value)),+];
         }
     )+
-        const NAMED: Named = &[$((stringify!($choice), words::<$choice>)),+];
+        const NAMED: Named = &[$((stringify!($choice), $choice::words)),+];
     };
 }
 

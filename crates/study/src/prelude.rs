@@ -2,7 +2,7 @@
 
 pub(crate) use crate::error::StudyError;
 pub(crate) use frictionsim_case::{
-    Analysis, AssemblyBody, BodyKind, Case, CaseErrors, Cea, CeaMethod, ModificationKind,
+    Analysis, AssemblyBody, BodyKind, Case, CaseErrors, Cea, CeaMethod, Choice, ModificationKind,
     StabilityChoice, refusal,
 };
 pub(crate) use frictionsim_output::rounded;

@@ -2,7 +2,6 @@
 
 use super::Section;
 use crate::prelude::*;
-use crate::words::Choice;
 use crate::{Bound, Kind, Location, RawItem, RawTable, RawValue, Spacing, keys};
 
 /// Longest list that a range may stand for.
