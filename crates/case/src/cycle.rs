@@ -98,38 +98,37 @@ impl Case {
     /// constant friction coefficient, in contact that does not stiffen with pressure. Those of any other plane body are
     /// motions of the whole mesh.
     pub fn has_rotating_waves(&self) -> bool {
-        let annulus = self.body.annulus();
-        annulus.is_some_and(|annulus| annulus.shaft.is_none())
-            && self.contact.sliding.decay.is_none()
-            && self.contact.stiffness.law.is_none()
+        self.body.annulus().is_some() && self.without_waves().is_none()
     }
 
-    /// That its limit cycles are rotating waves.
-    ///
-    /// # Errors
-    /// A deformable shaft, friction that falls with speed, a body that is no generated annulus.
-    pub fn require_rotating_waves(&self) -> Result<(), CaseErrors> {
-        if self.body.grid().is_some_and(|grid| grid.shaft.is_some()) {
-            let key = "geometry.shaft_inner_radius";
-            return Err(refusal!(self, key,
-                "the search for rotating waves takes the cylinder as rigid, and {key} gives a \
-                 deformable shaft"; "not with a deformable shaft"; "leave {key} out"));
-        }
-        self.require_annulus("rotating waves are sought in")?;
-        if self.contact.stiffness.law.is_some() {
-            return Err(refusal!(self, "contact.normal_law",
-                "rotating waves are those of rigid contact, whose pressure is another one than on \
-                 a contact that stiffens"; "stiffens with pressure";
-                "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"));
-        }
-        if self.contact.sliding.decay.is_none() {
-            return Ok(());
-        }
-        Err(refusal!(self, "contact.static_friction_ratio",
-            "limit cycles are computed for a constant friction coefficient only";
-            "friction falls with speed here";
-            "follow the transient to its limit cycle instead ([transient] with stop_when_settled = \
-             true), or set contact.static_friction_ratio = 1.0"))
+    /// What a body that is no rigid contact with constant friction has in place of rotating waves: what a search for
+    /// them asks for, in short what is there, and the remedy.
+    pub fn without_waves(&self) -> Option<[&'static str; 3]> {
+        let has_shaft = self.body.grid().is_some_and(|grid| grid.shaft.is_some());
+        let stiffens = "is a rotating wave of rigid contact, whose pressure is another one than on a contact that stiffens";
+        let lacks = [
+            (
+                has_shaft,
+                [
+                    "takes the cylinder as rigid",
+                    "a deformable shaft",
+                    "leave geometry.shaft_inner_radius out",
+                ],
+            ),
+            (
+                self.contact.sliding.decay.is_some(),
+                [
+                    "needs a constant friction coefficient",
+                    "friction falls with speed",
+                    "set contact.static_friction_ratio = 1.0",
+                ],
+            ),
+            (
+                self.contact.stiffness.law.is_some(),
+                [stiffens, "contact.normal_law is not linear", "leave contact.normal_law out"],
+            ),
+        ];
+        lacks.into_iter().find(|own| own.0).map(|own| own.1)
     }
 }
 

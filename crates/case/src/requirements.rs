@@ -110,16 +110,16 @@ impl Case {
         self.required(&self.uncertainty, "uncertainty", "uncertain parameter", &remedy)
     }
 
-    /// The plane annulus, which alone has rotating waves; `search` says what takes plane bodies only.
+    /// The plane annulus, which alone has rotating waves.
     ///
     /// # Errors
     /// A body from a mesh file, and one in three dimensions.
-    pub fn require_annulus(&self, search: &str) -> Result<&AnnulusSpecification, CaseErrors> {
+    pub fn require_annulus(&self) -> Result<&AnnulusSpecification, CaseErrors> {
         match &self.body.kind {
             BodyKind::Annulus(annulus) => Ok(annulus),
             BodyKind::Revolution(_) | BodyKind::Assembly(_) => {
                 Err(refusal!(self, "material.formulation",
-                "material.formulation = \"three-dimensional\": {search} plane bodies only";
+                "material.formulation = \"three-dimensional\": limit cycles are sought in plane bodies only";
                 "a three-dimensional body";
                 "`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; \
                  else use \"plane-stress\" or \"plane-strain\""))

@@ -52,7 +52,7 @@ impl Case {
         let transient = self.required(&self.transient, "transient", "transient", remedy)?;
         if let InitialState::LimitCycle { .. } = transient.settings.initial {
             self.refuse_losses_in_time("the search for the limit cycle that the run starts on")?;
-            self.require_annulus("limit cycles are sought in")?;
+            self.require_annulus()?;
         }
         Ok(transient)
     }

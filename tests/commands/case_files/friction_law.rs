@@ -1,6 +1,7 @@
 //! Keys of friction that falls with speed.
 
 use super::*;
+use frictionsim::study::cycle::CycleStudy;
 
 const RATIO: &str = "contact.static_friction_ratio=1.4";
 const SPEED: &str = "contact.decay_speed=0.2";
@@ -17,7 +18,7 @@ fn both_keys_make_a_falling_law_and_a_ratio_of_one_a_constant_one() {
 fn what_needs_constant_friction_says_so() {
     let parts = ["constant friction", "static_friction_ratio"];
     let cycles = shipped_case("limit-cycle.toml", &[RATIO, SPEED]);
-    let waves = cycles.require_rotating_waves().unwrap_err();
+    let waves = CycleStudy::new(&cycles, SimdLevel::detect()).err().unwrap();
     has(&waves.to_string(), &parts);
     assert!(cycles.require_cycle().is_ok() && !cycles.has_rotating_waves());
     // Modes compete instead of waves.

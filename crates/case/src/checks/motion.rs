@@ -46,15 +46,7 @@ pub(super) fn start(case: &Case) -> Option<Diagnostic> {
     let InitialState::LimitCycle { .. } = case.transient.as_ref()?.settings.initial else {
         return None;
     };
-    let (what, label, remedy) = if case.contact.sliding.decay.is_some() {
-        let what = "needs a constant friction coefficient";
-        (what, "friction falls with speed", "set contact.static_friction_ratio = 1.0")
-    } else if case.contact.stiffness.law.is_some() {
-        let what = "is a rotating wave of rigid contact, whose pressure is another one than on a contact that stiffens";
-        (what, "contact.normal_law is not linear", "leave contact.normal_law out")
-    } else {
-        return None;
-    };
+    let [what, label, remedy] = case.without_waves()?;
     Some(diagnosis!(case, "transient.initial", "transient.initial = \"limit-cycle\" {what}";
         "{label}"; "use initial = \"steady-sliding\", or {remedy}"))
 }

@@ -79,7 +79,7 @@ pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Opti
 /// # Errors
 /// A body that is no plane annulus.
 pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
-    let annulus = case.require_annulus("limit cycles are sought in")?;
+    let annulus = case.require_annulus()?;
     Ok(DiscModel {
         specification: *annulus,
         material: case.body.materials[0].elastic,

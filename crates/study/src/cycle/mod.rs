@@ -49,7 +49,10 @@ impl<'a> CycleStudy<'a> {
     /// A bad case; steady sliding that is stable against every harmonic, where the case names none.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let choices = case.require_cycle()?;
-        case.require_rotating_waves()?;
+        if let Some([what, label, remedy]) = case.without_waves() {
+            return Err(StudyError::Case(refusal!(case, "cycle",
+                "a limit cycle of a CycleStudy {what}"; "{label}"; "use a PeriodicStudy, or {remedy}")));
+        }
         let model = disc_model(case)?;
         let friction = case.contact.sliding.friction_coefficient;
         let mut onsets = model.onsets(friction, asked_modes(case, MODES))?;
