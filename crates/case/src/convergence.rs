@@ -1,7 +1,7 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::body::node_count;
-use super::{Analysis, Body, BodyKind};
+use super::{Analysis, Body, BodyKind, Contact};
 use crate::prelude::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 
@@ -102,7 +102,12 @@ impl super::Case {
 /// Refinements of an imported mesh where none are given.
 const SPLITS: [f64; 3] = [1.0, 2.0, 4.0];
 
-pub(super) fn read(section: &Section<'_>, root: &Section<'_>, body: Option<&Body>) -> Convergence {
+pub(super) fn read(
+    section: &Section<'_>,
+    root: &Section<'_>,
+    body: Option<&Body>,
+    contact: &Contact,
+) -> Convergence {
     refuse_if!(root.has("modifications"); root, "modifications",
         "[modifications] are places of one mesh: a finer one would have others";
         "not beside [convergence]";
@@ -124,8 +129,8 @@ pub(super) fn read(section: &Section<'_>, root: &Section<'_>, body: Option<&Body
         is_series(section, "time_step_factors", &time_step_factors, -1.0);
     }
     let is_linear = body.is_none_or(Body::suits_transient);
-    // Cycles of a body without symmetry have no name that two meshes share.
-    let has_waves = body.is_none_or(|body| body.annulus().is_some());
+    // Cycles that are no rotating waves have no name that two meshes share.
+    let has_waves = body.is_none_or(|body| body.has_rotating_waves(contact));
     let can_run = |analysis: Analysis| match analysis {
         Analysis::Cea => root.has("cea"),
         Analysis::Transient => root.has("transient") && is_linear,
@@ -248,7 +253,7 @@ fn analyses(section: &Section<'_>, can_run: impl Fn(Analysis) -> bool) -> Vec<An
         refuse_if!(!can_run(*analysis); section, "analyses",
             "convergence.analyses names \"{}\", which this case cannot run", analysis.word();
             "an analysis needs its own section; a transient also needs quad4 elements, a cycle \
-             quad4 elements and the built-in annulus");
+             quad4 elements and the built-in annulus on a rigid cylinder, with constant friction");
     }
     named
 }

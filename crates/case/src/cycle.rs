@@ -1,6 +1,8 @@
 //! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
-use super::{Body, CaseErrors, CaseKey, OnsetChoice, Spacing, StabilityChoice, keys, range_values};
+use super::{
+    Body, CaseErrors, CaseKey, Contact, OnsetChoice, Spacing, StabilityChoice, keys, range_values,
+};
 use crate::prelude::*;
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 
@@ -98,37 +100,31 @@ impl Case {
     /// constant friction coefficient, in contact that does not stiffen with pressure. Those of any other plane body are
     /// motions of the whole mesh.
     pub fn has_rotating_waves(&self) -> bool {
-        self.body.annulus().is_some() && self.without_waves().is_none()
+        self.body.has_rotating_waves(&self.contact)
+    }
+}
+
+impl Body {
+    /// [`Case::has_rotating_waves`] of a body in some contact.
+    pub(super) fn has_rotating_waves(&self, contact: &Contact) -> bool {
+        self.annulus().is_some() && self.without_waves(contact).is_none()
     }
 
-    /// What a body that is no rigid contact with constant friction has in place of rotating waves: what a search for
-    /// them asks for, in short what is there, and the remedy.
-    pub fn without_waves(&self) -> Option<[&'static str; 3]> {
-        let has_shaft = self.body.grid().is_some_and(|grid| grid.shaft.is_some());
-        let stiffens = "is a rotating wave of rigid contact, whose pressure is another one than on a contact that stiffens";
-        let lacks = [
-            (
-                has_shaft,
-                [
-                    "takes the cylinder as rigid",
-                    "a deformable shaft",
-                    "leave geometry.shaft_inner_radius out",
-                ],
-            ),
-            (
-                self.contact.sliding.decay.is_some(),
-                [
-                    "needs a constant friction coefficient",
-                    "friction falls with speed",
-                    "set contact.static_friction_ratio = 1.0",
-                ],
-            ),
-            (
-                self.contact.stiffness.law.is_some(),
-                [stiffens, "contact.normal_law is not linear", "leave contact.normal_law out"],
-            ),
-        ];
-        lacks.into_iter().find(|own| own.0).map(|own| own.1)
+    /// Why there are none where the contact is not rigid with constant friction: what a search for them asks for, in
+    /// short what is there, and the remedy.
+    pub fn without_waves(&self, contact: &Contact) -> Option<[&'static str; 3]> {
+        Some(if self.grid().is_some_and(|grid| grid.shaft.is_some()) {
+            let remedy = "leave geometry.shaft_inner_radius out";
+            ["takes the cylinder as rigid", "a deformable shaft", remedy]
+        } else if contact.sliding.decay.is_some() {
+            let needs = "needs a constant friction coefficient";
+            [needs, "friction falls with speed", "set contact.static_friction_ratio = 1.0"]
+        } else if contact.stiffness.law.is_some() {
+            let is = "is a rotating wave of rigid contact, whose pressure is another one than on a contact that stiffens";
+            [is, "contact.normal_law is not linear", "leave contact.normal_law out"]
+        } else {
+            return None;
+        })
     }
 }
 

@@ -181,8 +181,9 @@ impl Case {
         let cycle = root.read_section("cycle", |own| cycle::cycle(own, body.as_ref()));
         let basin = root.read_section("basin", |own| cycle::basin(own, body.as_ref()));
         let frf = root.read_section("frf", |own| frf::read(own, body.as_ref()));
-        let convergence =
-            root.read_section("convergence", |own| convergence::read(own, &root, body.as_ref()));
+        let convergence = root.read_section("convergence", |own| {
+            convergence::read(own, &root, body.as_ref(), &contact)
+        });
         let fit = root.read_section("fit", fit::fit);
         let uncertainty = root.read_section("uncertainty", uncertainty::uncertainty);
         let improve = root.section("improve", false).closed(improve::improve);

@@ -46,7 +46,7 @@ pub(super) fn start(case: &Case) -> Option<Diagnostic> {
     let InitialState::LimitCycle { .. } = case.transient.as_ref()?.settings.initial else {
         return None;
     };
-    let [what, label, remedy] = case.without_waves()?;
+    let [what, label, remedy] = case.body.without_waves(&case.contact)?;
     Some(diagnosis!(case, "transient.initial", "transient.initial = \"limit-cycle\" {what}";
         "{label}"; "use initial = \"steady-sliding\", or {remedy}"))
 }

@@ -49,7 +49,7 @@ impl<'a> CycleStudy<'a> {
     /// A bad case; steady sliding that is stable against every harmonic, where the case names none.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let choices = case.require_cycle()?;
-        if let Some([what, label, remedy]) = case.without_waves() {
+        if let Some([what, label, remedy]) = case.body.without_waves(&case.contact) {
             return Err(StudyError::Case(refusal!(case, "cycle",
                 "a limit cycle of a CycleStudy {what}"; "{label}"; "use a PeriodicStudy, or {remedy}")));
         }
