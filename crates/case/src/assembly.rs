@@ -1,10 +1,10 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
+use super::Contact;
 use super::contacts::{NamedContact, contact, short_form, unit};
 use super::description::Description;
 use super::imported::{FileParts, near_name};
 use super::value::quote;
-use super::{Contact, Diagnostic};
 use crate::prelude::*;
 use frictionsim_physics::prestress::{Assembly, PrestressError, TiedSurfaces};
 

@@ -1,8 +1,8 @@
 //! What modifications attach to a body, and the annulus whose symmetry they break.
 
+use super::ImportedBody;
 use super::description::Description;
 use super::modifications::{Misfit, Modification, reshaped};
-use super::{Body, BodyKind, ImportedBody};
 use crate::prelude::*;
 use frictionsim_physics::mesh::{AnnulusMesh, Attachment, DampedPatch};
 use nalgebra::Matrix3;

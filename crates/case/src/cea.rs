@@ -1,6 +1,6 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
-use super::{Body, CeaMethod};
+use super::CeaMethod;
 use crate::prelude::*;
 use frictionsim_physics::cea::ModeLimit;
 

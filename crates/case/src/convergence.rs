@@ -1,7 +1,7 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::body::node_count;
-use super::{Analysis, Body, BodyKind, Contact};
+use super::{Analysis, Contact};
 use crate::prelude::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 

@@ -1,8 +1,6 @@
 //! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
-use super::{
-    Body, CaseErrors, CaseKey, Contact, OnsetChoice, Spacing, StabilityChoice, keys, range_values,
-};
+use super::{Contact, OnsetChoice, Spacing, StabilityChoice, keys, range_values};
 use crate::prelude::*;
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 

@@ -4,7 +4,7 @@ use super::boundaries::NamedCondition;
 use super::modifications::Modification;
 use super::tables::TableFiles;
 use super::words::FilePart;
-use super::{RawCase, UnitsWord, boundaries, elastic, modifications};
+use super::{UnitsWord, boundaries, elastic, modifications};
 use crate::prelude::*;
 
 /// `[damping]`.

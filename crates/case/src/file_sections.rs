@@ -1,7 +1,7 @@
 //! What a mesh file holds beside the mesh, as the sections that a case would have for it, in SI units.
 
+use super::UnitsWord;
 use super::value::quote;
-use super::{Location, RawItem, RawValue, UnitsWord};
 use crate::prelude::*;
 use frictionsim_physics::mesh::{
     FileConditionKind, FileContact, FileMaterial, MaterialAxes, ModelData,

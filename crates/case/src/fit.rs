@@ -1,7 +1,7 @@
 //! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
 
 use super::parameters::{number, only, read_all};
-use super::{RawItem, RawValue, Spacing, VariedKey};
+use super::{Spacing, VariedKey};
 use crate::prelude::*;
 
 /// A parameter with the bounds between which it is sought.

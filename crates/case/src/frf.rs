@@ -1,6 +1,6 @@
 //! `[frf]`: a frequency response of the model.
 
-use super::{Body, FrfMethod};
+use super::FrfMethod;
 use crate::prelude::*;
 use frictionsim_physics::frf::{Direction, Terminal};
 

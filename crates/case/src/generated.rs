@@ -7,7 +7,7 @@ use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
 use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
-use super::{Body, BodyKind, Contact, assembly, attachments, boundaries, imported, solid};
+use super::{Contact, assembly, attachments, boundaries, imported, solid};
 use crate::prelude::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 

@@ -4,7 +4,7 @@ use super::description::{Description, has_common_constants};
 use super::modifications::{Misfit, reshaped};
 use super::value::quote;
 use super::words::CounterfaceWord;
-use super::{Diagnostic, MeshBytes, RawCase, elastic, inclusion, suggestion};
+use super::{MeshBytes, elastic, inclusion, suggestion};
 use crate::prelude::*;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::mesh::{BodyPart, CyclicSymmetry, refined_file, repeated_file};

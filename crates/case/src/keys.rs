@@ -2,7 +2,6 @@
 //! `frictionsim keys`, the JSON schema and the commented template are made from. Of a key it says kind of value, bound,
 //! unit, default and meaning.
 
-use super::RawValue;
 use super::words::words_named;
 use crate::prelude::*;
 use std::sync::LazyLock;

@@ -6,7 +6,7 @@ use super::description::{Description, has_common_constants};
 use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
 use super::imported::FileParts;
-use super::{Body, BodyKind, Contact, assembly, attachments, imported};
+use super::{Contact, assembly, attachments, imported};
 use crate::prelude::*;
 
 /// The body with its modifications, and its contact; no body where a mesh file makes none, which is an error already.

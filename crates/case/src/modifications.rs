@@ -1,6 +1,5 @@
 //! `[modifications.*]`: what is added to a body, or taken away from it.
 
-use super::Location;
 use super::reader::NodePlace;
 use crate::prelude::*;
 

@@ -2,7 +2,6 @@
 
 use super::body::solid_node_count;
 use super::reader::NodePlace;
-use super::{Body, BodyKind, Location};
 use crate::prelude::*;
 use frictionsim_physics::mesh::Strip;
 

@@ -3,7 +3,6 @@
 //! Without friction the summed normal force of a contact rises with its interference, by straight pieces where contact
 //! is rigid. The interference that belongs to a force is the one root of their difference.
 
-use super::{BodyKind, CaseErrors};
 use crate::prelude::*;
 use frictionsim_physics::linalg::{Bracket, newton_root};
 use frictionsim_physics::mesh::Strip;

@@ -1,7 +1,7 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
 use super::value::leaves;
-use super::{Bound, CaseErrors, CaseKey, Location, RawItem, RawTable, RawValue, keys};
+use super::{Bound, keys};
 use crate::prelude::*;
 
 /// Sections that make the model.

@@ -1,6 +1,9 @@
 //! What most sections of a case are read with; what one of them has alone is named where it is used.
 
-pub(crate) use crate::{Case, Choice, Section};
+pub(crate) use crate::{
+    Body, BodyKind, Case, CaseErrors, CaseKey, Choice, Diagnostic, Location, RawCase, RawItem,
+    RawTable, RawValue, Section,
+};
 pub(crate) use frictionsim_bounds::first_of;
 pub(crate) use frictionsim_output::rounded;
 pub(crate) use frictionsim_physics::{

@@ -2,9 +2,7 @@
 
 use super::diagnostic::BACKSLASH;
 use super::value::{convert_table, leaves, quote, table_of, with_point};
-use super::{
-    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides,
-};
+use super::{Source, keys, overrides};
 use crate::prelude::*;
 use frictionsim_physics::mesh::MeshFileError;
 use sha2::{Digest, Sha256};

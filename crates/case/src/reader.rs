@@ -4,10 +4,7 @@
 mod lists;
 
 use super::value::{cut, with_point};
-use super::{
-    Bound, CaseKey, Default, Diagnostic, Kind, Location, RawItem, RawTable, RawValue, keys,
-    suggestion,
-};
+use super::{Bound, Default, Kind, keys, suggestion};
 use crate::prelude::*;
 pub(super) use lists::NodePlace;
 pub use lists::range_values;

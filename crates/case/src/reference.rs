@@ -1,6 +1,6 @@
 //! Reference of the case keys, in the forms that people and editors read.
 
-use super::{Bound, CaseKey, Default, KEYS, Kind};
+use super::{Bound, Default, KEYS, Kind};
 use crate::prelude::*;
 use serde_json::{Value, json};
 

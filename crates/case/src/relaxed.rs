@@ -1,6 +1,6 @@
 //! What materials with loss factors and tables over frequency are in time.
 
-use super::{CaseErrors, ModeLimit};
+use super::ModeLimit;
 use crate::prelude::*;
 use frictionsim_physics::fem::MaxwellChain;
 

@@ -3,7 +3,7 @@
 
 use super::checks::material_key;
 use super::value::table_of;
-use super::{Analysis, BodyKind, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
+use super::{Analysis, Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
 use crate::prelude::*;
 
 impl Case {

@@ -4,7 +4,7 @@
 use super::file_sections::{sections, text};
 use super::taken::drop_key;
 use super::value::quote;
-use super::{FileSection, RawValue, UnitsWord, inclusion};
+use super::{FileSection, UnitsWord, inclusion};
 use crate::prelude::*;
 use frictionsim_physics::mesh::{FileElement, SurfaceFace};
 

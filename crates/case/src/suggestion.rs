@@ -1,8 +1,8 @@
 //! Suggestions for unknown keys: near misses, synonyms, the meaning of a key.
 
+use super::KEYS;
 use super::keys::find;
 use super::value::table_of;
-use super::{CaseKey, KEYS, RawTable, RawValue};
 use crate::prelude::*;
 
 /// A hint for an unknown part of a range or of a place, which have these parts.

@@ -1,7 +1,7 @@
 //! `[superelements.*]`: systems that other programs have reduced to matrices.
 
 use super::cea::mode_selection;
-use super::{CaseErrors, Findings, ModeLimit, RawCase};
+use super::{Findings, ModeLimit};
 use crate::prelude::*;
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;

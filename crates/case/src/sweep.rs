@@ -1,9 +1,7 @@
 //! `[sweep]`: any case key over several values.
 
 use super::value::range_count;
-use super::{
-    Analysis, Bound, CaseErrors, Combination, Diagnostic, RawItem, RawValue, VariedKey, parameters,
-};
+use super::{Analysis, Bound, Combination, VariedKey, parameters};
 use crate::prelude::*;
 
 /// A swept key and its values.

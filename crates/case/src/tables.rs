@@ -1,7 +1,7 @@
 //! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured
 //! surface.
 
-use super::{RawCase, TableBytes};
+use super::TableBytes;
 use crate::prelude::*;
 use frictionsim_bounds::TABLE;
 use frictionsim_physics::contact::Topography;

@@ -8,10 +8,7 @@
 use super::elastic::ORTHOTROPIC;
 use super::file_sections::{list, sections, text};
 use super::value::table_of;
-use super::{
-    Diagnostic, FileSection, Location, MeshBytes, RawCase, RawItem, RawTable, RawValue, UnitsWord,
-    imported,
-};
+use super::{FileSection, MeshBytes, UnitsWord, imported};
 use crate::prelude::*;
 
 /// Entries that a warning names.

@@ -1,6 +1,6 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::{Body, CaseErrors, PlacedNode};
+use super::PlacedNode;
 use crate::prelude::*;
 use frictionsim_physics::transient::{
     InitialState, Perturbation, RecorderSettings, StandingWave, TimeStep, TransientSettings,

@@ -1,7 +1,7 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
+use super::VariedKey;
 use super::parameters::{number, only, read_all};
-use super::{RawItem, RawValue, VariedKey};
 use crate::prelude::*;
 use frictionsim_physics::linalg::Distribution;
 

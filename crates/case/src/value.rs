@@ -1,6 +1,5 @@
 //! Values of a case as its TOML says them, each with its place.
 
-use super::{Diagnostic, Location};
 use crate::prelude::*;
 use frictionsim_bounds::shortened;
 use toml::Spanned;

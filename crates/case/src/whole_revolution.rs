@@ -2,7 +2,7 @@
 //! harmonics are solved by.
 
 use super::modifications::{Misfit, Modification, reshaped};
-use super::{AssemblyBody, Body, BodyKind, CaseErrors, Contact};
+use super::{AssemblyBody, Contact};
 use crate::prelude::*;
 
 impl Case {

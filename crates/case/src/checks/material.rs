@@ -1,8 +1,8 @@
 //! Materials that hardly any solid has.
 
 use super::Limit;
+use crate::ModeLimit;
 use crate::prelude::*;
-use crate::{Diagnostic, ModeLimit};
 use std::ops::RangeInclusive;
 
 /// Speeds of waves in a bar, m/s: soft rubber to ceramics.

@@ -1,6 +1,5 @@
 //! Lengths that are hardly meant, and meshes that are hardly what they should be.
 
-use crate::Diagnostic;
 use crate::prelude::*;
 
 /// Lengths that a case has, m.

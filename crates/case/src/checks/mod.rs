@@ -5,7 +5,7 @@ mod material;
 mod mesh;
 mod motion;
 
-use super::{CaseKey, Diagnostic, KEYS};
+use super::KEYS;
 use crate::prelude::*;
 use frictionsim_signal::FrequencyResponse;
 pub(super) use material::material_key;

@@ -4,7 +4,7 @@ use super::Limit;
 use super::contact::lame_pressure;
 use super::material::bar_wave_speed;
 use crate::prelude::*;
-use crate::{Diagnostic, InitialState, TimeStep};
+use crate::{InitialState, TimeStep};
 
 /// Steps beyond which no machine finishes a transient.
 const MOST_STEPS: f64 = 1e13;

@@ -2,7 +2,7 @@
 
 use super::Section;
 use crate::prelude::*;
-use crate::{Bound, Kind, Location, RawItem, RawTable, RawValue, Spacing, keys};
+use crate::{Bound, Kind, Spacing, keys};
 
 /// Longest list that a range may stand for.
 const LONGEST_RANGE: usize = 100_000;
