@@ -35,9 +35,9 @@ pub struct Cycle {
 /// `[cycle.continuation]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Continuation {
-    /// Dotted case key.
-    pub key: String,
-    /// Its first value.
+    /// What the cycles are followed over.
+    pub parameter: Parameter,
+    /// Its first value, in units of its key.
     pub from: f64,
     /// Its last value.
     pub to: f64,
@@ -48,9 +48,10 @@ pub struct Continuation {
 }
 
 impl Continuation {
-    /// The values, from first to last.
+    /// The values, SI, from first to last.
     pub fn values(&self) -> Vec<f64> {
-        range_values(self.from, self.to, self.count, self.spacing)
+        let values = range_values(self.from, self.to, self.count, self.spacing).into_iter();
+        values.map(|value| value * self.parameter.unit()).collect()
     }
 }
 
@@ -127,7 +128,6 @@ impl Body {
 }
 
 pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
-    let is_assembly = body.is_some_and(|own| own.assembly().is_some());
     let own = Cycle {
         harmonics: section.harmonics(body.and_then(Body::sector_count)),
         onsets: section.choice("onsets"),
@@ -137,7 +137,7 @@ pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
         confirmation_periods: section.count("confirmation_periods"),
         stability: section.choice("stability"),
         two_frequencies: section.flag("two_frequencies"),
-        continuation: section.read_section("continuation", |own| continuation(own, is_assembly)),
+        continuation: section.read_section("continuation", |own| continuation(own, body)),
     };
     if let periods @ 1..CONFIRMATION_PERIODS = own.confirmation_periods {
         refuse!(section, "confirmation_periods",
@@ -155,37 +155,39 @@ pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
     own
 }
 
-fn continuation(section: &Section<'_>, is_assembly: bool) -> Continuation {
-    let continuation = Continuation {
-        key: section.text("key"),
-        from: section.number("from"),
-        to: section.number("to"),
-        count: section.count("count"),
-        spacing: section.choice("spacing"),
+fn continuation(section: &Section<'_>, body: Option<&Body>) -> Continuation {
+    let (key, from, to) = (section.text("key"), section.number("from"), section.number("to"));
+    let (count, spacing) = (section.count("count"), section.choice("spacing"));
+    // Of a round or a plane counterface, or of solid bodies.
+    let suits = |own: &Parameter| match body.map(|body| (&body.kind, body.imported())) {
+        Some((BodyKind::Assembly(_), _)) => own.is_of_solid_bodies(),
+        Some((_, plane)) => own.suits(plane.is_none_or(|own| own.mesh.has_round_contact())),
+        None => true,
     };
-    let Continuation { key, from, to, spacing, .. } = &continuation;
-    let suits = |own: &Parameter| !is_assembly || own.is_of_solid_bodies();
-    let known: Vec<&str> = Parameter::ALL.into_iter().filter(suits).map(Parameter::key).collect();
-    let is_numeric = keys::find(key).is_some_and(CaseKey::is_numeric);
+    let known: Vec<Parameter> = Parameter::ALL.into_iter().filter(suits).collect();
+    let parameter = known.iter().find(|own| own.key() == key);
+    let is_numeric = keys::find(&key).is_some_and(CaseKey::is_numeric);
     if !is_numeric && section.is_some_text("key") {
         let message = format!("{} = \"{key}\" is not a numeric case key", section.name("key"));
-        let hint = section.findings.scope.hint(key, CaseKey::is_numeric);
+        let hint = section.findings.scope.hint(&key, CaseKey::is_numeric);
         section.reject("key", message, "must name a key whose value is a number", hint);
     }
-    refuse_if!(is_numeric && !known.contains(&&**key); section, "key",
+    let names = || known.iter().map(|own| own.key()).collect::<Vec<_>>().join(", ");
+    refuse_if!(is_numeric && parameter.is_none(); section, "key",
         "limit cycles cannot be followed over {key}"; "not one of the parameters of a cycle";
-        "one of {}", known.join(", "));
-    if from.min(*to) < 0.0 {
-        refuse!(section, if *from < 0.0 { "from" } else { "to" },
+        "one of {}", names());
+    if from.min(to) < 0.0 {
+        refuse!(section, if from < 0.0 { "from" } else { "to" },
             "{key} cannot be negative along a branch"; "must not be negative");
-    } else if *spacing == Spacing::Logarithmic && (*from == 0.0 || *to == 0.0) {
+    } else if spacing == Spacing::Logarithmic && (from == 0.0 || to == 0.0) {
         refuse!(section, "spacing",
             "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}";
             "both ends must be positive"; "use \"linear\"");
     }
     refuse_if!(from == to; section, "to", "cycle.continuation.to = {to} equals from";
         "must differ from `from`");
-    continuation
+    let parameter = parameter.copied().unwrap_or(Parameter::FrictionCoefficient);
+    Continuation { parameter, from, to, count, spacing }
 }
 
 pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest {

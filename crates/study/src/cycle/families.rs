@@ -11,29 +11,6 @@ use frictionsim_physics::linalg::Bracket;
 /// The solver of a family, or why it has none.
 pub type Sought = Result<CycleSolver, (Family, CycleError)>;
 
-/// The parameter of `[cycle.continuation]` and its SI values, for a round or a plane counterface or for solid bodies.
-pub fn continuation(
-    case: &Case,
-    cycle: &Cycle,
-    is_round: bool,
-) -> Result<Option<(Parameter, Vec<f64>)>, StudyError> {
-    let Some(continuation) = &cycle.continuation else { return Ok(None) };
-    let suits = |known: &&Parameter| match case.body.assembly() {
-        Some(_) => known.is_of_solid_bodies(),
-        None => known.suits(is_round),
-    };
-    let parameter = Parameter::from_key(&continuation.key).filter(|known| suits(&known));
-    let Some(parameter) = parameter else {
-        let known = Parameter::ALL.iter().filter(suits);
-        let known: Vec<&str> = known.map(|known| known.key()).collect();
-        return Err(StudyError::Case(refusal!(case, "cycle.continuation.key",
-            "limit cycles cannot be followed over {}", continuation.key;
-            "not one of the parameters of a cycle"; "one of {}", known.join(", "))));
-    };
-    let values = continuation.values().into_iter().map(|value| value * parameter.unit()).collect();
-    Ok(Some((parameter, values)))
-}
-
 /// The first onset above a friction coefficient, for the sentence that steady sliding is stable there.
 pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
     let model = disc_model(case).ok()?;

@@ -12,7 +12,7 @@ pub(crate) use periodic::{Steady, longest_step};
 use crate::eigenvalues::asked_modes;
 use crate::extent_of;
 use crate::prelude::*;
-use families::{Sought, continuation, critical_value, next_onset, solvers};
+use families::{Sought, critical_value, next_onset, solvers};
 use frictionsim_case::Cycle;
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
@@ -56,7 +56,7 @@ impl<'a> CycleStudy<'a> {
         let model = disc_model(case)?;
         let friction = case.contact.sliding.friction_coefficient;
         let mut onsets = model.onsets(friction, asked_modes(case, MODES))?;
-        let continuation = continuation(case, choices, true)?;
+        let continuation = choices.continuation.as_ref().map(|own| (own.parameter, own.values()));
         let mut critical = None;
         let solvers = solvers(case, choices, &onsets)?;
         if onsets.is_empty() {

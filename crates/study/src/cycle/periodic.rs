@@ -4,7 +4,7 @@ mod faces;
 mod steady;
 
 use super::super::transient::SteppedMesh;
-use super::families::{candidates, continuation, critical};
+use super::families::{candidates, critical};
 use super::operating_point;
 use crate::extent_of;
 use crate::prelude::*;
@@ -61,7 +61,7 @@ impl<'a> PeriodicStudy<'a> {
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let choices = case.require_cycle()?;
         let stepped = SteppedMesh::of(case)?;
-        let continuation = continuation(case, choices, stepped.mesh.has_round_contact())?;
+        let continuation = choices.continuation.as_ref().map(|own| (own.parameter, own.values()));
         let mut steady = Steady::of(case, &stepped)?;
         let own = steady.least_stable().map(|place| sought(&steady, place));
         let (mut start, mut critical) = (None, None);
