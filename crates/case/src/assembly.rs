@@ -215,6 +215,23 @@ pub(super) fn assemble(
 }
 
 impl Case {
+    /// The body on its whole mesh with what ties its parts and what slides: of solid bodies at nodes where the mass is
+    /// lumped.
+    ///
+    /// # Errors
+    /// [`PrestressError::Asked`] names the tie or contact whose surfaces do not meet.
+    pub fn assembled<'a>(
+        &'a self,
+        mesh: &'a Mesh,
+        mass: MassKind,
+    ) -> Result<Assembly<'a>, PrestressError> {
+        let Contact { sliding, stiffness } = &self.contact;
+        match self.body.assembly() {
+            Some(body) => body.assembled(self.materials(), mass),
+            None => Assembly::of_edge(mesh, self.materials(), sliding, *stiffness),
+        }
+    }
+
     /// A key of the first contact, by its full name.
     pub(super) fn contact_key(&self, key: &str) -> String {
         let first = self.contact_sections().into_iter().next();

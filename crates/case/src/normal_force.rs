@@ -3,10 +3,11 @@
 //! Without friction the summed normal force of a contact rises with its interference, by straight pieces where contact
 //! is rigid. The interference that belongs to a force is the one root of their difference.
 
+use crate::Contact;
 use crate::prelude::*;
 use frictionsim_physics::linalg::{Bracket, newton_root};
 use frictionsim_physics::mesh::Strip;
-use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
+use frictionsim_physics::prestress::{PrestressError, SectorSliding, SolidSliding};
 
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
@@ -126,36 +127,32 @@ impl Case {
 
     /// Normal force of each contact without friction, N: the sum of its forces along its normals, none across a gap.
     pub fn normal_forces(&self) -> Result<Vec<f64>, String> {
-        let contact = SlidingContact { friction_coefficient: 0.0, ..self.contact.sliding };
-        let law = self.contact.stiffness.law;
+        let Contact { sliding, stiffness } = &self.contact;
         let (materials, mass) = (&self.body.materials, self.mass());
         let pressed = match &self.body.kind {
             BodyKind::Annulus(annulus) => {
                 let mesh = Strip::of_annulus(annulus).map_err(in_words)?;
                 let elastic = mesh.stiffness_alike(materials);
-                let base = SectorSliding::solve(&mesh, &elastic, &contact, law);
+                let base = SectorSliding::solve(&mesh, &elastic, sliding, stiffness.law);
                 let whole = self.thickness * mesh.count as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
             BodyKind::Revolution(specification) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
                 let elastic = mesh.strip.stiffness_alike(materials);
-                let stiffness = &self.contact.stiffness;
-                let base = SolidSliding::solve(&mesh, &elastic, &contact, stiffness, mass);
+                let base = SolidSliding::solve(&mesh, &elastic, sliding, stiffness, mass);
                 let whole = mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.normal_forces().map(|own| own.1).sum::<f64>()])
             }
-            BodyKind::Imported(body) => {
-                let stiffness = self.contact.stiffness;
-                let body = Assembly::of_edge(&body.mesh, materials, &contact, stiffness);
-                let forces = body.and_then(|body| Ok(body.state(0.0)?.normal_forces(0.0)));
-                forces.map(|forces| vec![self.thickness * forces.iter().sum::<f64>()])
+            BodyKind::Imported(_) | BodyKind::Assembly(_) => {
+                let mesh = self.body.mesh().map_err(in_words)?;
+                self.assembled(&mesh, mass).and_then(|assembly| {
+                    let mut rest = assembly.state(0.0)?.normal_forces(0.0).into_iter();
+                    let counts = assembly.contacts().iter().map(|own| own.1.points.len());
+                    let sums = counts.map(|count| rest.by_ref().take(count).sum::<f64>());
+                    Ok(sums.map(|sum| self.depth() * sum).collect())
+                })
             }
-            BodyKind::Assembly(body) => body.assembled(materials, mass).and_then(|assembly| {
-                let mut rest = assembly.state(0.0)?.normal_forces(0.0).into_iter();
-                let contacts = assembly.contacts().iter().map(|(_, surface)| surface.points.len());
-                Ok(contacts.map(|count| rest.by_ref().take(count).sum()).collect())
-            }),
         };
         match pressed {
             Err(PrestressError::GapEverywhere { .. }) => {

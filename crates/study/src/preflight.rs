@@ -77,7 +77,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     {
         Solver::of_analysis(case, cea)?;
         // Harmonics are solved at once, and all methods find the same modes.
-        if Solver::by_symmetry(case) == Solver::Waves || is_solved {
+        if case.body.has_sectors() || is_solved {
             let auto = Cea { method: CeaMethod::Auto, ..cea.clone() };
             found.tolerate("cea", eigenvalues::preflight(case, &auto))?;
         }

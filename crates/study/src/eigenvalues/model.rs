@@ -33,7 +33,8 @@ impl Solver {
                     "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\""))
             }
             (BodyKind::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
-            (_, _) => Ok(Self::by_symmetry(case)),
+            _ if case.body.has_sectors() => Ok(Self::Waves),
+            _ => Ok(Self::WholeMesh),
         }
     }
 
@@ -50,11 +51,6 @@ impl Solver {
                 "modes cannot be counted"; "leave it out, or give the material one modulus")),
             _ => Ok(solver),
         }
-    }
-
-    /// The solver that uses all the symmetry of the body of a case.
-    pub fn by_symmetry(case: &Case) -> Self {
-        if case.body.has_sectors() { Self::Waves } else { Self::WholeMesh }
     }
 }
 

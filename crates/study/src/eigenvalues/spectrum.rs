@@ -55,7 +55,7 @@ pub fn modes_at_own_friction(
 ) -> Result<Vec<ComplexMode>, CeaError> {
     let frictions = [case.contact.sliding.friction_coefficient];
     let request = SweepRequest::new(&frictions, limit);
-    let solver = Solver::by_symmetry(case);
+    let solver = if case.body.has_sectors() { Solver::Waves } else { Solver::WholeMesh };
     let model = Model::with_solver(case, solver, *options, &frictions)?;
     Ok(model.spectrum(case, &request)?.sweep.into_first_modes())
 }

@@ -41,7 +41,7 @@ impl WholeMesh {
         frictions: &[f64],
     ) -> Result<Self, CeaError> {
         let mesh = case.body.mesh()?;
-        let assembly = assembled(case, &mesh, &options)?;
+        let assembly = case.assembled(&mesh, options.mass)?;
         let own = [case.contact.sliding.friction_coefficient];
         let start = start_of(assembly.contacts());
         let range = assembly.range(&[frictions, start, &own].concat(), &Default::default())?;
@@ -74,7 +74,7 @@ impl WholeMesh {
         }
         // Its boundaries have supports.
         let mesh = case.body.mesh().ok()?;
-        let joined = assembled(case, &mesh, &options).ok()?.joined;
+        let joined = case.assembled(&mesh, options.mass).ok()?.joined;
         Some(Self { mesh, range: self.range.clone(), symmetry: self.symmetry, options, joined })
     }
 
@@ -120,18 +120,6 @@ impl WholeMesh {
         };
         points.map(point).collect()
     }
-}
-
-/// The bodies of a case on its whole mesh.
-fn assembled<'a>(
-    case: &'a Case,
-    mesh: &'a Mesh,
-    options: &TangentOptions,
-) -> Result<Assembly<'a>, CeaError> {
-    Ok(match case.body.assembly() {
-        Some(body) => body.assembled(case.materials(), options.mass)?,
-        None => Assembly::of_edge(mesh, case.materials(), &case.contact.sliding, options.contact)?,
-    })
 }
 
 /// Where the base states of solid bodies begin: contact that stiffens depends on friction, and the analysis starts
