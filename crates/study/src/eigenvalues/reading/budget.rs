@@ -3,15 +3,28 @@
 use super::parts::Parts;
 use super::shapes::Shapes;
 use crate::prelude::*;
-use frictionsim_physics::prestress::{Kind, Part, PartForms};
+use frictionsim_physics::prestress::{Kind, Part, PartForms, Terms};
 use frictionsim_results::cea::{Contribution, ModeName, Source};
 
-/// Forms of each mode of one friction value in one region or support: `phi^H M phi` (NaN without mass), `phi^H K phi`,
-/// and what takes part in the damping, `phi^H C phi`.
-pub(super) struct Row {
-    pub name: String,
-    pub source: Source,
-    pub forms: Vec<[f64; 3]>,
+/// A region, a support or the inertia of rotation. Only what has inertia has a kinetic energy, and a rotation has no
+/// energy of its own.
+pub(super) struct Row<'a> {
+    name: &'a String,
+    source: Source,
+    has_mass: bool,
+}
+
+/// Those that some terms are of, the regions of a mesh before all others.
+pub(super) fn rows<'a, M>(terms: &'a Terms<M>, regions: &'a [String]) -> Vec<Row<'a>> {
+    let has = |body: usize, kind| terms.all.iter().any(|term| term.is(Part::Body(body), kind));
+    let source = |body: usize| match body < terms.regions().len() {
+        true => Source::Part,
+        false if has(body, Kind::Transport) => Source::Rotation,
+        false => Source::Support,
+    };
+    let names = regions[..terms.regions().len()].iter().chain(&terms.others).enumerate();
+    let row = |(body, name)| Row { name, source: source(body), has_mass: has(body, Kind::Mass) };
+    names.map(row).collect()
 }
 
 /// Sums over all regions and supports, mode by mode.
@@ -43,19 +56,20 @@ impl Parts<'_> {
     pub fn contributions(&self, shapes: &Shapes<'_>) -> (Vec<Contribution>, Mat<f64>) {
         // Only several contacts need the balance of forces dof by dof.
         let mut sums = Sums::new(shapes, self.contacts.len() > 1);
-        let rows = self.of_bodies(shapes, &mut sums);
+        let forms = self.of_bodies(shapes, &mut sums);
+        let rows = rows(&self.terms, &self.whole.mesh.regions);
         let mut out = Vec::new();
         for mode in 0..shapes.modes.len() {
             let (name, own) = (shapes.name(mode), shapes.modes[mode].1);
             let contacts = |fed: f64| self.contact_rates(shapes, (mode, own), &sums, fed);
-            let rows = rows.iter().map(|row| (&row.name, row.source, row.forms[mode]));
+            let rows = rows.iter().zip(forms.iter().map(|forms| &forms[mode]));
             write((name, own), rows, [sums.kinetic[mode], sums.strain[mode]], &contacts, &mut out);
         }
         (out, sums.momentum)
     }
 
-    /// Energies and damping of every region and support, and of the inertia of rotation.
-    pub fn of_bodies(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
+    /// Energies and damping of every region and support, and of the inertia of rotation, in each mode.
+    pub fn of_bodies(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Vec<PartForms>> {
         let (terms, modes) = (&self.terms, || shapes.modes.iter().map(|(_, mode)| mode.eigenvalue));
         // The prestress takes part in the damping, and in the balance of forces.
         let beta = self.whole.options.damping_of_tangent().stiffness_coefficient;
@@ -76,31 +90,13 @@ impl Parts<'_> {
                 shapes.add(balance, &image, |lambda| terms.dynamic(term, lambda));
             }
         }
-        let rows = forms.iter().enumerate().map(|(body, forms)| {
-            for (mode, own) in forms.iter().enumerate() {
+        for own in &forms {
+            for (mode, own) in own.iter().enumerate() {
                 sums.kinetic[mode] += own.mass;
                 sums.strain[mode] += own.stiffness;
             }
-            self.row(body, forms)
-        });
-        rows.collect()
-    }
-
-    /// The row of a body. Only what has inertia has a kinetic energy, and a rotation has no energy of its own.
-    fn row(&self, body: usize, forms: &[PartForms]) -> Row {
-        let has = |kind| self.terms.all.iter().any(|term| term.is(Part::Body(body), kind));
-        let regions = self.terms.regions().len();
-        let (name, source) = match body.checked_sub(regions) {
-            None => (&self.whole.mesh.regions[body], Source::Part),
-            Some(other) if has(Kind::Transport) => (&self.terms.others[other], Source::Rotation),
-            Some(other) => (&self.terms.others[other], Source::Support),
-        };
-        let known = |is_known: bool, value: f64| if is_known { value } else { f64::NAN };
-        let (has_mass, has_strain) = (has(Kind::Mass), source != Source::Rotation);
-        let forms = forms
-            .iter()
-            .map(|own| [known(has_mass, own.mass), known(has_strain, own.stiffness), own.damping]);
-        Row { name: name.clone(), source, forms: forms.collect() }
+        }
+        forms
     }
 
     /// What each contact feeds of their sum `fed`: `Im(phi^H f) / (2 omega m)` of the forces on its surfaces. What
@@ -124,26 +120,27 @@ impl Parts<'_> {
     }
 }
 
-/// The rows of a mode, each with its kinetic and strain energy and its damping, of what these are in all. Its contacts
-/// feed what the others leave of its growth.
+/// The rows of a mode, each with its forms, which are shares of its energies. Its contacts feed what the others leave of
+/// its growth.
 pub(super) fn write<'r>(
     (name, mode): (ModeName, &ComplexMode),
-    rows: impl Iterator<Item = (&'r String, Source, [f64; 3])>,
+    rows: impl Iterator<Item = (&'r Row<'r>, &'r PartForms)>,
     [kinetic, strain]: [f64; 2],
     contacts: &dyn Fn(f64) -> Vec<(String, f64)>,
     out: &mut Vec<Contribution>,
 ) {
-    let rate = |damping: f64| -damping / (2.0 * kinetic);
     let mut taken = 0.0;
-    for (row, source, [m, k, c]) in rows {
-        taken += rate(c);
+    for (row, own) in rows {
+        let rate = -own.damping / (2.0 * kinetic);
+        taken += rate;
+        let has_strain = row.source != Source::Rotation;
         out.push(Contribution {
             mode: name,
-            name: row.clone(),
-            kind: source,
-            kinetic_share: m.is_finite().then_some(m / kinetic),
-            strain_share: k.is_finite().then_some(k / strain),
-            growth_rate_per_s: rate(c),
+            name: row.name.clone(),
+            kind: row.source,
+            kinetic_share: row.has_mass.then_some(own.mass / kinetic),
+            strain_share: has_strain.then_some(own.stiffness / strain),
+            growth_rate_per_s: rate,
         });
     }
     for (contact, growth_rate_per_s) in contacts(mode.growth_rate() - taken) {

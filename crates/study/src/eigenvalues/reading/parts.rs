@@ -2,7 +2,6 @@
 
 use super::shapes::Shapes;
 use crate::eigenvalues::contact::CONTACT;
-use crate::eigenvalues::whole::WholeMesh;
 use crate::prelude::*;
 use frictionsim_physics::linalg::MatrixPolynomial;
 use frictionsim_physics::prestress::{Kind, Part, Term, Terms};

@@ -3,7 +3,7 @@
 //! Everything is in the unknowns of the harmonic. A term that comes with friction is `i mu` times its matrix, Hermitian
 //! as a whole.
 
-use super::budget::write;
+use super::budget::{Row, rows, write};
 use super::shapes::{couplings, name_of};
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
@@ -17,7 +17,7 @@ use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Readi
 struct Apart<'a> {
     tangent: &'a WaveTangent,
     /// Regions, then supports.
-    parts: Vec<(String, Source)>,
+    rows: Vec<Row<'a>>,
     /// Their matrices in the harmonics that are needed.
     harmonics: BTreeMap<usize, Vec<Term<CompactRows>>>,
     /// Unknowns of each contact node, or ring of them.
@@ -67,14 +67,12 @@ pub(super) fn read(
 }
 
 impl<'t> Apart<'t> {
-    fn new(model: &SlidingModel, tangent: &'t WaveTangent, sweep: &FrictionSweep) -> Self {
+    fn new(model: &'t SlidingModel, tangent: &'t WaveTangent, sweep: &FrictionSweep) -> Self {
         let modes = sweep.points.iter().flat_map(|point| &point.modes);
         let numbers: BTreeSet<usize> =
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
-        let regions = model.mesh.regions.iter().map(|name| (name.clone(), Source::Part));
-        let supports = tangent.terms.others.iter().map(|name| (name.clone(), Source::Support));
         Self {
-            parts: regions.chain(supports).collect(),
+            rows: rows(&tangent.terms, &model.mesh.regions),
             harmonics: numbers.into_iter().map(|n| (n, tangent.body_terms(n))).collect(),
             contact: tangent.contact_unknowns(),
             tangent,
@@ -115,13 +113,8 @@ impl<'t> Apart<'t> {
             }
         }
         let energies = [own.mass, forms.iter().map(|own| own.stiffness).sum()];
-        let rows = self.parts.iter().zip(&forms).map(|((name, source), own)| {
-            // A support has no mass.
-            let mass = if *source == Source::Support { f64::NAN } else { own.mass };
-            (name, *source, [mass, own.stiffness, own.damping])
-        });
         let contact = |fed: f64| vec![(CONTACT.to_owned(), fed)];
-        write((own.name, own.mode), rows, energies, &contact, out);
+        write((own.name, own.mode), self.rows.iter().zip(&forms), energies, &contact, out);
     }
 
     /// The feed of the unstable modes at the case's own friction coefficient.
