@@ -1,6 +1,5 @@
 //! The modes that a transient has in its linear stage.
 
-use super::eigenvalues::asked_modes;
 use super::modes_at_own_friction;
 use super::tangent::{MODES_IN_TIME, options_in_time};
 use crate::prelude::*;

@@ -1,7 +1,6 @@
 //! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
-use super::eigenvalues::{BasePoint, Solver, WholeMesh};
-use super::tangent_options;
+use super::eigenvalues::{BasePoint, Solver};
 use crate::prelude::*;
 use frictionsim_physics::contact::Row;
 use frictionsim_physics::linalg::{MarketMatrix, MatrixPolynomial};

@@ -1,6 +1,11 @@
 //! What most studies name of other crates, and why they fail; what else is of this one is named where it is used.
 
-pub(crate) use crate::error::StudyError;
+pub(crate) use crate::{
+    cycle::operating_point,
+    eigenvalues::{WholeMesh, asked_modes},
+    error::StudyError,
+    tangent::{extent_of, tangent_options},
+};
 pub(crate) use frictionsim_case::{
     Analysis, AssemblyBody, BodyKind, Case, CaseErrors, Cea, CeaMethod, Choice, ModificationKind,
     StabilityChoice, refusal,

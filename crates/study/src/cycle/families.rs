@@ -1,8 +1,6 @@
 //! Limit cycles that a case asks for, the parameter over which they are followed, and where along it steady sliding
 //! loses its stability.
 
-use super::operating_point;
-use crate::eigenvalues::asked_modes;
 use crate::prelude::*;
 use frictionsim_case::{Cycle, OnsetChoice};
 use frictionsim_physics::cycle::{CycleSolver, DiscModel, LARGEST_FRICTION, MODES, Onset};

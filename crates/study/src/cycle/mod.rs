@@ -9,8 +9,6 @@ pub use families::disc_model;
 pub use periodic::PeriodicStudy;
 pub(crate) use periodic::{Steady, longest_step};
 
-use crate::eigenvalues::asked_modes;
-use crate::extent_of;
 use crate::prelude::*;
 use families::{Sought, critical_value, next_onset, solvers};
 use frictionsim_case::Cycle;

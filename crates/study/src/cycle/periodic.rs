@@ -5,8 +5,6 @@ mod steady;
 
 use super::super::transient::SteppedMesh;
 use super::families::{candidates, critical};
-use super::operating_point;
-use crate::extent_of;
 use crate::prelude::*;
 use frictionsim_case::{Cycle, OnsetChoice, TimeStep};
 use frictionsim_physics::cycle::periodic::{

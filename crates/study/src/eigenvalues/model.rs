@@ -1,9 +1,7 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
 use super::Solution;
-use super::whole::WholeMesh;
 use crate::prelude::*;
-use crate::tangent_options;
 use frictionsim_physics::cea::cyclic;
 
 /// The eigenvalue solver that a body gets.

@@ -2,7 +2,6 @@
 
 use super::contact::{SolidState, contact_of};
 use super::model::Model;
-use crate::extent_of;
 use crate::prelude::*;
 use frictionsim_chart::literal;
 use frictionsim_physics::prestress::{PressedState, SectorSliding, SolidSliding};

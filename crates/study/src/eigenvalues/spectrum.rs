@@ -2,7 +2,6 @@
 
 use super::model::{Model, Solver, wave_tangent};
 use crate::prelude::*;
-use crate::tangent_options;
 use frictionsim_physics::cea::cyclic;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.

@@ -3,7 +3,7 @@
 mod joining;
 
 use super::Solution;
-use super::whole::{WholeMesh, notes};
+use super::whole::notes;
 use crate::prelude::*;
 use frictionsim_physics::cea::sparse::{self, CyclicTangent};
 use frictionsim_physics::prestress::{PressedRange, PressedState};

@@ -2,7 +2,6 @@
 
 use super::base::{Base, STEPS, lowest_onset, spectrum_of};
 use super::trial::{Search, Target, Trial};
-use crate::eigenvalues::WholeMesh;
 use crate::prelude::*;
 use frictionsim_results::improve::State;
 

@@ -19,7 +19,6 @@ mod fields;
 mod modal;
 mod trial;
 
-use super::extent_of;
 use super::mac::whole_mesh_note;
 use crate::prelude::*;
 pub(super) use base::refuse_bodies;

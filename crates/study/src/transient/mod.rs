@@ -22,7 +22,6 @@ mod notes;
 mod stepped;
 
 use crate::cycle::limit_cycle;
-use crate::extent_of;
 use crate::prelude::*;
 use frictionsim_case::Transient;
 use frictionsim_physics::fem::operator::StiffnessOperator;

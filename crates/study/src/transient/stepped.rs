@@ -1,6 +1,5 @@
 //! The body of a case as the time loop takes it.
 
-use crate::cycle::operating_point;
 use crate::prelude::*;
 use frictionsim_physics::cycle::OperatingPoint;
 use frictionsim_physics::transient::SteppedBody;

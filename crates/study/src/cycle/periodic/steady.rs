@@ -1,7 +1,6 @@
 //! Steady sliding at one operating point.
 
-use super::super::operating_point;
-use crate::eigenvalues::{Model, Solver, asked_modes};
+use crate::eigenvalues::{Model, Solver};
 use crate::prelude::*;
 use crate::tangent::{MODES_IN_TIME, options_in_time};
 use crate::transient::SteppedMesh;
