@@ -3,7 +3,7 @@
 use super::Contact;
 use super::contacts::{NamedContact, contact, short_form, unit};
 use super::description::Description;
-use super::imported::{FileParts, near_name};
+use super::imported::{FileParts, Made, near_name};
 use super::value::quote;
 use crate::prelude::*;
 use frictionsim_physics::prestress::{Assembly, PrestressError, TiedSurfaces};
@@ -138,11 +138,8 @@ pub(super) fn motion(section: &Section<'_>) -> Motion {
     }
 }
 
-/// The solid bodies of a mesh file, and their materials; no error where a name is missing, which has been told.
-pub(super) fn assemble(
-    file: &FileParts<'_>,
-    parts: AssemblyParts,
-) -> Result<(Vec<RegionMaterial>, AssemblyBody), Option<Diagnostic>> {
+/// The solid bodies of a mesh file.
+pub(super) fn assemble(file: &FileParts<'_>, parts: AssemblyParts) -> Made {
     let own = file.own;
     let (read, _) = file.shaped("")?;
     let mesh = Mesh::from_solids(&read, own.scale, &own.conditions);
@@ -211,7 +208,8 @@ pub(super) fn assemble(
         contacts.push(surfaces);
     }
     let (mesh, base) = (Arc::new(mesh), parts.base);
-    Ok((materials, AssemblyBody { mesh, ties, contacts, motions, base }))
+    let kind = BodyKind::Assembly(AssemblyBody { mesh, ties, contacts, motions, base });
+    Ok(Body { materials, kind })
 }
 
 impl Case {

@@ -5,9 +5,9 @@ use super::body::node_count;
 use super::contact::contact;
 use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
-use super::modifications::Misfit;
+use super::modifications::{Misfit, reshaped_annulus};
 use super::whole_revolution::whole_revolution;
-use super::{Contact, assembly, attachments, boundaries, imported, solid};
+use super::{Contact, assembly, boundaries, imported, solid};
 use crate::prelude::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 
@@ -37,7 +37,7 @@ pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
             let kind = if own.modifications.is_empty() || node_count(&annulus) > 1 << 24 {
                 Some(BodyKind::Annulus(annulus))
             } else {
-                let whole = attachments::reshaped_annulus(&annulus, &own.modifications);
+                let whole = reshaped_annulus(&annulus, &own.modifications);
                 fitting(root, whole, "the disc").map(BodyKind::Imported)
             };
             kind.map(|kind| Body { materials, kind })

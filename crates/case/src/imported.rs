@@ -98,6 +98,9 @@ pub(super) fn material(own: &Description<'_>, section: &Section<'_>) -> RegionMa
     RegionMaterial { damping, ..material }
 }
 
+/// The body of a mesh file, or the error; none where a name is missing, which has been told.
+pub(super) type Made = Result<Body, Option<Diagnostic>>;
+
 /// What makes a body of a mesh file, be it plane or of solid elements.
 pub(super) struct FileParts<'a> {
     pub bytes: &'a MeshBytes,
@@ -213,12 +216,8 @@ pub(super) fn near_name(name: &str, known: &[String]) -> String {
     near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"))
 }
 
-/// The plane body that a mesh file describes, with its contact curves and counterface at `place`, and its materials.
-pub(super) fn import(
-    parts: &FileParts<'_>,
-    place: BodySpecification,
-    interference: f64,
-) -> Result<(Vec<RegionMaterial>, ImportedBody), Option<Diagnostic>> {
+/// The plane body that a mesh file describes, with its contact curves and counterface at `place`.
+pub(super) fn import(parts: &FileParts<'_>, place: BodySpecification, interference: f64) -> Made {
     let own = parts.own;
     let (read, way) = parts.shaped(&place.contact)?;
     let specification = BodySpecification {
@@ -244,7 +243,8 @@ pub(super) fn import(
         })
     };
     let materials = parts.materials_of(&mesh.regions, find)?;
-    Ok((materials, ImportedBody::new(mesh, read, specification)))
+    let kind = BodyKind::Imported(ImportedBody::new(mesh, read, specification));
+    Ok(Body { materials, kind })
 }
 
 /// The counterface of a body whose contact curve is moved.

@@ -8,7 +8,6 @@
 mod diagnostic;
 
 mod assembly;
-mod attachments;
 mod body;
 mod boundaries;
 mod cea;

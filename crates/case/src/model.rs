@@ -5,8 +5,8 @@ use super::contact::contact;
 use super::description::{Description, has_common_constants};
 use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
-use super::imported::FileParts;
-use super::{Contact, assembly, attachments, imported};
+use super::imported::{FileParts, Made};
+use super::{Contact, assembly, imported, modifications};
 use crate::prelude::*;
 
 /// The body with its modifications, and its contact; no body where a mesh file makes none, which is an error already.
@@ -16,7 +16,7 @@ pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact) {
         Some(file) => of_file(own, &file),
     };
     if let Some(body) = &mut body {
-        attachments::attach(own, body);
+        modifications::attach(own, body);
         let held = body.imported().map_or(Ok(()), |own| own.mesh.check_held());
         if let Err(error) = held {
             own.root.findings.push(own.unusable(error));
@@ -25,11 +25,8 @@ pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact) {
     (body, contact)
 }
 
-/// What of a case is particular to plane bodies of a mesh file, or to solid ones.
-enum Joints {
-    Plane(BodySpecification),
-    Solids(AssemblyParts),
-}
+/// Makes a body of what its mesh file holds.
+type Make = Box<dyn FnOnce(&FileParts<'_>) -> Made>;
 
 /// The body of a mesh file with what modifications take away or move, and its contact.
 fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact) {
@@ -50,11 +47,12 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact) {
     let in_space = own.raw.find("contact.direction").is_some_and(|own| own.listed().len() == 3);
     let has_solids = read.map_or(own.is_solid() || in_space, |read| read.dimension == 3);
     // What slides on what, and the axes of sectors and of materials.
-    let (joints, contact, axes) = if root.has("contacts") || root.has("ties") || has_solids {
+    let is_plane = !(root.has("contacts") || root.has("ties") || has_solids);
+    let (make, contact, axes): (Make, _, _) = if !is_plane {
         let (parts, contact) = solid_joints(own, has_solids);
         let still = [Ok([[0.0, 0.0, 1.0], [0.0; 3]]), Err("nothing of the case turns")];
         let axes = still.map(|axis| parts.axis().unwrap_or(axis));
-        (Joints::Solids(parts), contact, axes)
+        (Box::new(|file| assembly::assemble(file, parts)), contact, axes)
     } else {
         let (contact, place, _) = contact(root, None, own.is_pressed());
         refuse_if!(own.is_solid(); own.mesh, "file",
@@ -68,23 +66,17 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact) {
             CounterfaceSpecification::Plane { .. } => None,
         };
         let lacks = ["the counterface is a plane", "the counterface is a plane, which has no axis"];
-        (Joints::Plane(place), contact, lacks.map(|why| axis.ok_or(why)))
+        let pushed = contact.sliding.interference;
+        let make = move |file: &FileParts<'_>| imported::import(file, place, pushed);
+        (Box::new(make), contact, lacks.map(|why| axis.ok_or(why)))
     };
-    let is_plane = matches!(joints, Joints::Plane(_));
     let surroundings = Surroundings { axis: axes[1], is_plane, has_sectors: false };
     let symmetry = imported::symmetry(&own.mesh, axes[0]);
     let materials = materials(own, &surroundings);
     let reject = |message: String| own.mesh.reject("file", message, "not readable", None);
     let body = bytes.map_err(reject).ok().and_then(|bytes| {
         let parts = FileParts { bytes: &bytes, own, symmetry, materials };
-        let pushed = contact.sliding.interference;
-        let made = match joints {
-            Joints::Plane(place) => imported::import(&parts, place, pushed)
-                .map(|(materials, own)| Body { materials, kind: BodyKind::Imported(own) }),
-            Joints::Solids(joints) => assembly::assemble(&parts, joints)
-                .map(|(materials, own)| Body { materials, kind: BodyKind::Assembly(own) }),
-        };
-        made.map_err(|error| error.map(|error| root.findings.push(error))).ok()
+        make(&parts).map_err(|error| error.map(|error| root.findings.push(error))).ok()
     });
     own.mesh.close();
     (body, contact)
