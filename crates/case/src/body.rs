@@ -219,20 +219,12 @@ impl Body {
 
     /// Whether the springs of a support have structural damping.
     pub(super) fn has_lossy_supports(&self) -> bool {
-        let is_lossy = |own: &BoundaryCondition| match own {
-            BoundaryCondition::Support(own) => own.loss_factor != 0.0,
-            _ => false,
-        };
-        match &self.kind {
-            BodyKind::Annulus(own) => {
-                is_lossy(&own.outer) || own.shaft.is_some_and(|shaft| is_lossy(&shaft.bore))
-            }
-            BodyKind::Revolution(own) => own.conditions.iter().any(is_lossy),
-            BodyKind::Imported(_) | BodyKind::Assembly(_) => {
-                let boundaries = self.whole_mesh().into_iter().flat_map(|mesh| &mesh.boundaries);
-                boundaries.into_iter().any(|boundary| is_lossy(&boundary.condition))
-            }
-        }
+        let bore = |own: &AnnulusSpecification| own.shaft.map(|shaft| shaft.bore);
+        let edges = self.annulus().into_iter().flat_map(|own| [Some(own.outer), bore(own)]);
+        let faces = self.revolution().map_or(&[][..], |own| &own.conditions).iter().copied();
+        let boundaries = self.whole_mesh().into_iter().flat_map(|mesh| &mesh.boundaries);
+        let mut all = edges.flatten().chain(faces).chain(boundaries.map(|own| own.condition));
+        all.any(|own| matches!(own, BoundaryCondition::Support(own) if own.loss_factor != 0.0))
     }
 
     /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.

@@ -8,67 +8,48 @@ use std::sync::LazyLock;
 
 /// Where a number must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bound {
-    /// Above zero.
-    Positive,
-    /// Zero or above.
-    NotNegative,
-    /// Strictly between two values.
-    Between(f64, f64),
-    /// This value or above.
-    AtLeast(f64),
-    /// Any finite number.
-    Finite,
+pub struct Bound {
+    /// The ends of what it admits.
+    pub ends: [f64; 2],
+    /// Whether a finite end is admitted itself.
+    pub is_closed: bool,
 }
 
 impl Bound {
+    /// Any finite number.
+    pub const FINITE: Self = Self { ends: [f64::NEG_INFINITY, f64::INFINITY], is_closed: false };
+
     /// Whether a value lies there; NaN and infinities never do.
     pub fn admits(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::Positive => value > 0.0,
-                Self::NotNegative => value >= 0.0,
-                Self::Between(low, high) => value > low && value < high,
-                Self::AtLeast(least) => value >= least,
-                Self::Finite => true,
-            }
-    }
-
-    /// The ends of what it admits.
-    pub fn ends(self) -> [f64; 2] {
-        match self {
-            Self::Positive | Self::NotNegative => [0.0, f64::INFINITY],
-            Self::Between(low, high) => [low, high],
-            Self::AtLeast(least) => [least, f64::INFINITY],
-            Self::Finite => [f64::NEG_INFINITY, f64::INFINITY],
-        }
+        let [low, high] = self.ends;
+        let is_within = value > low && value < high;
+        value.is_finite() && (is_within || self.is_closed && self.ends.contains(&value))
     }
 
     /// What an error says.
     pub fn text(self) -> String {
-        match self {
-            Self::Positive => "must be positive and finite".to_owned(),
-            Self::NotNegative => "must be zero or positive, and finite".to_owned(),
-            Self::Between(low, high) => format!("must lie strictly between {low} and {high}"),
-            Self::AtLeast(least) => format!("must be {least} or more, and finite"),
-            Self::Finite => "must be finite".to_owned(),
+        match self.ends {
+            [low, high] if high.is_finite() => {
+                format!("must lie strictly between {low} and {high}")
+            }
+            [low, _] if low.is_infinite() => "must be finite".to_owned(),
+            [0.0, _] if self.is_closed => "must be zero or positive, and finite".to_owned(),
+            [0.0, _] => "must be positive and finite".to_owned(),
+            [low, _] => format!("must be {low} or more, and finite"),
         }
     }
 
     /// The bound of a condition behind the word "number".
     fn of_condition(text: &str) -> Option<Self> {
-        Some(match text {
-            "" => Self::Finite,
-            " > 0" => Self::Positive,
-            " >= 0" => Self::NotNegative,
-            _ => match text.strip_prefix(" between ") {
-                Some(ends) => {
-                    let (low, high) = ends.split_once(" and ")?;
-                    Self::Between(low.parse().ok()?, high.parse().ok()?)
-                }
-                None => Self::AtLeast(text.strip_prefix(" >= ")?.parse().ok()?),
-            },
-        })
+        let ends = |[low, high]: [&str; 2]| Some([low.parse().ok()?, high.parse().ok()?]);
+        let (ends, is_closed) = match text.split(' ').collect::<Vec<_>>()[..] {
+            [""] => return Some(Self::FINITE),
+            ["", ">", "0"] => (ends(["0", "inf"]), false),
+            ["", ">=", low] => (ends([low, "inf"]), true),
+            ["", "between", low, "and", high] => (ends([low, high]), false),
+            _ => return None,
+        };
+        Some(Self { ends: ends?, is_closed })
     }
 }
 

@@ -38,7 +38,7 @@ impl VariedKey {
 
     /// Where the value of a continuous parameter may lie.
     pub(super) fn bound(&self) -> Bound {
-        keys::find(&self.key).and_then(CaseKey::continuous).unwrap_or(Bound::Finite)
+        keys::find(&self.key).and_then(CaseKey::continuous).unwrap_or(Bound::FINITE)
     }
 }
 

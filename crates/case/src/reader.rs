@@ -313,7 +313,7 @@ impl<'a> Section<'a> {
         let (bound, word) = match declared.kind {
             Kind::Number(bound) | Kind::Numbers(bound) => (bound, None),
             Kind::NumberOr(bound, word) => (bound, Some(word)),
-            _ => (Bound::Finite, None),
+            _ => (Bound::FINITE, None),
         };
         match (self.item(key), word) {
             (Some(_), Some(word)) if self.is_text(key, word) => None,

@@ -216,13 +216,13 @@ fn node() -> Value {
 }
 
 fn number(bound: Bound) -> Value {
-    match bound {
-        Bound::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
-        Bound::NotNegative => json!({ "type": "number", "minimum": 0 }),
-        Bound::Between(low, high) => {
-            json!({ "type": "number", "exclusiveMinimum": low, "exclusiveMaximum": high })
-        }
-        Bound::AtLeast(least) => json!({ "type": "number", "minimum": least }),
-        Bound::Finite => json!({ "type": "number" }),
+    let mut schema = json!({ "type": "number" });
+    let words = match bound.is_closed {
+        true => ["minimum", "maximum"],
+        false => ["exclusiveMinimum", "exclusiveMaximum"],
+    };
+    for (word, end) in words.into_iter().zip(bound.ends).filter(|own| own.1.is_finite()) {
+        schema[word] = if end == 0.0 { json!(0) } else { json!(end) };
     }
+    schema
 }

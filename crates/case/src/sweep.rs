@@ -139,7 +139,7 @@ fn values(
     let values: Vec<String> = match &entry.value {
         RawValue::Array(items) => items.iter().map(|item| item.value.to_string()).collect(),
         RawValue::Table(table) => {
-            let range = section.range(key, table, entry, Bound::Finite).into_iter();
+            let range = section.range(key, table, entry, Bound::FINITE).into_iter();
             range.map(|value| RawValue::Float(value).to_string()).collect()
         }
         other => vec![other.to_string()],

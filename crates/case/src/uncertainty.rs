@@ -148,7 +148,7 @@ fn distribution(
         return None;
     }
     let bound = parameter.bound();
-    let [least, most] = bound.ends();
+    let [least, most] = bound.ends;
     let range = [distribution.below(least), distribution.below(most)];
     let beyond = 1.0 - (range[1] - range[0]);
     let rule = bound.text();

@@ -113,7 +113,7 @@ impl<'a> Section<'a> {
     pub fn numbers(&self, key: &str) -> Option<Vec<f64>> {
         let bound = match self.declared(key).kind {
             Kind::Numbers(bound) => bound,
-            _ => Bound::Finite,
+            _ => Bound::FINITE,
         };
         let item = self.held(key)?;
         if let RawValue::Table(table) = &item.value {
@@ -155,7 +155,7 @@ impl<'a> Section<'a> {
         }
         let of_one = |item: &RawItem| -> Vec<f64> {
             let values = item.listed().iter();
-            values.filter_map(|item| self.read_number(key, item, Bound::Finite)).collect()
+            values.filter_map(|item| self.read_number(key, item, Bound::FINITE)).collect()
         };
         Some(item.listed().iter().map(of_one).collect())
     }
