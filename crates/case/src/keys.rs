@@ -124,17 +124,6 @@ impl Kind {
     }
 }
 
-/// What holds where a key is left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Default {
-    /// Nothing: its section needs the key, or what these words say in its place.
-    Required(&'static str),
-    /// This value, in TOML.
-    Value(&'static str),
-    /// What these words say.
-    Otherwise(&'static str),
-}
-
 /// A key of the case file: everything that is known of it but what it does.
 ///
 /// A `*` in the name stands for any one name, as in `materials.*.density`.
@@ -148,8 +137,8 @@ pub struct CaseKey {
     pub kind: Kind,
     /// Unit of the value; empty for a pure number and for what is no number.
     pub unit: &'static str,
-    /// What holds where it is left out.
-    pub default: Default,
+    /// What holds where it is left out: `= VALUE` in TOML, else in words.
+    default: &'static str,
     /// A valid value, in TOML.
     pub example: &'static str,
     /// What it is, to be read behind "is".
@@ -168,11 +157,6 @@ impl CaseKey {
         let [name, declared, unit, default, example] = fields[..] else { return None };
         let (text, called) = text.split_once(" also called: ").unwrap_or((text, ""));
         let (meaning, of_waves) = text.split_once(" of waves: ").unwrap_or((text, ""));
-        let default = match default.strip_prefix("= ") {
-            Some(value) => Default::Value(value),
-            None if default.starts_with("required") => Default::Required(default),
-            None => Default::Otherwise(default),
-        };
         let (kind, unit) = (Kind::read(declared)?, if unit == "-" { "" } else { unit });
         Some(Self { name, declared, kind, unit, default, example, meaning, of_waves, called })
     }
@@ -253,11 +237,19 @@ impl CaseKey {
         }
     }
 
+    /// The value that holds where it is left out, in TOML; none where words say what holds.
+    pub fn default_toml(&self) -> Option<&'static str> {
+        self.default.strip_prefix("= ")
+    }
+
     /// What holds where it is left out, in words.
     pub fn default_text(&self) -> &'static str {
-        match self.default {
-            Default::Value(text) | Default::Otherwise(text) | Default::Required(text) => text,
-        }
+        self.default_toml().unwrap_or(self.default)
+    }
+
+    /// Whether its section needs it, or what its default says in its place.
+    pub(super) fn is_required(&self) -> bool {
+        self.default.starts_with("required")
     }
 
     /// Whether a value is what holds where the key is left out.
@@ -269,10 +261,7 @@ impl CaseKey {
 
     /// The default's value, where it has one.
     pub(super) fn default_value(&self) -> Option<RawValue> {
-        match self.default {
-            Default::Value(text) => RawValue::parse(text),
-            _ => None,
-        }
+        RawValue::parse(self.default_toml()?)
     }
 }
 

@@ -69,7 +69,7 @@ pub use frictionsim_physics::cea::ModeLimit;
 pub use frictionsim_physics::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
 pub use imported::ImportedBody;
 pub use improve::Improve;
-pub use keys::{Bound, CaseKey, Default, KEYS, Kind, find as find_key};
+pub use keys::{Bound, CaseKey, KEYS, Kind, find as find_key};
 pub use node::PlacedNode;
 pub use overrides::unset;
 pub use parameters::VariedKey;

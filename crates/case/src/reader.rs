@@ -4,7 +4,7 @@
 mod lists;
 
 use super::value::{cut, with_point};
-use super::{Bound, Default, Kind, keys, suggestion};
+use super::{Bound, Kind, keys, suggestion};
 use crate::prelude::*;
 pub(super) use lists::NodePlace;
 pub use lists::range_values;
@@ -40,7 +40,7 @@ pub(crate) struct Findings<'a> {
 impl<'a> Findings<'a> {
     /// Nothing found so far in a case.
     pub fn of(root: &'a RawTable) -> Self {
-        let (errors, warnings, absent, misread) = std::default::Default::default();
+        let (errors, warnings, absent, misread) = Default::default();
         Self { scope: suggestion::Scope::of(root), errors, warnings, absent, misread }
     }
 
@@ -382,7 +382,7 @@ impl<'a> Section<'a> {
             RawValue::Boolean(value) => Some(value),
             _ => self.reject_at(item, key, "must be true or false"),
         });
-        read.unwrap_or(self.declared(key).default == Default::Value("true"))
+        read.unwrap_or(self.declared(key).default_toml() == Some("true"))
     }
 
     /// Text: as given, else its default, else none.

@@ -1,6 +1,6 @@
 //! Reference of the case keys, in the forms that people and editors read.
 
-use super::{Bound, Default, KEYS, Kind};
+use super::{Bound, KEYS, Kind};
 use crate::prelude::*;
 use serde_json::{Value, json};
 
@@ -37,10 +37,8 @@ pub fn markdown() -> String {
         };
         let _ = writeln!(out, "|---|---|---|---|---|");
         for key in keys_of(section) {
-            let default = match key.default {
-                Default::Value(value) => format!("`{value}`"),
-                _ => plain(key.default_text()),
-            };
+            let default = key.default_toml().map(|value| format!("`{value}`"));
+            let default = default.unwrap_or_else(|| plain(key.default_text()));
             let _ = writeln!(
                 out,
                 "| `{}` | {} | {} | {default} | {} |",
@@ -68,13 +66,12 @@ pub fn template() -> String {
             let _ = writeln!(out, "\n{comment}[{name}]");
         }
         for key in keys_of(section) {
-            let (value, note) = match key.default {
-                Default::Required(_) => (key.example, String::new()),
-                Default::Value(value) => (value, String::new()),
-                Default::Otherwise(words) => (key.example, format!("; left out: {words}")),
+            let value = key.default_toml().unwrap_or(key.example);
+            let note = match key.is_required() || key.default_toml().is_some() {
+                true => String::new(),
+                false => format!("; left out: {}", key.default_text()),
             };
-            let is_required = matches!(key.default, Default::Required(_));
-            let comment = if needed && is_required { "" } else { "# " };
+            let comment = if needed && key.is_required() { "" } else { "# " };
             let line = format!("{comment}{} = {value}", key.short());
             let unit = match key.unit {
                 "" => String::new(),
