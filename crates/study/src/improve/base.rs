@@ -64,14 +64,12 @@ fn fastest<'m>(modes: impl IntoIterator<Item = &'m c64>) -> Option<c64> {
 /// The model of a case over its whole mesh, at its own friction coefficient.
 pub(super) struct Base<'a> {
     pub case: &'a Case,
-    pub cea: &'a Cea,
     pub mesh: Arc<Mesh>,
     pub options: TangentOptions,
     pub tangent: SlidingTangent,
     /// The case's own friction coefficient.
     pub friction: f64,
-    /// Displacement of the base state there, with which elements have a geometric stiffness; none where it is free of
-    /// stress.
+    /// Displacement of the base state there, with which elements have a geometric stiffness; none where they have none.
     pub displacement: Option<Vec<f64>>,
     /// Springs and dashpots of supports on the faces of each element.
     pub supports: BTreeMap<u32, [Triplets; 2]>,
@@ -84,8 +82,6 @@ pub(super) struct Base<'a> {
     pub modes: Vec<PairedMode>,
     /// What they come to, with the lowest critical friction coefficient of a mode in the window.
     pub state: State,
-    /// Modes that coincide with another one.
-    pub multiple: usize,
 }
 
 /// The model and the spectrum of a case over its whole mesh, in so many of [`STEPS`] up to the friction of the case.
@@ -122,7 +118,7 @@ pub(super) fn lowest_onset(sweep: &FrictionSweep, window: Window) -> Option<f64>
 
 impl<'a> Base<'a> {
     /// Solves the modes of a case over friction, and the vectors of those at its own.
-    pub fn solve(case: &'a Case, cea: &'a Cea) -> Result<Self, StudyError> {
+    pub fn solve(case: &'a Case, cea: &Cea) -> Result<Self, StudyError> {
         refuse_bodies(case)?;
         let friction = case.contact.sliding.friction_coefficient;
         let window = Window(case.improve.frequencies_hz);
@@ -138,29 +134,26 @@ impl<'a> Base<'a> {
         // Left and right vectors of all listed modes.
         let tangent = whole.own_tangent(case)?;
         let pairs = mode_pairs(&tangent, friction, &targets);
-        let multiple = pairs.iter().filter(|pair| pair.is_none()).count();
         let modes = pairs.into_iter().flatten().map(|pair| PairedMode {
             right: tangent.displacement(&pair.right),
             left: tangent.left_displacement(&pair.left, friction),
             pair,
         });
-        let stressing = whole.assembly(case).stressing(whole.state());
-        let mesh = case.body.mesh()?;
+        let is_stressed = whole.options.geometric_stiffness;
+        let stressing = whole.assembly(case).stressing(whole.state()).filter(|_| is_stressed);
         Ok(Self {
-            supports: element_supports(&mesh),
+            supports: element_supports(&whole.mesh),
             displacement: stressing.map(|state| state.displacement(friction)),
-            mesh,
-            options: tangent_options(case, cea.mass),
+            mesh: whole.mesh,
+            options: whole.options,
             state: State { critical_friction: lowest_onset(&sweep, window), ..outlook },
             case,
-            cea,
             modes: modes.collect(),
             tangent,
             friction,
             window,
             reach,
             listed: targets,
-            multiple,
         })
     }
 

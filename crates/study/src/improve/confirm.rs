@@ -66,7 +66,7 @@ pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTang
 /// Runs the case with some keys.
 pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, String> {
     let case = changed(base, keys)?;
-    let sweep = spectrum_of(&case, base.cea.mass, base.reach, STEPS);
+    let sweep = spectrum_of(&case, base.options.mass, base.reach, STEPS);
     let (_, sweep) = sweep.map_err(|error| error.to_string())?;
     let modes = sweep.modes_at(base.friction).iter();
     Ok(State {

@@ -94,7 +94,7 @@ fn form(mode: &PairedMode, dofs: &[usize], matrix: &DMatrix<f64>) -> c64 {
 
 /// Mass and elastic stiffness of an element.
 pub(super) fn matrices(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 2] {
-    element_matrices(&base.mesh, base.case.materials(), base.cea.mass, element)
+    element_matrices(&base.mesh, base.case.materials(), base.options.mass, element)
 }
 
 /// What an element and the supports on its faces add to `M`, `C` and `K` of the tangent.
@@ -106,9 +106,7 @@ pub(super) fn element_terms(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 3
     let own = materials.own_damping(region).unwrap_or(common);
     let (alpha, beta) = (own.mass_coefficient, own.stiffness_coefficient);
     let mut damping = &mass * alpha + &stiffness * beta;
-    if let Some(displacement) =
-        base.displacement.as_ref().filter(|_| base.options.geometric_stiffness)
-    {
+    if let Some(displacement) = &base.displacement {
         let elastic = materials.of(region);
         let values = nodal_values(&base.mesh, element, displacement);
         let geometry = ElementGeometry::new(&base.mesh, element);

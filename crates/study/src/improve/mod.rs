@@ -84,10 +84,11 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         candidates[i].confirmed = outcome.ok();
     }
     promote(&mut candidates);
-    if base.multiple > 0 {
+    // Those that coincide have no vectors of their own.
+    let multiple = base.listed.len() - base.modes.len();
+    if multiple > 0 {
         notes.push(format!(
-            "{} of the modes coincide with another one and are left out of the predictions",
-            base.multiple
+            "{multiple} of the modes coincide with another one and are left out of the predictions"
         ));
     }
     if let ModeLimit::MaxFrequency(limit_hz) = base.reach {
