@@ -35,7 +35,7 @@ fn resume<'b>(
     saved: Checkpoint,
     folder: &Path,
 ) -> Result<(CentralDifference<'b>, Recorder), Failure> {
-    let (body, settings) = (study.body(), &study.settings);
+    let (body, settings) = (study.body(), &study.transient.settings);
     let run = study.told(CentralDifference::resume(body, operator, settings, &saved.state))?;
     let plan = run.plan();
     if run.steps_done() > plan.total_steps() {

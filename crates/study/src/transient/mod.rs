@@ -40,10 +40,9 @@ pub struct TransientStudy<'a> {
     pub case: &'a Case,
     /// Its mesh.
     pub stepped: SteppedMesh<'a>,
-    transient: &'a Transient,
-    simd: SimdLevel,
     /// Choices of the run.
-    pub settings: TransientSettings,
+    pub transient: &'a Transient,
+    simd: SimdLevel,
 }
 
 impl<'a> TransientStudy<'a> {
@@ -53,13 +52,7 @@ impl<'a> TransientStudy<'a> {
     /// [`StudyError::Case`] for a case without `[transient]`; a mesh that cannot be built.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let transient = case.require_transient()?;
-        Ok(Self {
-            case,
-            stepped: SteppedMesh::of(case)?,
-            transient,
-            simd,
-            settings: transient.settings.clone(),
-        })
+        Ok(Self { case, stepped: SteppedMesh::of(case)?, transient, simd })
     }
 
     /// The body with its contact.
@@ -80,7 +73,7 @@ impl<'a> TransientStudy<'a> {
     /// # Errors
     /// [`StudyError::Case`] for times that do not fit together.
     pub fn plan(&self, operator: &dyn StiffnessOperator) -> Result<StepPlan, StudyError> {
-        self.told(self.body().plan(operator, &self.settings))
+        self.told(self.body().plan(operator, &self.transient.settings))
     }
 
     /// The run in its initial state.
@@ -91,29 +84,35 @@ impl<'a> TransientStudy<'a> {
         &'b self,
         operator: &'b dyn StiffnessOperator,
     ) -> Result<CentralDifference<'b>, StudyError> {
-        let started = match self.settings.initial {
+        let started = match self.transient.settings.initial {
             InitialState::LimitCycle { harmonic, onset } => {
                 let family = Family { harmonic, onset };
                 let time_step = self.plan(operator)?.time_step;
                 let (solver, cycle) = limit_cycle(self.case, family)?;
                 let [u, v] = solver.starting_fields(&cycle, time_step);
-                CentralDifference::start_from(self.body(), operator, &self.settings, &u, v)
+                CentralDifference::start_from(
+                    self.body(),
+                    operator,
+                    &self.transient.settings,
+                    &u,
+                    v,
+                )
             }
-            _ => CentralDifference::start(self.body(), operator, &self.settings),
+            _ => CentralDifference::start(self.body(), operator, &self.transient.settings),
         };
         self.told(started)
     }
 
     /// Reads a record.
     pub fn analyse(&self, record: &Recorder) -> TransientAnalysis {
-        let perturbation = &self.settings.perturbation;
+        let perturbation = &self.transient.settings.perturbation;
         let analysis = match (self.case.body.has_sectors(), perturbation.noise) {
             (false, _) => TransientAnalysis::without_symmetry(record),
             (true, 0.0) => TransientAnalysis::of(record, &perturbation.harmonics()),
             // Noise seeds every harmonic.
             (true, _) => TransientAnalysis::of(record, &record.significant_harmonics()),
         };
-        match self.settings.initial {
+        match self.transient.settings.initial {
             // On a limit cycle nothing grows at first.
             InitialState::LimitCycle { .. } => {
                 TransientAnalysis { growth: Vec::new(), first_nonlinearity: None, ..analysis }
@@ -156,12 +155,12 @@ impl<'a> TransientStudy<'a> {
     /// than a check is worth.
     pub fn preflight(&self) -> Result<StepPlan, StudyError> {
         let operator = self.operator()?;
-        let initial = match (self.case.body.annulus(), self.settings.initial) {
+        let initial = match (self.case.body.annulus(), self.transient.settings.initial) {
             (None, _) => InitialState::Rest,
             (Some(_), InitialState::LimitCycle { .. }) => return self.plan(operator.as_ref()),
             (Some(_), own) => own,
         };
-        let settings = TransientSettings { initial, ..self.settings.clone() };
+        let settings = TransientSettings { initial, ..self.transient.settings.clone() };
         let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
         let fresh = self.told(started)?;
         self.told(Recorder::new(&fresh, &self.case.output.recorder))?;
@@ -184,7 +183,7 @@ impl<'a> TransientStudy<'a> {
             peripheral_speed: self.shown_speed(),
             stage: LinearStage::default(),
             friction_coefficient: case.contact.sliding.friction_coefficient,
-            settings: &self.settings,
+            settings: &self.transient.settings,
             places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
             notes: self.notes(&solved.record, &solved.analysis, solved.plan.time_step),
         }

@@ -57,7 +57,7 @@ impl TransientStudy<'_> {
     /// That the body has no state of steady sliding, so that it jams or jumps.
     fn no_sliding(&self) -> Option<String> {
         let case = self.case;
-        let starts_at_rest = self.settings.initial == InitialState::Rest;
+        let starts_at_rest = self.transient.settings.initial == InitialState::Rest;
         let jams = |error: PrestressError| match error {
             PrestressError::NoState { .. } => Some(format!("the body jams: {error}")),
             // A gap closes as the run moves the body, and other faults stop the run itself.
