@@ -46,11 +46,9 @@ impl<'a> NearModes<'a> {
         };
         let mut modes = sorted(&base.modes, |mode| away(mode));
         modes.truncate(MOST_MODES);
-        let frequencies = || modes.iter().map(|mode| mode.eigenvalue().im);
-        let lowest = frequencies().fold(f64::INFINITY, f64::min);
+        let [lowest, highest] = order::range(modes.iter().map(|mode| mode.eigenvalue().im));
         let below = base.modes.iter().any(|mode| mode.eigenvalue().im < lowest);
-        let range =
-            [if below { lowest / REACH } else { 0.0 }, REACH * frequencies().fold(0.0, f64::max)];
+        let range = [if below { lowest / REACH } else { 0.0 }, REACH * highest];
         Self { base, modes, range }
     }
 

@@ -261,9 +261,7 @@ impl<'a> ModalModel<'a> {
 /// Frequencies below, above, amid the targets and at the `end` of what is looked at, and factors of `T(i omega)` there.
 fn dynamic_factors(base: &Base<'_>, end: f64) -> Result<[(f64, ComplexSparseLu); 4], LinalgError> {
     let targets = base.targets();
-    let frequencies = || targets.iter().map(|mode| mode.eigenvalue().im);
-    let low = frequencies().fold(f64::INFINITY, f64::min);
-    let high = frequencies().fold(0.0, f64::max);
+    let [low, high] = order::range(targets.iter().map(|mode| mode.eigenvalue().im));
     let problem = FullProblem::at(&base.tangent, base.friction);
     let factors = |omega: f64| Ok((omega, problem.factors(c64::new(0.0, omega))?));
     let [below, above] = [BESIDE[0] * low, BESIDE[1] * high];
