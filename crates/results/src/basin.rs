@@ -136,16 +136,17 @@ columns! {
 impl Finding for BasinSummary {
     fn document(&self) -> Document {
         let is_open = !self.is_kick() && self.runs.iter().any(|run| !run.is_settled);
-        let open = is_open.then(|| {
-            "Some transients end before one wave has gone: raise basin.periods. Where that changes nothing, an \
-             overtone of the winner has the shape of the other and does not go."
-                .to_owned()
-        });
+        let open = "Some transients end before one wave has gone: raise basin.periods.";
         let runs = Table::new("basin.csv", "Transients in the order of the search")
             .columns(RUNS, &self.runs)
             .shown_column("winner", self.runs.iter().map(|run| self.name(run.winner)));
         Document::new("Basins")
-            .section(Section::new("Results").text([self.answer()]).text(open).facts(self.facts()))
+            .section(
+                Section::new("Results")
+                    .text([self.answer()])
+                    .text(is_open.then(|| open.to_owned()))
+                    .facts(self.facts()),
+            )
             .section(Section::new("Search").tables([runs]).figures(["basin"]))
     }
 

@@ -28,6 +28,9 @@ pub(super) const LOST: f64 = 0.02;
 pub(super) const CONSTANT: f64 = 2e-3;
 /// Windows after saturation that must agree on the end.
 const AGREEING_WINDOWS: usize = 3;
+/// Share within which a ratio that stands still goes up and down: windows are no whole periods of an overtone of the winner, which
+/// has the shape of the other and does not go.
+const STILL: f64 = 0.03;
 
 /// What is asked of two competing waves.
 #[derive(Clone, Debug, PartialEq)]
@@ -221,11 +224,15 @@ impl<'a, A: Fn(&CentralDifference<'a>) -> [f64; 2]> Rivalry<A> {
     ) -> BasinRun {
         let look_every = (steps / LOOKS).max(1);
         let (mut sums, mut share, mut agreeing, mut step) = ([0.0; 2], seed_ratio, 0, 0);
+        let (mut level, mut standing) = (seed_ratio, 0.0); // What the ratio stands at, and for how many windows.
         while step < periods * steps && agreeing < AGREEING_WINDOWS {
             interruption::check();
             run.advance();
             step += 1;
-            if saturation_ratio.is_none() && self.is_saturated(run) {
+            let status = &run.contact().status;
+            if saturation_ratio.is_none()
+                && (status.contains(&ContactStatus::Stick) || open_nodes(run) > self.open)
+            {
                 let [first, second] = (self.amplitudes)(run);
                 saturation_ratio = Some(second / first);
             }
@@ -236,7 +243,15 @@ impl<'a, A: Fn(&CentralDifference<'a>) -> [f64; 2]> Rivalry<A> {
             if step % (WINDOW * steps) == 0 {
                 let before = std::mem::replace(&mut share, sums[1] / sums[0]); // A_2 / A_1, both averaged over the window.
                 sums = [0.0; 2];
-                let is_end = saturation_ratio.is_some() && self.is_final(before, share);
+                let is_level = (share / level - 1.0).abs() < STILL;
+                (level, standing) = if is_level { (level, standing + 1.0) } else { (share, 0.0) };
+                // It stays as it is from one window to the next, leaves one motion less and less, or stands twice as long as a
+                // change that counts takes to leave the level.
+                let change = share / before - 1.0;
+                let is_lost = share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0;
+                let is_still =
+                    change.abs() < self.constant || standing * self.constant > 2.0 * STILL;
+                let is_end = saturation_ratio.is_some() && (is_lost || is_still);
                 agreeing = if is_end { agreeing + 1 } else { 0 };
             }
         }
@@ -247,18 +262,6 @@ impl<'a, A: Fn(&CentralDifference<'a>) -> [f64; 2]> Rivalry<A> {
             is_settled: agreeing >= AGREEING_WINDOWS,
             duration_s: step as f64 * run.plan().time_step,
         }
-    }
-
-    /// Whether the amplitude ratio stays as it is from one window to the next, or leaves one motion less and less.
-    fn is_final(&self, before: f64, share: f64) -> bool {
-        let change = share / before - 1.0;
-        let is_lost = share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0;
-        is_lost || change.abs() < self.constant
-    }
-
-    fn is_saturated(&self, run: &CentralDifference<'a>) -> bool {
-        let status = &run.contact().status;
-        status.contains(&ContactStatus::Stick) || open_nodes(run) > self.open
     }
 }
 

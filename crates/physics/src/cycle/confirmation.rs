@@ -171,13 +171,14 @@ impl Confirmation {
     ) -> Self {
         let (state, image) = (&found.state, &found.image);
         let periods = telling_periods(leading, E_FOLDS_OF_RANDOM / state.period, least);
-        let start = perturbed(map, state);
+        let start = perturbed(state, image.vibration);
         map.place(&start);
         // The last fifth: its first harmonic period by period, its powers and statuses.
         let first = periods - periods / 5;
-        (0..first).for_each(|_| drop(first_harmonic(map)));
+        (0..first).for_each(|_| drop(map.harmonics(1, slips)));
         map.run.take_sums();
-        let looks: Vec<Vec<c64>> = (first..periods).map(|_| first_harmonic(map)).collect();
+        let looks = (first..periods).map(|_| map.harmonics(1, slips).remove(0));
+        let looks: Vec<Vec<c64>> = looks.collect(); // Of the slips of the contact nodes.
         // How far the motion has turned against that of the first period looked at.
         let turn = |own: &Vec<c64>| own.iter().zip(&looks[0]).map(|(a, w)| a * w.conj()).sum();
         let turns: Vec<c64> = looks.iter().map(turn).collect();
@@ -199,20 +200,14 @@ impl Confirmation {
     }
 }
 
-/// A state with a random velocity of a hundredth of its amplitude.
-fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
-    let vibration = map.image(state).vibration;
+/// A state with a random velocity of a hundredth of the amplitude of its vibration.
+fn perturbed(state: &PeriodicState, vibration: f64) -> PeriodicState {
     let mut noise = GaussianNoise::new(2);
     let half = state.motion.len() / 2;
     let scale = RANDOM_SEED * vibration / (half as f64).sqrt(); // A share of the vibration in the norm of all velocities.
     let mut start = state.clone();
     start.motion[half..].iter_mut().for_each(|value| *value += scale * noise.draw().re);
     start
-}
-
-/// First harmonic over one period of the displacement of each contact node along the counterface.
-fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
-    map.harmonics(1, slips).remove(0)
 }
 
 #[cfg(test)]

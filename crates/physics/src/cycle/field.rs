@@ -54,10 +54,7 @@ pub(super) fn slips(run: &CentralDifference<'_>) -> Vec<f64> {
 }
 
 /// Amplitude of harmonic `n` of values on equal nodes, `u = Re(a e^{i n theta})`.
-pub(super) fn amplitude<T>(edge: &[T], harmonic: isize) -> c64
-where
-    T: Copy + Mul<c64, Output = c64>,
-{
+pub(super) fn amplitude<T: Copy + Mul<c64, Output = c64>>(edge: &[T], harmonic: isize) -> c64 {
     let count = edge.len() as isize;
     let terms = edge.iter().enumerate().map(|(j, &value)| {
         let angle = TAU * (harmonic * j as isize).rem_euclid(count) as f64 / count as f64;
