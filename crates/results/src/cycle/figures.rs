@@ -1,7 +1,6 @@
 //! The figures of limit cycles, from their motions.
 
 use super::branches::draw_branches;
-use super::record::ShownCycle;
 use super::summary::{CycleSummary, SoughtCycle};
 use crate::charts::palette::status_ground;
 use crate::charts::{
@@ -29,7 +28,7 @@ struct CycleFigures<'a> {
     /// The body that moves.
     body: &'a ShownBody<'a>,
     /// What is shown of each cycle.
-    cycles: Vec<ShownCycle<'a>>,
+    cycles: Vec<&'a SoughtCycle>,
     /// The contacts of an assembly, each with the boundary that has its points.
     surfaces: Vec<(String, usize)>,
     /// The materials, for the stress fields.
@@ -46,8 +45,7 @@ impl CycleSummary {
         surfaces: Vec<(String, usize)>,
         materials: &dyn MaterialField,
     ) -> Vec<Figure> {
-        let cycles = self.cycles.iter().filter_map(SoughtCycle::shown);
-        let cycles = cycles.filter(|own| !own.motion.frames.is_empty()).collect();
+        let cycles = self.cycles.iter().filter(|own| !own.motion.frames.is_empty()).collect();
         let shown = &CycleFigures { found: self, body, cycles, surfaces, materials };
         let mut figures: Vec<Declaration<'_>> = Vec::new();
         for &own in &shown.cycles {
@@ -79,7 +77,7 @@ impl CycleFigures<'_> {
     }
 
     /// The status of all contact nodes over one period; that of a wave is its history.
-    fn status(&self, own: ShownCycle<'_>) -> Option<Figure> {
+    fn status(&self, own: &SoughtCycle) -> Option<Figure> {
         if own.is_wave() {
             return None;
         }
@@ -99,7 +97,7 @@ impl CycleFigures<'_> {
 
     /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n
     /// theta`.
-    fn at_one_instant(&self, own: ShownCycle<'_>) -> Figure {
+    fn at_one_instant(&self, own: &SoughtCycle) -> Figure {
         let body = self.body;
         if body.is_assembly() {
             return self.on_surfaces(own);
@@ -124,7 +122,7 @@ impl CycleFigures<'_> {
     }
 
     /// Pressure on each contact surface at time zero, seen from outside along its mean normal; grey where it is open.
-    fn on_surfaces(&self, own: ShownCycle<'_>) -> Figure {
+    fn on_surfaces(&self, own: &SoughtCycle) -> Figure {
         let mut values = vec![f64::NAN; self.body.mesh.node_count()];
         let closed = self.nodes().iter().zip(own.edge());
         for (&node, point) in closed.filter(|own| own.1.status != ContactStatus::Open) {
@@ -141,8 +139,8 @@ impl CycleFigures<'_> {
     }
 
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
-    fn shown_speed(&self, own: ShownCycle<'_>) -> f64 {
-        let motion = own.motion;
+    fn shown_speed(&self, own: &SoughtCycle) -> f64 {
+        let motion = &own.motion;
         let Some(sector) = self.body.sector else { return motion.counterface_speed };
         let radius = |ring: usize| sector.rings[ring].radius;
         let rings = sector.rings.len();
@@ -150,15 +148,15 @@ impl CycleFigures<'_> {
     }
 
     /// The contact node of the history in words.
-    fn node(&self, own: ShownCycle<'_>) -> String {
+    fn node(&self, own: &SoughtCycle) -> String {
         let node = self.nodes().get(own.motion.node);
         let label = node.map(|&node| self.body.mesh.node_label(node as usize));
         label.map_or_else(|| "a contact node".to_owned(), |label| format!("contact node {label}"))
     }
 
     /// What the node goes through in two periods, on a ground coloured by its status.
-    fn history(&self, own: ShownCycle<'_>) -> Figure {
-        let (motion, period) = (own.motion, own.history());
+    fn history(&self, own: &SoughtCycle) -> Figure {
+        let (motion, period) = (&own.motion, own.history());
         let interval = 1.0 / (motion.frequency_hz * period.len() as f64);
         let count = PERIODS * period.len() + 1;
         let rows: Vec<PhasePoint> = period.into_iter().cycle().take(count).collect();
@@ -209,7 +207,7 @@ impl CycleFigures<'_> {
     }
 
     /// The closed curves of the node: velocity over displacement along the contact, normal to it and its path too.
-    fn orbit(&self, own: ShownCycle<'_>) -> Figure {
+    fn orbit(&self, own: &SoughtCycle) -> Figure {
         let period = own.history();
         let closed = || period.iter().chain(period.first());
         let status: Vec<ContactStatus> = closed().map(|row| row.status).collect();
@@ -246,7 +244,7 @@ impl CycleFigures<'_> {
     }
 
     /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
-    fn around(&self, own: ShownCycle<'_>) -> Vec<ContactStatus> {
+    fn around(&self, own: &SoughtCycle) -> Vec<ContactStatus> {
         let (nodes, edge) = (self.body.mesh.contact_edge().nodes.len(), own.edge());
         let points = edge.len().max(1);
         let nearest =
@@ -258,7 +256,7 @@ impl CycleFigures<'_> {
         }
     }
 
-    fn shown_cycles(&self) -> impl Iterator<Item = ShownCycle<'_>> {
+    fn shown_cycles(&self) -> impl Iterator<Item = &SoughtCycle> {
         self.cycles.iter().copied().take(FIELD_LIMIT)
     }
 
@@ -294,13 +292,13 @@ impl CycleFigures<'_> {
 }
 
 /// Names of the directions normal to the contact and along it: radius and angle of the disc of a wave.
-fn directions(own: ShownCycle<'_>) -> [&'static str; 2] {
+fn directions(own: &SoughtCycle) -> [&'static str; 2] {
     if own.is_wave() { ["r", "θ"] } else { ["n", "t"] }
 }
 
 /// Amplitudes of the harmonics in time of a motion of the whole mesh.
-fn harmonics(own: ShownCycle<'_>) -> Figure {
-    let motion = own.motion;
+fn harmonics(own: &SoughtCycle) -> Figure {
+    let motion = &own.motion;
     let amplitudes = |c: usize| motion.harmonics.iter().map(|own| own.amplitude[c]).collect();
     let [normal, along]: [Vec<f64>; 2] = [0, 1].map(amplitudes);
     let caption = format!(

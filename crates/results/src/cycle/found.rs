@@ -145,7 +145,7 @@ impl FoundCycle {
             confirmation,
             stability: StabilitySummary::of(&self.stability),
             branch,
-            motion: Some(motion),
+            motion,
             exponents,
             ..sought
         }
@@ -304,7 +304,7 @@ impl FoundWave {
             confirmation,
             stability,
             branch,
-            motion: Some(motion),
+            motion,
             exponents,
             ..sought
         }

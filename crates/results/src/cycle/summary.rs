@@ -1,7 +1,7 @@
 //! `summary.json` of a search for limit cycles.
 
 use super::branch::{BranchRecord, BranchSummary, FamilyRecord};
-use super::record::{CycleMotion, CycleName, Exponent, ModeSummary, OnsetSummary, ShownCycle};
+use super::record::{CycleMotion, CycleName, Exponent, ModeSummary, OnsetSummary};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::common::*;
@@ -115,7 +115,7 @@ keys! {
         stability: Option<StabilitySummary> = "its stability, where it was asked for";
         branch?: BranchSummary = "its branch over the case's parameter";
         #[serde(skip)]
-        motion: Option<PeriodicMotion> = "its motion, which tables and figures show";
+        motion: PeriodicMotion = "its motion, where there is a cycle, which tables and figures show";
         #[serde(skip)]
         exponents: Option<Vec<Exponent>> = "its exponents or multipliers, where they are known";
     }
@@ -133,14 +133,49 @@ impl SoughtCycle {
             confirmation: None,
             stability: None,
             branch: None,
-            motion: None,
+            motion: PeriodicMotion::default(),
             exponents: None,
         }
     }
 
-    /// The cycle with its motion, where there is one.
-    pub(super) fn shown(&self) -> Option<ShownCycle<'_>> {
-        Some(ShownCycle { name: &self.name, motion: self.motion.as_ref()? })
+    /// Whether it is a wave of a disc.
+    pub(super) fn is_wave(&self) -> bool {
+        self.name.wave().is_some()
+    }
+
+    /// Nodal diameters of a wave; 0 of a motion of the whole mesh.
+    pub(super) fn diameters(&self) -> usize {
+        self.name.wave().map_or(0, |wave| wave.harmonic)
+    }
+
+    /// Whose it is: `2 nodal diameters`, or its frequency.
+    pub(super) fn whose(&self) -> String {
+        match &self.name {
+            CycleName::Wave(wave) => format!("{} nodal diameters", wave.harmonic),
+            CycleName::Mode(_) => format!("{:.2} Hz", self.motion.frequency_hz),
+        }
+    }
+
+    /// The heading of its pictures.
+    pub(super) fn heading(&self) -> String {
+        let name = match &self.name {
+            CycleName::Wave(wave) => format!("*n* = {}", wave.harmonic),
+            CycleName::Mode(own) => own.mode.to_string(),
+        };
+        format!("{name}, {:.2} kHz", self.motion.frequency_hz * 1e-3)
+    }
+
+    /// All contact nodes at time zero, of a wave along the phase.
+    pub(super) fn edge(&self) -> &[PhasePoint] {
+        self.motion.instants.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// Contact and motion over the period: of the contact node that moves most, of a wave of any.
+    pub(super) fn history(&self) -> Vec<PhasePoint> {
+        match self.is_wave() {
+            true => self.edge().to_vec(),
+            false => self.motion.instants.iter().map(|at| at[self.motion.node]).collect(),
+        }
     }
 
     /// Its stability, where it is known.

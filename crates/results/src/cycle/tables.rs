@@ -147,13 +147,15 @@ impl SoughtCycle {
         body: &ShownBody<'_>,
         interface: Option<&ContactInterface>,
     ) -> Vec<Table> {
-        let Some(own) = self.shown() else { return Vec::new() };
+        if self.cycle.is_none() {
+            return Vec::new();
+        }
         let table = |what: &str| Table::new(format!("{what}-{}.csv", self.name.tag()), "");
         let key = self.branch.as_ref().map(|branch| branch.key.as_str());
         let mut tables = Vec::new();
-        let (history, motion) = (own.history(), own.motion);
+        let (history, motion) = (self.history(), &self.motion);
         if !history.is_empty() {
-            let path = if own.is_wave() { WAVE_PATH } else { PATH };
+            let path = if self.is_wave() { WAVE_PATH } else { PATH };
             let table = table("cycle").columns(HISTORY, &history);
             tables.push(table.columns(path, &history));
         }
@@ -173,11 +175,11 @@ impl SoughtCycle {
         }
         if let Some(exponents) = &self.exponents {
             let mut table = table("stability");
-            if own.is_wave() {
+            if self.is_wave() {
                 let values = exponents.iter().map(|row| row.0);
                 table = table.column(key.unwrap_or("point"), None, values);
             }
-            let others: &[&str] = match own.is_wave() {
+            let others: &[&str] = match self.is_wave() {
                 true => &["beat_hz", "modulus", "argument_rad"],
                 false => &["class", "wave_frequency_rad_per_s", "harmonic", "frequency_hz"],
             };
@@ -186,7 +188,7 @@ impl SoughtCycle {
         }
         if let Some(branch) = &self.branch {
             let rows = &branch.rows;
-            let others: &[&str] = match own.is_wave() {
+            let others: &[&str] = match self.is_wave() {
                 true => &["velocity_level_db", "stability", "residual", "periods", "fold"],
                 false => &["harmonic"],
             };
