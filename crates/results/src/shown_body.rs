@@ -31,6 +31,11 @@ impl<'a> ShownBody<'a> {
         self.sector.is_some() || self.mesh.dimension == 3
     }
 
+    /// Components of a motion of a node.
+    pub fn dimension(&self) -> usize {
+        if self.is_solid() { 3 } else { 2 }
+    }
+
     /// Whether it is solid bodies of a mesh, whose nodes move along x, y and z.
     pub fn is_assembly(&self) -> bool {
         self.sector.is_none() && self.mesh.dimension == 3

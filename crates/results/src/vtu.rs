@@ -106,31 +106,29 @@ impl Field {
         scalars.into_iter().chain(components).collect()
     }
 
-    /// The contact at the nodes of its edge among `count` nodes: `status` (0 open, 1 stick, 2 slip; -1 off the edge),
-    /// `pressure_pa` and `shear_pa`.
+    /// The contact at some of `count` nodes by status, pressure and friction traction (Pa): `status` (0 open, 1 stick,
+    /// 2 slip; -1 elsewhere), `pressure_pa` and `shear_pa`.
     pub fn contact(
         count: usize,
-        edge: &[u32],
-        statuses: impl IntoIterator<Item = ContactStatus>,
-        [pressures, shears]: [&[f64]; 2],
+        states: impl Iterator<Item = (u32, ContactStatus, [f64; 2])>,
     ) -> [Self; 3] {
-        let mut codes = vec![-1; count];
-        for (&node, status) in edge.iter().zip(statuses) {
+        let (mut codes, mut pressures, mut shears) =
+            (vec![-1; count], vec![0.0; count], vec![0.0; count]);
+        for (node, status, tractions) in states {
             codes[node as usize] = status as i64;
+            [pressures[node as usize], shears[node as usize]] = tractions;
         }
         [
             Self::integers("status", codes),
-            Self::on_edge("pressure_pa", count, edge, pressures),
-            Self::on_edge("shear_pa", count, edge, shears),
+            Self::scalars("pressure_pa", pressures),
+            Self::scalars("shear_pa", shears),
         ]
     }
 
     /// Values at the nodes of the contact edge among `count` nodes, zero off it.
-    pub fn on_edge(name: &str, count: usize, edge: &[u32], values: &[f64]) -> Self {
+    pub fn on_edge(name: &str, count: usize, values: impl Iterator<Item = (u32, f64)>) -> Self {
         let mut all = vec![0.0; count];
-        for (&node, value) in edge.iter().zip(values) {
-            all[node as usize] = *value;
-        }
+        values.for_each(|(node, value)| all[node as usize] = value);
         Self::scalars(name, all)
     }
 

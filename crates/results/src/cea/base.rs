@@ -206,16 +206,11 @@ impl BaseField {
 
     /// Status, pressure and friction traction at the contact nodes.
     fn at_nodes(&self, body: &ShownBody<'_>) -> [Field; 3] {
-        let all = self.contact.iter();
-        let nodes = all.flat_map(|own| own.place.shares.iter().map(move |&(node, _)| (node, own)));
-        let (nodes, states): (Vec<u32>, Vec<&ContactState>) = nodes.unzip();
-        let count = self.displacement.len() / if body.is_solid() { 3 } else { 2 };
-        let statuses = states.iter().map(|own| own.status());
-        let of = |value: fn(&ContactState) -> f64| -> Vec<f64> {
-            states.iter().map(|own| value(own)).collect()
-        };
-        let tractions = [&of(|own| own.pressure)[..], &of(|own| own.shear)];
-        Field::contact(count, &nodes, statuses, tractions)
+        let states = self.contact.iter().flat_map(|own| {
+            let state = (own.status(), [own.pressure, own.shear]);
+            own.place.shares.iter().map(move |&(node, _)| (node, state.0, state.1))
+        });
+        Field::contact(self.displacement.len() / body.dimension(), states)
     }
 
     /// Mean over the contact points around each node, weighted by area and share; NaN where there is none.

@@ -85,12 +85,11 @@ fn encode_shape(
     &ModeShape { friction, mode, .. }: &ModeShape<'_>,
 ) -> io::Result<Vec<u8>> {
     let body = &report.body;
-    let dimension = if body.is_solid() { 3 } else { 2 };
     let shape = mode.shape.as_deref().unwrap_or_default();
     let fields = [
         body.vectors("displacement_real", &part_of(mode, |z| z.re)),
         body.vectors("displacement_imaginary", &part_of(mode, |z| z.im)),
-        Field::scalars("amplitude", shape.chunks_exact(dimension).map(size)),
+        Field::scalars("amplitude", shape.chunks_exact(body.dimension()).map(size)),
     ];
     let whole = [
         ("frequency_hz", mode.frequency_hz()),

@@ -21,10 +21,9 @@ impl CycleSummary {
         tables.chain(pairs).try_for_each(|table| write_table(folder, &table))?;
         let fields = Fields { folder, body, interface, mesh: OnceCell::new() };
         let mut waves = Vec::new();
-        for (place, sought) in self.cycles.iter().enumerate() {
-            let Some(own) = sought.shown() else { continue };
+        for (place, own) in self.cycles.iter().enumerate() {
             let tag = own.name.tag();
-            if let Some(interface) = interface {
+            if let Some(interface) = interface.filter(|_| own.cycle.is_some()) {
                 folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
                     out.write_all(&encode_contact(interface, &own.motion.instants)?)
                 })?;
@@ -91,11 +90,9 @@ impl Fields<'_> {
             self.body.vectors("velocity_m_per_s", velocity),
         ];
         if let (Some(contact), Some(interface)) = (&frame.contact, self.interface) {
-            let count = displacement.len() / if self.body.is_solid() { 3 } else { 2 };
-            let all = |of: fn(&PhasePoint) -> f64| contact.iter().map(of).collect::<Vec<f64>>();
-            let tractions = [&all(|own| own.pressure)[..], &all(|own| own.shear)];
-            let statuses = contact.iter().map(|own| own.status);
-            fields.extend(Field::contact(count, &interface.nodes, statuses, tractions));
+            let states = interface.nodes.iter().zip(contact);
+            let states = states.map(|(&node, own)| (node, own.status, [own.pressure, own.shear]));
+            fields.extend(Field::contact(displacement.len() / self.body.dimension(), states));
         }
         fields
     }

@@ -172,7 +172,7 @@ impl RecordedRun<'_> {
 
     /// Tangential velocity of each contact node, m/s: before another body that of what it meets less its own, the slip.
     fn contact_velocity(&self, snapshot: &Snapshot) -> Vec<f64> {
-        let components = if self.body.is_solid() { 3 } else { 2 };
+        let components = self.body.dimension();
         let slip = |(i, &node): (usize, &u32)| {
             let velocity = snapshot.velocity[components * node as usize + 1];
             let Some(opposite) = self.interface.opposite.get(i) else { return velocity };

@@ -197,17 +197,20 @@ fn snapshot_fields(run: &RecordedRun<'_>, snapshot: &Snapshot) -> Vec<Field> {
         body.vectors("velocity_m_per_s", &snapshot.velocity),
     ];
     fields.extend(body.stress_fields(&body.stress(run.material, displacement)));
-    let count = displacement.len() / if body.is_solid() { 3 } else { 2 };
-    let (edge, contact) = (&run.interface.nodes, &snapshot.contact);
-    let wide = |values: &[f32]| -> Vec<f64> { values.iter().copied().map(f64::from).collect() };
-    let codes = contact.status.iter().map(|&code| status_of_code(code));
-    let tractions = [&wide(&contact.pressure)[..], &wide(contact.shear())];
-    fields.extend(Field::contact(count, edge, codes, tractions));
+    let (count, contact) = (displacement.len() / body.dimension(), &snapshot.contact);
+    let edge = || run.interface.nodes.iter().copied();
+    let states = edge().zip(&contact.status).zip(contact.pressure.iter().zip(contact.shear()));
+    fields.extend(Field::contact(
+        count,
+        states.map(|((node, &code), (&pressure, &shear))| {
+            (node, status_of_code(code), [pressure, shear].map(f64::from))
+        }),
+    ));
     // In three dimensions friction may act across the sliding too.
     if !contact.shear_across().is_empty() {
-        let across = wide(contact.shear_across());
-        fields.push(Field::on_edge("shear_across_pa", count, edge, &across));
+        let across = contact.shear_across().iter().copied().map(f64::from);
+        fields.push(Field::on_edge("shear_across_pa", count, edge().zip(across)));
     }
-    fields.push(Field::on_edge("gap_m", count, edge, &snapshot.gap));
+    fields.push(Field::on_edge("gap_m", count, edge().zip(snapshot.gap.iter().copied())));
     fields
 }
