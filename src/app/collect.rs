@@ -2,10 +2,10 @@
 
 use super::options::FigureOptions;
 use super::prelude::*;
-use super::sweep::{SweepPlan, figures, finished, gather};
+use super::sweep::{SweepPlan, finished, gather};
 use crate::case::{MeshBytes, RawCase, RawValue, TableBytes};
 use crate::results::MESH;
-use crate::results::sweep::{SweepFolder, SweepReport, document};
+use crate::results::sweep::SweepFolder;
 use clap::ArgAction;
 use frictionsim_bounds::{RESULT, read_file};
 
@@ -37,18 +37,22 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let folder = SweepFolder::find(&asked.folder, "sweep")?;
     let case = recorded_case(&asked.folder, folder.output().manifest())?;
     let plan = SweepPlan::new(&case)?;
-    let found = finished(&case, &plan, &folder)?;
-    let report = SweepReport { wall_s: start.elapsed().as_secs_f64(), ..found };
-    let figures = || figures(&case, &plan, &report);
-    let drawn = (!asked.no_figures).then(|| (figures(), asked.figures.drawing()));
-    let summary = gather(&folder, &report, drawn)?;
-    let output = OutputOptions { json: asked.json, quiet: asked.quiet, ..Default::default() };
-    output.print(&document(&report, false).to_text(), &summary, folder.output().path())?;
-    match report.summary.missing.len() {
+    let found = finished(&plan, &folder)?;
+    let head = Head::of(&case.title, start.elapsed().as_secs_f64());
+    let output = OutputOptions {
+        json: asked.json,
+        quiet: asked.quiet,
+        no_figures: asked.no_figures,
+        figures: asked.figures.clone(),
+        ..Default::default()
+    };
+    let (text, summary) = gather(&output, &folder, (&case, &plan), head, &found)?;
+    output.print(&text, &summary, folder.output().path())?;
+    match found.missing.len() {
         0 => Ok(()),
         missing => Err(Failure::run(format!(
             "{missing} of {} points are missing: run the sweep again with --resume",
-            report.summary.points
+            found.points
         ))),
     }
 }

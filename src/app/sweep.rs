@@ -10,10 +10,10 @@ use super::session::machine_memory;
 use super::share::ShareOptions;
 use super::transient::linear_stage;
 use crate::case::{Analysis, Choice};
+use crate::results::summary_of;
 use crate::results::sweep::{
-    FailedPoint, SweepFolder, SweepReport, SweepSummary, document, draw_sweep, tables,
+    FailedPoint, PointRecord, SweepFolder, SweepSummary, document, draw_sweep,
 };
-use crate::results::{DrawingOptions, summary_of, write_page, write_summary, write_table};
 use crate::study::{refuse_memory, summarize};
 use serde_json::Map;
 
@@ -55,20 +55,17 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     progress.finish();
     let ran = outcome?;
 
-    let found = finished(&session.case, &plan, &folder)?;
-    let mut report = SweepReport { wall_s: session.wall_seconds(), ..found };
-    report.summary.ran = Some(ran);
-    let summary = if report.summary.missing.is_empty() {
-        let figures = || figures(&session.case, &plan, &report);
-        let drawn = output.drawing().map(|options| (figures(), options));
-        gather(&folder, &report, drawn)?
+    let found = SweepSummary { ran: Some(ran), ..finished(&plan, &folder)? };
+    let (text, summary) = if found.missing.is_empty() {
+        gather(output, &folder, (&session.case, &plan), session.head(), &found)?
     } else {
-        let head = Head::of(report.title, report.wall_s);
-        summary_of(&session.manifest, head, &report.summary).map_err(Failure::run)?
+        let summary = summary_of(&session.manifest, session.head(), &found);
+        let document = document(&found, false).titled(&session.case.title);
+        (document.to_text(), summary.map_err(Failure::run)?)
     };
-    output.print(&document(&report, false).to_text(), &summary, folder.output().path())?;
+    output.print(&text, &summary, folder.output().path())?;
     let of_these = |own: &&FailedPoint| points.binary_search(&own.point).is_ok();
-    match report.summary.failed.iter().filter(of_these).count() {
+    match found.failed.iter().filter(of_these).count() {
         0 => Ok(()),
         failed => Err(Failure::run(format!(
             "{failed} of {} points failed; the results of the others are kept",
@@ -77,22 +74,17 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// What there is to report of the finished points of a folder; who asks adds how many it ran, and its time.
-pub fn finished<'a>(
-    case: &'a Case,
-    plan: &SweepPlan<'_>,
-    folder: &SweepFolder,
-) -> Result<SweepReport<'a>, Failure> {
+/// What there is to report of the finished points of a folder; who asks adds how many it ran.
+pub fn finished(plan: &SweepPlan<'_>, folder: &SweepFolder) -> Result<SweepSummary, Failure> {
     let records = kept_pieces(folder, plan.count())?;
     let core_s = records.iter().map(|record| folder.read_clock(record.point).core_s).sum();
     let (keys, analyses) = (plan.keys(), plan.analysis_names());
-    let summary = SweepSummary::of(keys, analyses, plan.count(), &records, core_s);
-    Ok(SweepReport { title: &case.title, records, summary, wall_s: 0.0 })
+    Ok(SweepSummary::of(keys, analyses, plan.count(), records, core_s))
 }
 
 /// The figures of a study, with the modes of the case at its own friction, if the points are transients that differ in
 /// speed or friction alone, and its range of friction.
-pub fn figures(case: &Case, plan: &SweepPlan<'_>, report: &SweepReport<'_>) -> Vec<Figure> {
+fn figures(case: &Case, plan: &SweepPlan<'_>, records: &[PointRecord]) -> Vec<Figure> {
     let is_same_body = |key: &String| key.starts_with("contact.");
     let has_modes =
         plan.analyses.contains(&Analysis::Transient) && plan.keys().iter().all(is_same_body);
@@ -100,24 +92,24 @@ pub fn figures(case: &Case, plan: &SweepPlan<'_>, report: &SweepReport<'_>) -> V
     let cea = case.cea.as_ref().map(|cea| &cea.friction_coefficients);
     let highest = cea.into_iter().flatten().copied().fold(own, f64::max);
     let modes = if has_modes { linear_stage(case).references } else { Vec::new() };
-    draw_sweep(&report.records, (own, highest), &modes)
+    draw_sweep(records, (own, highest), &modes)
 }
 
-/// Writes the tables, the summary and, if they are `drawn`, the figures of the finished points; gives the summary.
+/// Writes the tables, the figures and the summary of the finished points; gives what is printed of them, for people and
+/// as an object.
 pub fn gather(
+    output: &OutputOptions,
     folder: &SweepFolder,
-    report: &SweepReport<'_>,
-    drawn: Option<(Vec<Figure>, DrawingOptions)>,
-) -> Result<Value, Failure> {
-    let output = folder.output();
-    if let Some((figures, options)) = drawn {
-        write_page(output, document(report, true), figures, &options)?;
-    }
-    let SweepReport { records, summary, .. } = report;
-    let tables = tables(&summary.swept, &summary.analyses, records);
-    tables.iter().try_for_each(|table| write_table(output, table))?;
-    let head = Head::of(report.title, report.wall_s);
-    Ok(write_summary(output, head, summary)?)
+    (case, plan): (&Case, &SweepPlan<'_>),
+    head: Head<'_>,
+    found: &SweepSummary,
+) -> Result<(String, Value), Failure> {
+    let told = Told {
+        text: document(found, false).titled(&case.title).to_text(),
+        ..Told::of(head, document(found, true))
+    };
+    let figures = || figures(case, plan, &found.records);
+    output.write_result(folder.output(), told, found, figures)
 }
 
 /// Runs the analyses of one point up to the first that fails, and gives the summary of each by its name.

@@ -10,7 +10,7 @@ mod table;
 pub use figures::draw_sweep;
 pub use folder::{Claim, Found, Start, SweepFolder};
 pub use record::{PointClock, PointRecord};
-pub use report::{FailedPoint, SweepReport, SweepSummary, document};
-pub use table::{swept_text, tables};
+pub use report::{FailedPoint, SweepSummary, document};
+pub use table::swept_text;
 
-pub(super) use table::{BRANCHES, FRICTION, SPEED, by_other_keys, cell, join};
+pub(super) use table::{BRANCHES, FRICTION, SPEED, by_other_keys, cell, join, tables};

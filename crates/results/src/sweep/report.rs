@@ -2,7 +2,7 @@
 //! which conditions.
 
 use super::record::{PointRecord, listed};
-use super::table::{cell, heads, of_points, swept_text};
+use super::table::{cell, heads, of_points, swept_text, tables};
 use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
 use crate::common::*;
 use crate::number_ranges;
@@ -61,19 +61,6 @@ pub(crate) const UNSETTLED: &str = "unsettled";
 /// Longest table that is printed.
 const MOST_ROWS: usize = 200;
 
-/// Everything that is known of a sweep.
-#[derive(Clone, Debug)]
-pub struct SweepReport<'a> {
-    /// Title of the case.
-    pub title: &'a str,
-    /// Finished points in their order.
-    pub records: Vec<PointRecord>,
-    /// What they come to.
-    pub summary: SweepSummary,
-    /// Wall time of this process, s.
-    pub wall_s: f64,
-}
-
 keys! {
     /// `summary.json` of `frictionsim sweep`.
     SweepSummary {
@@ -87,6 +74,8 @@ keys! {
         core_s: f64 = "time that the points kept cores busy, s";
         points_per_core_hour: Option<f64> = "points done in an hour of one core";
         notes: Vec<String> = "what to know before points are compared";
+        #[serde(skip)]
+        records: Vec<PointRecord> = "finished points in their order";
     }
 
     /// A point that failed, and why.
@@ -104,7 +93,7 @@ impl SweepSummary {
         swept: Vec<String>,
         analyses: Vec<String>,
         count: usize,
-        records: &[PointRecord],
+        records: Vec<PointRecord>,
         core_s: f64,
     ) -> Self {
         let failed = records.iter().filter(|record| record.error.is_some());
@@ -129,7 +118,8 @@ impl SweepSummary {
             missing,
             core_s,
             points_per_core_hour: rate,
-            notes: notes(records),
+            notes: notes(&records),
+            records,
         }
     }
 
@@ -172,9 +162,10 @@ fn notes(records: &[PointRecord]) -> Vec<String> {
     notes
 }
 
-/// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.
-pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
-    let SweepReport { records, summary, .. } = report;
+/// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point; a page has
+/// the tables that are files, too.
+pub fn document(summary: &SweepSummary, is_page: bool) -> Document {
+    let records = &summary.records;
     let conditions = conditions(records);
     let errors = summary.errors();
     let errors =
@@ -189,21 +180,22 @@ pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
         .text(squeal_sentence(&conditions))
         .text(errors)
         .text(missing)
-        .facts(ranges(report))
+        .facts(ranges(summary))
         .facts(rate);
     let modes = Some(modes_table(&conditions, &summary.swept)).filter(|_| is_page);
-    let points = Some(points_table(report)).filter(|_| is_page || records.len() <= MOST_ROWS);
-    Document::new("Study")
-        .titled(report.title)
+    let points = Some(points_table(summary)).filter(|_| is_page || records.len() <= MOST_ROWS);
+    let document = Document::new("Study")
         .section(results)
         .section(Section::new("Study").figures([""]))
         .section(Section::new("Points").tables(modes).tables(points))
-        .notes(&summary.notes)
+        .notes(&summary.notes);
+    let files = is_page.then(|| tables(&summary.swept, &summary.analyses, records));
+    files.into_iter().flatten().fold(document, Document::file)
 }
 
 /// How far the study is, and the range of every quantity that a person wants first.
-fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
-    let SweepReport { records, summary, .. } = report;
+fn ranges(summary: &SweepSummary) -> Vec<(String, String)> {
+    let records = &summary.records;
     let finished = format!("{} of {}", records.len(), summary.points);
     let failed = summary.failed.len().to_string();
     let mut out = vec![("points".to_owned(), finished), ("failed".to_owned(), failed)];
@@ -225,8 +217,8 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
 }
 
 /// What a person wants first of every point; `points.csv` has all.
-fn points_table(report: &SweepReport<'_>) -> Table {
-    let SweepReport { records, summary, .. } = report;
+fn points_table(summary: &SweepSummary) -> Table {
+    let records = &summary.records;
     let points = records.iter().map(|record| (record.point, &record.swept));
     let table = of_points("Finished points (every quantity: points.csv)", &summary.swept, points);
     table.columns(FIRST, records).columns(ENDS, records).shown_column(
@@ -322,8 +314,8 @@ mod tests {
     #[test]
     fn points_without_a_record_are_missing() {
         let record = |point| PointRecord { point, ..PointRecord::default() };
-        let records = [record(2), record(3), record(5)];
-        let summary = SweepSummary::of(Vec::new(), Vec::new(), 5, &records, 6.0);
+        let records = vec![record(2), record(3), record(5)];
+        let summary = SweepSummary::of(Vec::new(), Vec::new(), 5, records, 6.0);
         assert_eq!(summary.missing, [1, 4]);
         assert_eq!(summary.points_per_core_hour, Some(1800.0));
     }
