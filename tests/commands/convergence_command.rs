@@ -108,6 +108,19 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
     assert_eq!(quantities(&found["series"][0])[0]["verdict"], "missing");
 }
 
+/// At friction 0.5 a branch that has an onset before is none of the ten lowest modes: no shape tells it on other meshes.
+#[test]
+fn onsets_are_compared_of_branches_that_have_a_mode_at_the_friction_of_the_case() {
+    let mesh = plane_block([0.04, 0.03], [4, 3], ["face", "back", "body"]);
+    let text = include_str!("../cases/falling-friction-of-a-coarse-block.toml");
+    let files = [("disc.toml", text.as_bytes()), ("part.msh", &mesh)];
+    let run = Run::new(&["convergence", "disc.toml", "-q"]).beside(&files).out("out");
+    let found = run.args(&["--json", "--no-figures"]).done().value();
+    let names = quantities(&found["series"][0]).iter().map(|own| own["name"].as_str().unwrap());
+    let onsets: Vec<&str> = names.filter(|name| name.starts_with("critical")).collect();
+    assert_eq!(onsets, ["1", "3", "4"].map(|n| format!("critical friction, mode {n}")));
+}
+
 /// A body of revolution on its whole mesh is refined as it is generated: no cylinder fits into the straight edges of split elements.
 #[test]
 fn a_body_of_revolution_on_its_whole_mesh_stays_round_when_it_is_refined() {

@@ -51,7 +51,7 @@ pub fn of_sweeps(
 /// Least likeness (modal assurance criterion) of the shapes of one mode on two meshes.
 const SAME_MODE: f64 = 0.5;
 
-/// First number of the branches that the finest mesh does not have.
+/// First number of the modes that the finest mesh does not have.
 const FOREIGN: usize = 1 << 20;
 
 /// Gives the branches of a body without symmetry the rank that their mode has by frequency on the finest mesh, from 1;
@@ -84,16 +84,15 @@ fn name_by_rank(
         // Likest pairs first, each mode once.
         pairs.retain(|pair| pair.0 < -SAME_MODE);
         rank_of.extend(order::each_once(pairs));
-        let rename = |branch: &mut usize| {
-            *branch = rank_of.get(branch).map_or(FOREIGN + *branch, |rank| *rank);
-        };
         for mode in sweep.points.iter_mut().flat_map(|point| &mut point.modes) {
-            rename(&mut mode.branch);
+            let rank = rank_of.get(&mode.branch).copied();
             (mode.harmonic, mode.direction) = (0, 0);
+            mode.branch = rank.unwrap_or(FOREIGN + mode.branch);
         }
-        for interval in &mut sweep.intervals {
-            rename(&mut interval.branch);
-            (interval.harmonic, interval.direction) = (0, 0);
+        // An onset without a mode at `friction` has no shape that tells its branch on other meshes.
+        sweep.intervals.retain(|own| rank_of.contains_key(&own.branch));
+        for own in &mut sweep.intervals {
+            (own.harmonic, own.branch, own.direction) = (0, rank_of[&own.branch], 0);
         }
         finer = Some((own(sweep), mesh));
     }
