@@ -84,10 +84,18 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     }
     let ModeLimit::MaxFrequency(limit_hz) = cea.modes else { return Ok(()) };
     let kappa = (TAU * limit_hz).powi(2);
-    let tangent = match &model {
+    let has_modes = match &model {
         Model::Whole(whole) => {
             let first = &whole.range.states[whole.range.state_of[0]];
-            whole.tangent(case, first)?.referred_to(limit_hz)
+            let tangent = whole.tangent(case, first)?.referred_to(limit_hz);
+            let [k, m] = [&tangent.stiffness, &tangent.mass].map(|own| own.evaluate(0.0));
+            let shifted: Vec<f64> = k.iter().zip(&m).map(|(k, m)| k - kappa * m).collect();
+            let analysis = LuAnalysis::new(tangent.stiffness.pattern()).map_err(CeaError::from)?;
+            let counted = SparseLu::symmetric(&analysis, shifted);
+            counted.is_ok_and(|f| f.negative_count() > MOST_RIGID) || {
+                let found = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(1));
+                found.is_ok_and(|own| own.frequencies[0] < TAU * limit_hz)
+            }
         }
         Model::Waves(options) => {
             let waves = wave_tangent(case, options)?.expect("a body of sectors");
@@ -95,23 +103,17 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
                 let [mass, stiffness] = waves.at_rest(n);
                 BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0
             };
-            if (0..=waves.largest_harmonic()).any(has_modes) {
-                return Ok(());
-            }
-            // Friction may bring a mode below the limit. There is little to follow.
-            let frictions = cea.solved_friction_coefficients();
-            let request = SweepRequest::new(&frictions, cea.modes);
-            return refuse_no_modes(case, cea, &model.spectrum(case, &request)?.sweep);
+            (0..=waves.largest_harmonic()).any(has_modes)
         }
     };
-    let [stiffness, mass] = [&tangent.stiffness, &tangent.mass].map(|own| own.evaluate(0.0));
-    let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k - kappa * m).collect();
-    let analysis = LuAnalysis::new(tangent.stiffness.pattern()).map_err(CeaError::from)?;
-    if SparseLu::symmetric(&analysis, shifted).is_ok_and(|f| f.negative_count() > MOST_RIGID) {
+    if has_modes {
         return Ok(());
     }
-    let found = FrictionlessModes::compute(&tangent, cea.modes);
-    found.map_or_else(|error| Err(at_key(case, &error)), |_| Ok(()))
+    // Friction may bring a mode below the limit. There is little to follow.
+    let frictions = cea.solved_friction_coefficients();
+    let request = SweepRequest::new(&frictions, cea.modes);
+    let found = model.spectrum(case, &request).map_err(|error| at_key(case, &error))?;
+    refuse_no_modes(case, cea, &found.sweep)
 }
 
 /// A frequency limit below the first mode is an error of the case.

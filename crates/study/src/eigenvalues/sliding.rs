@@ -8,7 +8,7 @@ use frictionsim_physics::prestress::{PressedState, SectorSliding, SolidSliding};
 use frictionsim_results::cea::{BaseField, BaseState, ContactState, NamedDamping};
 use frictionsim_results::grouped;
 
-/// Share of the modulus below which a contact pressure is round-off.
+/// Share of the stress where a body alone gives way, or of its modulus, below which a contact pressure is round-off.
 const NO_PRESSURE: f64 = 1e-13;
 
 /// A model with its mesh and its steady sliding.
@@ -81,7 +81,10 @@ impl SlidingModel {
         let is_free =
             |body: &AssemblyBody| body.base == BaseChoice::Closed || body.contacts.is_empty();
         let largest = self.base_state(case).pressure_pa[1];
-        if largest > NO_PRESSURE * case.material.young_modulus || assembly.is_some_and(is_free) {
+        let strain = case.contact.sliding.interference / case.body.size();
+        let strain = if strain > 0.0 { strain.min(1.0) } else { 1.0 };
+        let least = NO_PRESSURE * strain * case.material.young_modulus;
+        if largest > least || assembly.is_some_and(is_free) {
             return Ok(());
         }
         let named = assembly.and_then(|body| body.contacts.first());
