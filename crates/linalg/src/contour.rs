@@ -34,7 +34,7 @@ impl<E> From<E> for Uncounted<E> {
     }
 }
 
-/// The winding number of `f` about a rectangle with these corners, counter-clockwise, and its first moment,
+/// The winding number of `f` about a polygon with these corners, counter-clockwise, and its first moment,
 ///
 /// ```text
 /// N = 1 / (2 pi i) int f' / f dz,    sum of the zeros less that of the poles = 1 / (2 pi i) int z f' / f dz.
@@ -46,16 +46,16 @@ impl<E> From<E> for Uncounted<E> {
 /// # Errors
 /// [`Uncounted`].
 pub fn count_zeros<E>(
-    corners: &[c64; 4],
+    corners: &[c64],
     step: &dyn Fn(c64) -> f64,
     ln: &mut dyn FnMut(Vec<c64>) -> Result<Vec<c64>, E>,
 ) -> Result<ZeroCount, Uncounted<E>> {
     let mut samples = |points: &[c64]| samples(points, step, ln);
-    // Four sides to begin with, each with its middle.
-    let middles = [0, 1, 2, 3].map(|i| 0.5 * (corners[i] + corners[(i + 1) % 4]));
-    let ends = samples(&[corners.as_slice(), &middles].concat())?;
+    let n = corners.len(); // Its sides to begin with, each with its middle.
+    let middles: Vec<c64> = (0..n).map(|i| 0.5 * (corners[i] + corners[(i + 1) % n])).collect();
+    let ends = samples(&[corners, &middles].concat())?;
     let mut open: Vec<[Sample; 3]> =
-        (0..4).map(|i| [ends[i], ends[4 + i], ends[(i + 1) % 4]]).collect();
+        (0..n).map(|i| [ends[i], ends[n + i], ends[(i + 1) % n]]).collect();
     let (mut sums, mut pieces) = ([c64::ZERO; 2], open.len());
     while !open.is_empty() {
         let mut rough = Vec::new();

@@ -1,4 +1,4 @@
-//! How close is the same, how small is nothing: the accuracy that every solver of eigenvalues works to.
+//! How close is the same, how small is nothing, how often is enough: what every solver of eigenvalues works to.
 
 /// Rounding errors of the terms of a sum up to which the sum is none but rounded.
 pub(super) const ROUNDING_ERRORS: f64 = 8.0;
@@ -32,3 +32,9 @@ pub(super) const BESIDE: f64 = 1e-3;
 /// Frequency up to which modes are held or wanted, over the highest one: two that differ in damping change places as they converge, and the
 /// one of lower frequency may have the larger eigenvalue. One farther above is above the range beyond doubt.
 pub(super) const CHANGE_PLACES: f64 = 1.01;
+/// Steps of an iteration for one mode, or for one basis, after which it counts as one that does not converge: ten or fewer do, or three or
+/// four by factors at each.
+pub(super) const MOST_STEPS: usize = 24;
+/// Attempts of one remedy, of which one or two do where it is fit: rounds at one point or crossing, restarts, shifts, samples between two
+/// friction values. After more of them another remedy takes over, or what is open is said.
+pub(super) const MOST_ATTEMPTS: usize = 8;

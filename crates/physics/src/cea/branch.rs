@@ -1,7 +1,6 @@
 //! Eigenvalues as continuous functions of the friction coefficient.
 
-use super::{ComplexMode, UnstableInterval};
-use crate::linalg::c64;
+use crate::cea::*;
 
 /// A branch at one friction value.
 #[derive(Clone, Copy, Debug, PartialEq)]

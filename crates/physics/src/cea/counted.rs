@@ -1,7 +1,6 @@
 //! Counts of eigenvalues, apart from how they were found.
 
-use crate::linalg::c64;
-use std::f64::consts::TAU;
+use crate::cea::*;
 
 /// `|Im lambda| / |lambda|` below which a motion decays without oscillating: its damping factor is above 0.995. Motions beyond
 /// critical damping have real eigenvalues only where nothing couples two of them.
@@ -21,7 +20,7 @@ pub(super) const WIDEST_GROWTH: f64 = 0.2;
 /// The same relative to the modes listed.
 const BEYOND_LISTED: f64 = 1.5;
 
-/// A rectangle of the upper half plane.
+/// A rectangle of the upper half plane, but for what does not oscillate in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountedRegion {
     /// Range of `Im lambda / 2 pi`, Hz.
@@ -39,11 +38,23 @@ impl CountedRegion {
             factor * rates.fold(WIDEST_GROWTH * top, f64::max)
         };
         let [left, right] = [reach(-1.0), reach(1.0)];
-        // Below the line from zero through the lower left corner motions do not oscillate.
+        // Motions that decay faster than they could oscillate below the upper end are none.
+        let (left, low) = (left.min(0.9 * top / STANDSTILL), 0.5 * lowest);
         Self {
-            frequencies_hz: [(STANDSTILL * left).min(0.5 * lowest) / TAU, top / TAU],
+            frequencies_hz: [(STANDSTILL * left).min(low) / TAU, top / TAU],
             growth_rates: [-left, right],
         }
+    }
+
+    /// Its corners, counter-clockwise: five where the line below which motions do not oscillate cuts one off.
+    pub(super) fn corners(&self) -> Vec<c64> {
+        let [low, high] = self.frequencies_hz.map(|hz| TAU * hz);
+        let [left, right] = self.growth_rates;
+        let standing = -STANDSTILL * left;
+        let mut corners = vec![(left.max(-low / STANDSTILL), low), (right, low), (right, high)];
+        corners.push((left, high));
+        corners.extend((standing > (1.0 + NEAR) * low).then_some((left, standing)));
+        corners.into_iter().map(|(re, im)| c64::new(re, im)).collect()
     }
 
     /// Whether an eigenvalue lies inside.
@@ -51,7 +62,9 @@ impl CountedRegion {
         let frequency_hz = eigenvalue.im / TAU;
         let [low, high] = self.frequencies_hz;
         let [left, right] = self.growth_rates;
-        low < frequency_hz && frequency_hz < high && left < eigenvalue.re && eigenvalue.re < right
+        let is_inside = low < frequency_hz && frequency_hz < high;
+        let is_standing = eigenvalue.im < -STANDSTILL * eigenvalue.re;
+        is_inside && left < eigenvalue.re && eigenvalue.re < right && !is_standing
     }
 }
 
@@ -90,6 +103,16 @@ impl ModeCount {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Exact: beside a mode slower than fast decay could oscillate the wedge of what stands still is cut off, and holds nothing.
+    #[test]
+    fn what_stands_still_is_not_counted() {
+        let slow = CountedRegion::about(&[c64::new(-1.0, 10.0)], 1e4, 1.0);
+        assert_eq!((slow.corners().len(), slow.holds(c64::new(-1500.0, 90.0))), (5, false));
+        assert!(slow.holds(c64::new(-1500.0, 160.0)) && slow.holds(c64::new(-1.0, 10.0)));
+        let usual = CountedRegion::about(&[c64::new(-1.0, 5e3)], 1e4, 1.0);
+        assert_eq!(usual.corners().len(), 4);
+    }
 
     #[test]
     fn growth_that_hardly_oscillates_is_sought_all_the_same() {

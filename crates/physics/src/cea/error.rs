@@ -1,10 +1,9 @@
 //! Errors of an eigenvalue analysis.
 
+use crate::cea::*;
 use crate::fem::ModulusTable;
-use crate::linalg::{LinalgError, c64};
 use crate::mesh::MeshError;
 use crate::prestress::PrestressError;
-use std::f64::consts::TAU;
 use thiserror::Error;
 
 /// An eigenvalue analysis that cannot be done, or whose result cannot be vouched for.

@@ -16,6 +16,18 @@ pub mod sparse;
 mod spectrum;
 mod watch;
 
+// What most files here name.
+use crate::linalg::dense::{column, column_mut, join_columns, random_columns, transpose_product};
+use crate::linalg::vectors::{length, normalize};
+use crate::linalg::{
+    BlockOperator, ComplexDenseLu, DenseLu, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial,
+    Scale, SparseLu, SparsityPattern, c64,
+};
+use crate::prestress::{HarmonicTangent, MotionMatrices, SlidingTangent, WaveTangent};
+use accuracy::*;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
 pub use branch::{BranchPoint, ModeBranch};
 pub use counted::{CountedRegion, ModeCount};
 pub use error::CeaError;

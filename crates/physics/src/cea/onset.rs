@@ -1,9 +1,7 @@
 //! Critical friction coefficients: roots of `Re lambda(mu) = 0` on a branch.
 
-use super::UnstableInterval;
-use super::accuracy::{NEAR, RESIDUAL_BOUND, SAME_EIGENVALUE};
 use super::branch::{BranchPoint, Cubic};
-use std::f64::consts::TAU;
+use crate::cea::*;
 
 /// Solves for one branch between friction coefficients at which it is known.
 pub(super) trait BranchSolver {

@@ -1,18 +1,10 @@
 //! All eigenvalues of a small dense quadratic problem, over any range of sizes.
 
-use super::CeaError;
-use super::accuracy::ROUNDING_ERRORS;
+use crate::cea::*;
 use crate::linalg::dense_eigen::real_eigenvalues;
-use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, Mat, MatRef, c64};
 
 /// Ratio of the shifts of neighbouring windows.
 const WINDOW: f64 = 10.0;
-
-/// Windows below and above the first one at most: what lies beyond is zero or infinite to working precision.
-const MOST_WINDOWS: i32 = 16;
-
-/// Rounds of scaling by rows and columns.
-const SCALINGS: usize = 6;
 
 /// An eigenpair of `(lambda^2 M + lambda C + K) x = 0`.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +64,8 @@ pub fn quadratic_modes(
     let mut values = Vec::new();
     let [below, above] = problem.window(first, &mut values)?;
     for (direction, mut left, mut step) in [(-1, below, 0), (1, above, 0)] {
-        while left > 0 && step < MOST_WINDOWS {
+        // What lies beyond 16 windows is zero or infinite to working precision.
+        while left > 0 && step < 2 * MOST_ATTEMPTS as i32 {
             step += 1;
             let shift = first * WINDOW.powi(direction * step);
             left = match problem.window(shift, &mut values) {
@@ -142,7 +135,7 @@ impl Problem<'_> {
         });
         let (mut rows, mut columns) = (vec![1.0; n], vec![1.0; n]);
         let root = |largest: f64| (-0.5 * largest.max(f64::MIN_POSITIVE).log2()).round().exp2(); // Half to the row, half to the column.
-        for _ in 0..SCALINGS {
+        for _ in 0..MOST_ATTEMPTS {
             for i in 0..n {
                 let entries = (0..n).map(|j| size[(i, j)] * rows[i] * columns[j]);
                 // The largest entry of each row and column comes to one, to a power of two.

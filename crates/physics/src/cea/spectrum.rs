@@ -1,10 +1,6 @@
 //! Results of a complex eigenvalue analysis, the same for every solver.
 
-use super::accuracy::{RESIDUAL_BOUND, ROUNDING_ERRORS};
-use super::{ModeCount, ModeLimit};
-use crate::linalg::c64;
-use std::f64::consts::TAU;
-use std::sync::Arc;
+use crate::cea::*;
 
 /// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0`, equation (1) with the contact in it, with `Im(lambda) >= 0`.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,13 +1,10 @@
 //! The dashpots of friction across the sliding, which grow without bound as the sliding slows down.
 
-use super::pencil::{Modes, Pencil};
 use crate::cea::counted::NEARLY_CRITICAL;
+use crate::cea::cyclic::*;
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::dense::dot;
-use crate::prestress::{FrictionPolynomial, HarmonicTangent};
-
-/// Stiffness that holds the motion across the sliding, over that of the body at the same unknown.
-const HOLDING: f64 = 1e4;
+use crate::prestress::FrictionPolynomial;
 
 /// `A = int p_0 / V d d^T dA` of one harmonic: `mu A` damps the motion across the sliding.
 ///
@@ -54,8 +51,8 @@ impl Across {
         let stiffest = (0..self.dashpots.dimension())
             .filter(|&k| self.dashpots.get(k, k) > 0.0)
             .map(|k| pencil.stiffness().get(k, k) / self.dashpots.get(k, k))
-            .fold(0.0, f64::max); // s A_ii >= HOLDING K_ii for every i.
-        let held = pencil.stiffened(HOLDING * stiffest, &self.dashpots); // K + s A, far stiffer than the body wherever A acts.
+            .fold(0.0, f64::max); // s A_ii >= K_ii for every i.
+        let held = pencil.stiffened(stiffest / NEAR, &self.dashpots); // K + s A, far stiffer than the body wherever A acts.
         held.map_or_else(Vec::new, |held| held.lowest(held.count_below(kappa)))
     }
 }

@@ -1,12 +1,7 @@
 //! Branches of one harmonic as continuous functions of the friction coefficient, and where they grow.
 
-use super::follow::Follower;
-use super::path::{Eigenpair, Path, Waves};
-use super::paths::HarmonicPaths;
-use super::problem::HarmonicProblem;
-use crate::cea::accuracy::ROUND_OFF;
+use crate::cea::cyclic::*;
 use crate::cea::onset::{BranchSolver, instabilities};
-use crate::cea::{BranchPoint, ModeBranch};
 use std::convert::Infallible;
 
 /// Everything needed to solve one branch again at any friction value.

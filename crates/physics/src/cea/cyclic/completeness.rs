@@ -1,12 +1,9 @@
 //! Proofs that no mode of the range is missing.
 
 use super::definite::{self, Region};
-use super::paths::HarmonicPaths;
-use super::problem::{HarmonicProblem, Matrices};
-use crate::cea::accuracy::{BESIDE, CHANGE_PLACES, NEAR};
 use crate::cea::counted::{STANDSTILL, WIDEST_GROWTH};
-use crate::linalg::{c64, count_zeros};
-use crate::prestress::WaveTangent;
+use crate::cea::cyclic::*;
+use crate::linalg::count_zeros;
 use std::convert::Infallible;
 
 /// Share of the limit below which no modes are searched for where damping is not proportional: there motions within

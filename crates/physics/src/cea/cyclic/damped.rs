@@ -4,15 +4,10 @@
 //! lead from one end of the range to the other. So all eigenvalues of the reduced problem are
 //! computed at every friction coefficient; branches are what leads from one to the next.
 
-use super::follow::Follower;
-use super::path::{Eigenpair, Path, Waves};
-use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
-use super::problem::{HarmonicProblem, Matrices};
-use crate::cea::CeaError;
-use crate::cea::accuracy::{BESIDE, MULTIPLE, SAME_EIGENVALUE};
+use super::paths::{Overdamped, Range, describe, start};
 use crate::cea::counted::NEARLY_CRITICAL;
+use crate::cea::cyclic::*;
 use crate::linalg::dense_eigen::complex_eigenvalues;
-use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::rc::Rc;
 
 /// The shortest step of a branch over the step of friction: a branch that turns faster begins or ends there.

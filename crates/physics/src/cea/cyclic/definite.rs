@@ -1,9 +1,8 @@
 //! Proof that a harmonic holds no eigenvalue in a region, for a whole range of friction at once.
 
+use crate::cea::cyclic::*;
 use crate::linalg::banded::{BandedFactor, BandedMatrix};
-use crate::linalg::c64;
 use crate::linalg::vectors::dot;
-use crate::prestress::HarmonicTangent;
 
 /// The region `0 <= Re(kappa) <= real`, `|Im(kappa)| <= imaginary`.
 #[derive(Clone, Copy, Debug, PartialEq)]

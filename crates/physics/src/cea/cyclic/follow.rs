@@ -1,17 +1,12 @@
 //! Following one eigenpair along a parameter.
 
-use super::path::Eigenpair;
-use super::problem::{HarmonicProblem, Matrices};
-use crate::cea::accuracy::{MULTIPLE, RESIDUAL_BOUND, ROUND_OFF, SAME_EIGENVALUE};
+use crate::cea::cyclic::*;
 use crate::linalg::banded::BandedLu;
-use crate::linalg::c64;
-use crate::linalg::vectors::{dot, normalize};
+use crate::linalg::vectors::dot;
 use std::rc::Rc;
 
 /// Least `|x_0^H x_1|` of the unit right vectors of two successive points of a path.
 const LEAST_OVERLAP: f64 = 0.8;
-/// Their largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both points and slopes could hide.
-const LARGEST_DEFECT: f64 = 1e-4;
 /// Steps of the parameter below which a branch is lost.
 pub(super) const SHORTEST: f64 = 1e-6;
 
@@ -23,9 +18,6 @@ pub(super) struct Follower<'a> {
     /// LU factorizations so far.
     pub factorizations: usize,
 }
-
-/// Largest number of Rayleigh quotient iterations for one point.
-const ITERATIONS: usize = 8;
 
 impl<'a> Follower<'a> {
     pub fn new(problem: &'a HarmonicProblem) -> Self {
@@ -43,7 +35,7 @@ impl<'a> Follower<'a> {
     ) -> Option<Eigenpair> {
         let (mut x, mut y, mut theta) = (x.to_vec(), y.to_vec(), guess);
         let mut is_moved = false;
-        for _ in 0..ITERATIONS {
+        for _ in 0..MOST_ATTEMPTS {
             let before = [x.clone(), y.clone()];
             self.factorize(at, theta);
             // The second pair of solves costs a third of a factorization and saves most of one.
@@ -157,9 +149,9 @@ impl<'a> Follower<'a> {
 
 fn is_continuation(last: &Eigenpair, next: &Eigenpair) -> bool {
     let step = next.parameter - last.parameter;
-    // What the trapezoid of the rates misses.
+    // What the trapezoid of the rates misses: a cubic through both points and slopes could hide as much.
     let defect = (next.theta - last.theta - (last.rate + next.rate) * (0.5 * step)).norm();
-    dot(&last.x, &next.x).norm() >= LEAST_OVERLAP && defect <= LARGEST_DEFECT * next.theta.norm()
+    dot(&last.x, &next.x).norm() >= LEAST_OVERLAP && defect <= NEAR * next.theta.norm()
 }
 
 /// Cubic through the last two points and slopes; the tangent of the last where it is alone, or the one before so close that their

@@ -1,12 +1,8 @@
 //! What is asked of a sweep, and what it finds.
 
 use super::branch::branches_of;
-use super::paths::{HarmonicPaths, Overdamped};
-use crate::cea::{
-    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, ModeLimit, SweepRequest,
-};
-use crate::prestress::WaveTangent;
-use std::f64::consts::TAU;
+use super::paths::Overdamped;
+use crate::cea::cyclic::*;
 
 /// Which harmonics were solved, and why no other can matter.
 #[derive(Clone, Debug, PartialEq)]

@@ -28,6 +28,15 @@ mod reduction;
 mod sensitivity;
 mod sweep;
 
+// What most files here name.
+use crate::cea::*;
+use follow::Follower;
+use found::Wanted;
+use path::{Eigenpair, Path, Waves};
+use paths::HarmonicPaths;
+use pencil::{Modes, Pencil};
+use problem::{HarmonicProblem, Matrices};
+
 pub use found::{Coverage, WaveSweep};
 pub use paths::Overdamped;
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};

@@ -1,12 +1,7 @@
 //! The modes at one friction value, from the followed branches.
 
 use super::branch::direction_of;
-use super::found::Wanted;
-use super::path::{Path, Waves};
-use super::paths::HarmonicPaths;
-use crate::cea::{ComplexMode, FrictionPoint, ModeWave};
-use crate::linalg::c64;
-use crate::prestress::WaveTangent;
+use crate::cea::cyclic::*;
 use std::f64::consts::PI;
 
 /// The modes wanted at every friction value that is asked for.

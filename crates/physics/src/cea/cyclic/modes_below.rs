@@ -1,10 +1,7 @@
 //! The harmonics with modes at rest in a range of frequency, complete by inertia counts.
 
-use super::pencil::{Modes, Pencil};
-use crate::cea::accuracy::RESIDUAL_BOUND;
-use crate::cea::{CeaError, ModeLimit};
-use crate::prestress::{PrestressError, WaveTangent};
-use std::f64::consts::TAU;
+use crate::cea::cyclic::*;
+use crate::prestress::PrestressError;
 
 /// Harmonics without a mode in a row after which only some of the higher ones are counted: short waves around are stiff.
 const EMPTY: usize = 3;

@@ -1,13 +1,8 @@
 //! All branches of one harmonic, followed together over the friction coefficient.
 
-use super::follow::{Follower, SHORTEST};
-use super::path::{Eigenpair, Path, Waves};
-use super::problem::{HarmonicProblem, Matrices};
+use super::follow::SHORTEST;
 use super::reduction::Reduction;
-use crate::cea::CeaError;
-use crate::cea::accuracy::RESIDUAL_BOUND;
-use crate::linalg::c64;
-use crate::linalg::vectors::normalize;
+use crate::cea::cyclic::*;
 use std::rc::Rc;
 
 /// The followed branches of one harmonic.

@@ -1,9 +1,8 @@
 //! Modes of one harmonic without friction.
 
-use crate::cea::accuracy::CONVERGED;
+use crate::cea::cyclic::*;
 use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
-use crate::linalg::dense::column;
-use crate::linalg::{BlockOperator, Mat, MatRef, SymmetricPairs, SymmetricPencil, symmetric_pairs};
+use crate::linalg::{SymmetricPairs, SymmetricPencil, symmetric_pairs};
 
 /// The pencil of one harmonic at rest over the unknowns that may move, and its stiffness factorized.
 pub(super) struct Pencil {
@@ -17,16 +16,13 @@ pub(super) struct Pencil {
 /// Modes `(kappa, x)`, `K x = kappa M x`, `x^T M x = 1`, rising.
 pub(super) type Modes = Vec<(f64, Vec<f64>)>;
 
-/// Smallest shift below zero, over the largest `K_ii / M_ii`, and how many are tried, each eight times the one before.
-const LEAST_SHIFT: f64 = 1e-9;
-const SHIFTS: i32 = 10;
-
 impl Pencil {
     /// `None` where no shift below all eigenvalues is found.
     pub fn new(mass: BandedMatrix, stiffness: BandedMatrix) -> Option<Self> {
         let rate = |k: usize| stiffness.get(k, k) / mass.get(k, k);
         let largest = (0..mass.dimension()).map(rate).fold(0.0, f64::max);
-        let shifts = (0..SHIFTS).map(|k| -LEAST_SHIFT * largest * 8.0_f64.powi(k));
+        let shifts =
+            (0..MOST_ATTEMPTS as i32).map(|k| -RESIDUAL_BOUND * largest * 16.0_f64.powi(k));
         let found = std::iter::once(0.0).chain(shifts).find_map(|shift| {
             let factor = BandedFactor::new(&stiffness, &mass, shift);
             let is_held = factor.negative_count() == 0 && factor.is_regular(); // By Sylvester's law no eigenvalue lies below.

@@ -1,14 +1,11 @@
 //! The eigenproblem of one harmonic as a function of one scalar `theta`.
 
-use super::path::Eigenpair;
 use crate::cea::counted::STANDSTILL;
+use crate::cea::cyclic::*;
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::vectors::{add, dot, largest};
-use crate::linalg::{Mat, c64};
-use crate::prestress::{
-    FrictionPolynomial, HarmonicTangent, MotionMatrices, MovingHarmonic, evaluate,
-};
+use crate::prestress::{FrictionPolynomial, MovingHarmonic, evaluate};
 
 /// `T(theta) x = 0` for one harmonic.
 ///

@@ -2,17 +2,11 @@
 
 use super::across::Across;
 use super::damped::follow_damped;
-use super::follow::Follower;
 use super::modes_below::AtRest;
-use super::path::Eigenpair;
-use super::paths::{HarmonicPaths, Range, are_distinct, describe, follow_pairs};
-use super::pencil::{Modes, Pencil};
-use super::problem::HarmonicProblem;
+use super::paths::{Range, are_distinct, describe, follow_pairs};
 use super::reduction::Reduction;
-use crate::cea::CeaError;
+use crate::cea::cyclic::*;
 use crate::linalg::banded::BandedMatrix;
-use crate::linalg::c64;
-use crate::prestress::{HarmonicTangent, WaveTangent};
 
 /// Modes at rest up to this much above the followed ones span the reduced space.
 pub(super) const SPAN: f64 = 1.4;

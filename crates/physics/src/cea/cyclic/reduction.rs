@@ -1,15 +1,12 @@
 //! From the matrices of one harmonic to small dense ones.
 
 use super::across::Across;
-use super::path::Eigenpair;
-use super::pencil::{Modes, Pencil};
-use crate::cea::accuracy::{CONVERGED, HALF_THE_DIGITS};
+use crate::cea::cyclic::*;
 use crate::linalg::banded::{BandedMatrix, CompactRows};
-use crate::linalg::dense::{add, dot, product, transpose_product};
+use crate::linalg::dense::{add, dot, product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::vectors;
-use crate::linalg::{Mat, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent};
+use crate::prestress::FrictionPolynomial;
 
 /// The reduced space of one harmonic.
 pub(super) struct Reduction {

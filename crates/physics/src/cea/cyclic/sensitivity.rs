@@ -1,15 +1,10 @@
 //! Right and left vectors of waves, and what small changes of the model do to their eigenvalues.
 
 use super::branch::point_of;
-use super::follow::Follower;
-use super::path::Waves;
-use super::problem::HarmonicProblem;
-use crate::cea::accuracy::BESIDE;
-use crate::cea::{BranchPoint, ModeBranch};
+use crate::cea::cyclic::*;
 use crate::fem::own_frequency_step;
-use crate::linalg::c64;
 use crate::linalg::vectors::dot;
-use crate::prestress::{MotionMatrices, MovingHarmonic, WaveTangent};
+use crate::prestress::MovingHarmonic;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.

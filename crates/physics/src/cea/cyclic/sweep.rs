@@ -1,24 +1,19 @@
 //! A sweep over the friction coefficient.
 
 use super::completeness::verify;
-use super::found::{Found, Wanted, WaveSweep};
+use super::found::{Found, WaveSweep};
 use super::modes::points;
 use super::modes_below::{self, at_rest, modes_below};
-use super::paths::{HarmonicPaths, Range, follow_pairs};
-use super::problem::HarmonicProblem;
+use super::paths::{Range, follow_pairs};
 use super::reduced;
-use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeLimit, SweepRequest};
+use crate::cea::cyclic::*;
 use crate::contact::SlidingContact;
 use crate::fem::{MaterialField, ModulusTable};
 use crate::mesh::{AnnulusSpecification, Strip};
-use crate::prestress::{TangentOptions, WaveTangent};
-use std::f64::consts::TAU;
+use crate::prestress::TangentOptions;
 
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
 const MARGIN: f64 = 1.2;
-
-/// How often the margin is raised at most, by its own factor, where too few modes are found.
-const RAISES: usize = 3;
 
 /// Eigenvalues of steady sliding of a plane annulus over a range of friction coefficients.
 ///
@@ -54,7 +49,7 @@ pub fn wave_sweep(
     let is_verified = is_direct || request.count_modes && tangent.tables().next().is_none();
     // Where modes stop to oscillate, others from above the margin are among the lowest.
     let (mut margin, mut found) = (MARGIN, follow(&mut tangent, &wanted, MARGIN, None)?);
-    for _ in 0..RAISES {
+    for _ in 0..MOST_ATTEMPTS {
         if found.0.is_short_of(request.limit) {
             margin *= MARGIN;
             found = follow(&mut tangent, &wanted, margin, None)?;

@@ -2,30 +2,15 @@
 
 mod samples;
 
-use super::linearization::Linearization;
-use super::mode::ReducedMode;
-use super::packed::{PackedEntry, PackedModes};
-use super::reduced::ReducedModel;
-use super::structure::{ShiftInverted, StructureMatrices};
-use super::{CHANGE_PLACES, CONVERGED, GROUP_WIDTH, HALF_THE_DIGITS, ROUND_OFF, SEARCH_WIDTH};
-use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
-use crate::linalg::dense::{
-    column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
-    pick_columns, random_columns,
-};
-use crate::linalg::{
-    BlockOperator, KrylovSchurSettings, LinalgError, LuAnalysis, MatrixPolynomial, SparseLu,
-    krylov_schur,
-};
-use crate::linalg::{Mat, c64};
-use crate::prestress::SlidingTangent;
+use super::structure::ShiftInverted;
+use crate::cea::sparse::*;
+use crate::linalg::dense::{column_norms, columns_of, dot, from_columns, join_rows, pick_columns};
+use crate::linalg::{KrylovSchurSettings, krylov_schur};
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
-/// Energy of a correction, relative to its mode, below which the mode is left as it is.
-const SMALLEST_ENERGY: f64 = 1e-24;
 
 /// Basis of the modes at a few friction coefficients, each from an iteration of its own ([`BasisBuilder::search`]).
 ///
@@ -148,7 +133,7 @@ impl<'a> BasisBuilder<'a> {
                 let factor = matrices.inertia_factor(entry);
                 size(&residuals) > CONVERGED * factor * size(&momenta)
                     && energy(&corrections, &residuals)
-                        > SMALLEST_ENERGY * factor * energy(&x, &momenta)
+                        > CONVERGED * ROUND_OFF * factor * energy(&x, &momenta) // Squares of lengths.
             };
             let own: Vec<usize> =
                 entries.iter().filter(is_open).flat_map(|entry| entry.columns.clone()).collect();

@@ -2,13 +2,8 @@
 
 use super::edge::ContactEdge;
 use super::meetings::grown_between;
-use super::mode::{ModeAt, ModesAt, ReducedMode};
-use super::point::SolvedPoint;
-use super::reduced::ReducedModel;
-use super::{ALIKE, BESIDE, CHANGE_PLACES, MULTIPLE, SAME, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
-use crate::linalg::LinalgError;
-use crate::linalg::{Mat, c64};
+use crate::cea::sparse::*;
 
 /// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;

@@ -1,11 +1,7 @@
 //! Eigenvalues in a part of the upper half plane, counted by the argument principle.
 
-use super::full_problem::FullProblem;
-use crate::cea::accuracy::NEAR;
-use crate::cea::{CeaError, CountedRegion, ModeCount};
-use crate::linalg::{LinalgError, LuAnalysis, Uncounted, ZeroCount, c64, count_zeros};
-use crate::prestress::SlidingTangent;
-use std::f64::consts::TAU;
+use crate::cea::sparse::*;
+use crate::linalg::{Uncounted, ZeroCount, count_zeros};
 
 /// Counts eigenvalues of `T(lambda; mu) = lambda^2 M + lambda C + K + i H` of a tangent.
 ///
@@ -61,7 +57,7 @@ impl<'a> ModeCounter<'a> {
             determinants: 0,
         };
         let mut determinants = 0;
-        let found = count_zeros(&corners(region), &step, &mut |points| {
+        let found = count_zeros(&region.corners(), &step, &mut |points| {
             determinants += points.len();
             crate::parallel::map(points, ln_at)
         });
@@ -86,11 +82,4 @@ impl<'a> ModeCounter<'a> {
         }
         count
     }
-}
-
-/// Corners of a region, counter-clockwise.
-fn corners(region: &CountedRegion) -> [c64; 4] {
-    let [low, high] = region.frequencies_hz.map(|hz| TAU * hz);
-    let [left, right] = region.growth_rates;
-    [(left, low), (right, low), (right, high), (left, high)].map(|(re, im)| c64::new(re, im))
 }

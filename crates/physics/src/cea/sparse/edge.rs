@@ -1,8 +1,6 @@
 //! Circumferential harmonic and travelling direction from the displacement of the contact edge.
 
-use super::HALF_THE_DIGITS;
-use crate::linalg::c64;
-use crate::prestress::SlidingTangent;
+use crate::cea::sparse::*;
 
 /// Discrete Fourier transform over the contact nodes.
 ///

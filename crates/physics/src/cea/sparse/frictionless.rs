@@ -2,22 +2,12 @@
 
 use super::basis::scale_to_unit_length;
 use super::linearization::Centre;
-use super::{CONVERGED, GUARD_MODES, HALF_THE_DIGITS, LOSSY_GUARD, MOST_ATTEMPTS, NEAR, ROUND_OFF};
-use crate::cea::accuracy::ROUNDING_ERRORS;
-use crate::cea::{CeaError, ModeLimit, SweepWatch};
-use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
-use crate::linalg::{
-    BlockOperator, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial, SparseLu,
-    SymmetricPairs, SymmetricPencil, symmetric_pairs,
-};
-use crate::prestress::SlidingTangent;
-use std::f64::consts::TAU;
+use crate::cea::sparse::*;
+use crate::linalg::dense::{columns_of, dot, from_columns, pick_columns};
+use crate::linalg::{SymmetricPairs, SymmetricPencil, symmetric_pairs};
 
 /// Vectors iterated together: rigid motions of one body come six at a time.
-const BLOCK: usize = 8;
-/// `c^2` relative to the highest eigenvalue wanted: small enough to tell the lowest modes apart, large enough that the highest keep
-/// their digits beside the reciprocals of the lowest.
-const SHIFT: f64 = 1e-3;
+const BLOCK: usize = 2 * SEARCH_WIDTH;
 /// Lowest eigenvalue, relative to the highest, above which factors of `K` itself serve all modes.
 const STIFFLY_HELD: f64 = 1e-5;
 
@@ -53,11 +43,10 @@ impl FrictionlessModes {
         limit: ModeLimit,
         watch: &dyn SweepWatch,
     ) -> Result<Self, CeaError> {
-        const NAME: &str = "frictionless";
         let inertia = Inertia::new(tangent)?;
         let unknowns = tangent.stiffness.dimension();
         if let Some((columns, frequencies, centre)) =
-            watch.recalled::<(Vec<_>, Vec<f64>, Centre)>(NAME)
+            watch.recalled::<(Vec<_>, Vec<f64>, Centre)>("frictionless")
             && let Some(vectors) = from_columns(&columns, unknowns)
         {
             let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
@@ -66,7 +55,7 @@ impl FrictionlessModes {
         }
         let found = Self::found_by(tangent, &inertia, limit)?;
         let vectors = columns_of(&found.vectors);
-        watch.keep_value(NAME, &(vectors, &found.frequencies, found.centre));
+        watch.keep_value("frictionless", &(vectors, &found.frequencies, found.centre));
         Ok(found)
     }
 
@@ -76,12 +65,13 @@ impl FrictionlessModes {
         limit: ModeLimit,
     ) -> Result<Self, CeaError> {
         let unknowns = tangent.stiffness.dimension();
-        // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
+        // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice. The shift `c^2` is small
+        // beside the highest eigenvalue, so that the lowest are told apart, and not so small that the highest lose digits beside them.
         let (below, mut shift) = match limit {
             // The first guess serves modes far below the largest eigenvalue of the mesh.
-            ModeLimit::Lowest(count) => (count, SHIFT * NEAR * inertia.largest_ratio),
+            ModeLimit::Lowest(count) => (count, BESIDE * NEAR * inertia.largest_ratio),
             ModeLimit::MaxFrequency(hz) => {
-                (inertia.count_below(TAU * hz)?, SHIFT * (TAU * hz).powi(2))
+                (inertia.count_below(TAU * hz)?, BESIDE * (TAU * hz).powi(2))
             }
         };
         // One mode above tells that none below a frequency is missing under friction, and whether the next one grows.
@@ -97,9 +87,9 @@ impl FrictionlessModes {
                     return Err(CeaError::too_many_modes(asked, unknowns - rigid));
                 }
                 ModeLimit::Lowest(count) => (count + displaced).min(unknowns - rigid),
-                // Gyroscopic forces may bring some below it: where all that are held are there more are asked for.
+                // Friction, damping and gyroscopic forces may bring some below it: where all that are held are there more are asked for.
                 ModeLimit::MaxFrequency(_) => {
-                    below.saturating_sub(rigid).max(usize::from(tangent.is_gyroscopic))
+                    below.saturating_sub(rigid).max(1).min(unknowns - rigid)
                 }
             };
             // Rigid motions took places of modes, and between slow ones there is no counting.
@@ -111,9 +101,6 @@ impl FrictionlessModes {
             }
             let frequencies: Vec<f64> =
                 found.kappas[rigid..].iter().map(|kappa| kappa.max(0.0).sqrt()).collect();
-            if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
-                return Err(CeaError::NoModes { limit_hz, lowest_hz: frequencies[0] / TAU });
-            }
             let mut kept = elastic; // The cut, in a gap, and the proof that none is missing below it.
             if request < unknowns {
                 kept = widest_gap(&frequencies, (wanted + beyond).max(slow).min(elastic - 1));
@@ -182,9 +169,9 @@ impl Lowest {
         let highest = self.kappas[count - 1].max(0.0);
         let is_stiff = self.rigid == 0 && self.kappas[0] > (STIFFLY_HELD * highest).max(least);
         // Beside c^2 the slowest keep a few digits; the highest may lose as many.
-        let is_slow = |own: &f64| (0.0..HALF_THE_DIGITS * SHIFT * highest).contains(own);
+        let is_slow = |own: &f64| (0.0..HALF_THE_DIGITS * BESIDE * highest).contains(own);
         let has_slow = self.kappas[self.rigid..].iter().any(is_slow);
-        let share = if has_slow { SHIFT * SHIFT } else { SHIFT };
+        let share = if has_slow { BESIDE * BESIDE } else { BESIDE };
         let shift = if is_stiff { 0.0 } else { (share * highest).max(least).sqrt() };
         let rigid = if self.rigid == 0 { 0.0 } else { self.rounding.sqrt() };
         Centre { shift, rigid }
@@ -295,7 +282,7 @@ impl<'a> Inertia<'a> {
             }
             converged = pairs.converged;
             // The highest pair is known well enough to place the shift by it.
-            let placed = SHIFT * (pairs.values.last().map_or(0.0, |theta| theta.recip()) - *shift); // kappa = 1 / theta - c^2.
+            let placed = BESIDE * (pairs.values.last().map_or(0.0, |theta| theta.recip()) - *shift); // kappa = 1 / theta - c^2.
             *shift = match attempt {
                 0 if placed > 0.0 => placed,
                 _ => 10.0 * *shift,

@@ -1,10 +1,8 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
-use crate::linalg::{
-    ComplexSparseLu, LinalgError, LuAnalysis, MatrixPolynomial, SparsityPattern, c64,
-};
-use crate::prestress::{MotionMatrices, SlidingTangent};
-use std::sync::{Arc, OnceLock};
+use crate::cea::sparse::*;
+use crate::linalg::ComplexSparseLu;
+use std::sync::OnceLock;
 
 /// `T(lambda) = K + lambda C + lambda^2 M + i H + sum_p g_p K_p` at one friction coefficient, `g_p` at the frequency of `lambda`.
 pub struct FullProblem<'a> {

@@ -1,21 +1,12 @@
 //! Left vectors that a basis of right ones does not hold.
 
-use super::full_problem::FullProblem;
-use super::linearization::Linearization;
-use super::packed::{PackedEntry, PackedModes, add_complex_multiple};
+use super::packed::add_complex_multiple;
 use super::projected::weighted_sum;
-use super::structure::StructureMatrices;
-use super::{BESIDE, GROUP_WIDTH, MOST_STEPS};
-use crate::cea::ModeVectors;
-use crate::linalg::dense::{add_product, product, transpose_product};
-use crate::linalg::vectors::{dot, length};
-use crate::linalg::{ComplexDenseLu, Mat, SparseLu, c64};
-use crate::prestress::{MotionMatrices, SlidingTangent};
+use crate::cea::sparse::*;
+use crate::linalg::dense::{add_product, product};
+use crate::linalg::vectors::dot;
 use std::ops::Deref;
 use std::sync::LazyLock;
-
-/// Modes that are corrected together: each is worked on by three vectors.
-const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
 
 /// Corrects left vectors of modes over the unknowns, by the stiffness without friction, `P`, and the modes without friction, `Z`: the
 /// least `P^-1 T(lambda)^T w` over
@@ -41,7 +32,8 @@ pub fn correct_lefts(
     let problem = FullProblem::at(tangent, mu);
     // Only where a left vector is open: not those of symmetric matrices, nor those at crossings, which the basis holds.
     let modes = LazyLock::new(|| AmongModes::of(&matrices, modes));
-    crate::parallel::map(pairs.chunks_mut(PAIRS_AT_A_TIME), |group| {
+    crate::parallel::map(pairs.chunks_mut(GROUP_WIDTH / 3), |group| {
+        // Each is worked on by three vectors.
         correct_group((&matrices, linearization), (factors, &modes), group);
         for ModeVectors { eigenvalue, right, left, .. } in group {
             let scale = problem.slope(*eigenvalue, left, right);

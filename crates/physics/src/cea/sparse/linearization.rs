@@ -1,9 +1,8 @@
 //! Linearization of the quadratic eigenproblem.
 
 use crate::cea::counted::is_vibration;
+use crate::cea::sparse::*;
 use crate::fem::RayleighDamping;
-use crate::linalg::{MatrixPolynomial, c64};
-use crate::prestress::{MotionMatrices, SlidingTangent};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

@@ -1,12 +1,7 @@
 //! Modes that grow only where two branches meet, between the friction coefficients of a sweep.
 
-use super::mode::{ModeAt, ModesAt, ReducedMode};
-use super::projected::ProjectedMatrices;
-use super::reduced::ReducedModel;
-use super::{ALIKE, MOST_ATTEMPTS, SAME, SAME_EIGENVALUE};
-use crate::cea::BranchPoint;
 use crate::cea::branch::Cubic;
-use crate::linalg::{LinalgError, c64};
+use crate::cea::sparse::*;
 use std::slice::from_ref;
 
 /// Two branches, each with its index at the lower end of a step and its modes at both ends.

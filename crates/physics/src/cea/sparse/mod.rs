@@ -39,10 +39,14 @@ mod sweep;
 mod term;
 mod waves;
 
-use crate::cea::accuracy::{
-    BESIDE, CHANGE_PLACES, CONVERGED, HALF_THE_DIGITS, MULTIPLE, NEAR, RESIDUAL_BOUND, ROUND_OFF,
-    SAME_EIGENVALUE, SETTLED,
-};
+// What most files here name.
+use crate::cea::*;
+use mode::{ModeAt, ModesAt, ReducedMode};
+use packed::{PackedEntry, PackedModes};
+use projected::ProjectedMatrices;
+use reduced::ReducedModel;
+use term::Term;
+
 pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, TrackedBranch, label_first, track};
 pub use count::ModeCounter;
@@ -68,12 +72,6 @@ const TRACKING_MARGIN: usize = 6;
 const SAME: f64 = 0.1;
 /// The same within which they may be one; part of a mode in the space of two branches from which on it is a combination of these.
 const ALIKE: f64 = 0.5;
-/// Steps of an iteration for one mode, or for one basis, after which it counts as one that does not converge: ten or fewer do, or three or
-/// four by factors at each.
-const MOST_STEPS: usize = 24;
-/// Attempts of one remedy, of which one or two do where it is fit: rounds at one point or crossing, restarts, shifts, samples between two
-/// friction values. After more of them another remedy takes over, or what is open is said.
-const MOST_ATTEMPTS: usize = 8;
 /// Part of an error that a round of a remedy or a step of an iteration may leave: with more it is worth no other one.
 const LITTLE: f64 = 0.3;
 /// Samples near a friction coefficient whose modes, together, come near its own and their left vectors.

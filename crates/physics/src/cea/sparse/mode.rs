@@ -1,10 +1,9 @@
 //! A mode in coordinates of the common basis.
 
-use super::{CONVERGED, SAME_EIGENVALUE};
-use crate::cea::accuracy::NEAR;
 use crate::cea::counted::NEARLY_CRITICAL;
-use crate::linalg::c64;
-use crate::linalg::vectors::{dot, length, product};
+use crate::cea::sparse::*;
+use crate::linalg::dense::orthogonalize;
+use crate::linalg::vectors::product;
 
 /// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
 const HARDLY_OSCILLATING: f64 = 0.95;
@@ -95,11 +94,18 @@ impl ReducedMode {
         self.damping_factor().abs() > HARDLY_OSCILLATING
     }
 
-    /// Whether both have one eigenvalue and one right vector.
-    pub fn is_same(&self, other: &Self) -> bool {
-        let distance = (self.eigenvalue - other.eigenvalue).norm();
-        let lengths = length(&self.right) * length(&other.right);
-        distance <= SAME_EIGENVALUE * self.eigenvalue.norm()
-            && dot(&self.right, &other.right).norm() > (1.0 - NEAR) * lengths
+    /// Whether its right vector is in the span of those of `others` that have its eigenvalue.
+    pub fn is_among<'a>(&self, others: impl Iterator<Item = &'a Self>) -> bool {
+        let reach = SAME_EIGENVALUE * self.eigenvalue.norm();
+        let mut known: Vec<Vec<c64>> = Vec::new();
+        for other in others.filter(|own| (own.eigenvalue - self.eigenvalue).norm() <= reach) {
+            let mut vector = other.right.clone();
+            orthogonalize(&mut vector, &known);
+            normalize(&mut vector);
+            known.push(vector);
+        }
+        let mut beyond = self.right.clone();
+        orthogonalize(&mut beyond, &known);
+        length(&beyond).powi(2) < 2.0 * NEAR * length(&self.right).powi(2)
     }
 }

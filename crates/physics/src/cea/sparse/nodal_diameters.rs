@@ -2,12 +2,8 @@
 
 use super::point::normalize;
 use super::{CyclicTangent, sweep};
-use crate::cea::{
-    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors,
-    PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
-};
-use crate::linalg::c64;
-use crate::prestress::SlidingTangent;
+use crate::cea::sparse::*;
+use crate::cea::{PartWatch, keeping_ties};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -253,8 +249,11 @@ fn merged_counts(parts: &[FrictionSweep], points: &[FrictionPoint]) -> Vec<ModeC
             whole.near = whole.near.or(count.near);
             whole.missing = whole.missing.and_then(|known| Ok(known + count.missing.clone()?));
         }
-        let below = |mode: &&ComplexMode| mode.frequency_hz() < whole.region.frequencies_hz[1];
-        whole.known = point.modes.iter().filter(below).count();
+        let [low, top] = &mut whole.region.frequencies_hz; // A list by number ends before what each counted up to.
+        let last = point.modes.last().filter(|_| !point.above.is_empty());
+        *top = last.map_or(*top, |own| top.min((1.0 + SAME_EIGENVALUE) * own.frequency_hz()));
+        let inside = |mode: &&ComplexMode| (*low..*top).contains(&mode.frequency_hz());
+        whole.known = point.modes.iter().filter(inside).count();
         Some(whole)
     });
     counted.collect()

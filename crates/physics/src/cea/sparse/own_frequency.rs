@@ -1,10 +1,6 @@
 //! Modes of projected matrices whose stiffness depends on frequency, each at its own frequency.
 
-use super::mode::ReducedMode;
-use super::projected::ProjectedMatrices;
-use super::{MOST_STEPS, NEAR};
-use crate::linalg::LinalgError;
-use std::f64::consts::TAU;
+use crate::cea::sparse::*;
 
 /// The modes, by rising frequency, without derivatives and scale: at most as many as `frozen` gives at one frequency in Hz.
 ///
@@ -21,7 +17,7 @@ pub(super) fn solve(
     let mut found: Vec<Option<ReducedMode>> =
         crate::parallel::map(&start, |mode| at.mode_near(mode));
     for i in 1..found.len() {
-        let is_known = |own: &ReducedMode| found[..i].iter().flatten().any(|p| own.is_same(p));
+        let is_known = |own: &ReducedMode| own.is_among(found[..i].iter().flatten());
         if found[i].as_ref().is_some_and(|own| own.eigenvalue.im <= 0.0 || is_known(own)) {
             found[i] = None; // Two starts may end at one mode.
         }
@@ -44,7 +40,7 @@ fn fixed_point(
     (mut place, start): (usize, &ReducedMode),
     found: &[Option<ReducedMode>],
 ) -> Result<Option<ReducedMode>, LinalgError> {
-    let is_new = |mode: &ReducedMode| !found.iter().flatten().any(|other| mode.is_same(other));
+    let is_new = |mode: &ReducedMode| !mode.is_among(found.iter().flatten());
     let mut mode = start.clone();
     let mut frequency_hz = mode.eigenvalue.im / TAU;
     for pass in 0..2 * MOST_STEPS {
@@ -57,7 +53,8 @@ fn fixed_point(
             if is_new(&fine) {
                 return Ok(Some(fine));
             }
-            let below = found.iter().flatten().filter(|p| p.eigenvalue.im < fine.eigenvalue.im);
+            let equal = (1.0 - SAME_EIGENVALUE) * fine.eigenvalue.im; // Those of its own frequency are not below it.
+            let below = found.iter().flatten().filter(|p| p.eigenvalue.im < equal);
             place = if below.count() < place { place - 1 } else { place + 1 };
             next = all.get(place).map_or(next, |own| own.eigenvalue.im / TAU);
         }

@@ -1,9 +1,7 @@
 //! Complex vectors of modes in real matrices, for real arithmetic.
 
-use super::mode::ReducedMode;
-use crate::linalg::dense::{column, column_mut, dot, product, transpose_product};
-use crate::linalg::vectors::length;
-use crate::linalg::{Mat, MatRef, c64};
+use crate::cea::sparse::*;
+use crate::linalg::dense::{dot, product};
 use std::ops::Range;
 
 /// `w_i^T P x_j` of the left vectors of some modes and the right ones of others, by one product of real matrices.

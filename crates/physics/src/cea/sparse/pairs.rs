@@ -1,12 +1,10 @@
 //! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
 
-use super::full_problem::{FullProblem, form};
-use super::{MULTIPLE, SETTLED};
+use super::full_problem::form;
+use crate::cea::sparse::*;
 use crate::fem::own_frequency_step;
-use crate::linalg::dense::random_columns;
+use crate::linalg::ComplexSparseLu;
 use crate::linalg::vectors::dot;
-use crate::linalg::{ComplexSparseLu, Mat, SparsityPattern, c64};
-use crate::prestress::SlidingTangent;
 
 /// Steps of inverse iteration.
 const STEPS: usize = 4;

@@ -1,11 +1,7 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
-use super::RESIDUAL_BOUND;
-use super::mode::ReducedMode;
-use super::reduced::{ReducedModel, inside};
-use crate::cea::accuracy::ROUNDING_ERRORS;
-use crate::linalg::vectors::length;
-use crate::linalg::{Mat, c64};
+use super::reduced::inside;
+use crate::cea::sparse::*;
 
 /// What the full matrices say about one mode.
 #[derive(Clone, Debug)]
@@ -28,6 +24,10 @@ impl ModeCheck {
     /// Relative error of the eigenvalue that the residual leaves open.
     fn error(&self) -> f64 {
         self.residual / f64::EPSILON * self.uncertainty // The uncertainty is what a residual of eps leaves open.
+    }
+
+    fn has_converged(&self) -> bool {
+        self.residual <= RESIDUAL_BOUND && self.error() < 1.0
     }
 }
 
@@ -56,6 +56,11 @@ impl SolvedPoint {
             .fold((0.0, 0.0), |(r, f), check| (check.residual.max(r), check.force_residual.max(f)))
     }
 
+    /// Whether their residuals leave no more of the wanted eigenvalues open than their vectors do where they meet.
+    pub fn is_sharp(&self) -> bool {
+        self.checks.iter().take(self.wanted).all(|check| check.error() <= MULTIPLE)
+    }
+
     /// The wanted modes that could still be improved: their residual force, relative to the inertia force, is above `goal`, or their
     /// residual above the bound of converged pairs.
     pub fn open_modes(&self, goal: f64) -> impl Iterator<Item = &ReducedMode> {
@@ -70,16 +75,26 @@ impl SolvedPoint {
         open.map(|(mode, _)| mode)
     }
 
-    /// Takes out the modes that have not converged, or whose eigenvalue their residual leaves open; their frequencies, rad/s.
-    pub fn drop_unconverged(&mut self) -> Vec<f64> {
+    /// Wanted modes that have converged, and whose eigenvalue their residual does not leave open.
+    pub fn converged(&self) -> usize {
+        self.checks.iter().take(self.wanted).filter(|check| check.has_converged()).count()
+    }
+
+    /// Takes out the wanted modes that have not converged; their frequencies, rad/s. Where a number of modes is wanted those above take
+    /// their places, as far as they have converged.
+    pub fn drop_unconverged(&mut self, limit: ModeLimit) -> Vec<f64> {
         let mut dropped = Vec::new();
         for i in (0..self.wanted.min(self.checks.len())).rev() {
-            let check = &self.checks[i];
-            if !(check.residual <= RESIDUAL_BOUND && check.error() < 1.0) {
+            if !self.checks[i].has_converged() {
                 self.checks.remove(i);
                 dropped.push(self.modes.remove(i).eigenvalue.im);
                 self.wanted -= 1;
             }
+        }
+        if let (ModeLimit::Lowest(_), [_, ..]) = (limit, &dropped[..]) {
+            let above = self.checks.iter().skip(self.wanted).take(dropped.len());
+            self.wanted += above.take_while(|check| check.has_converged()).count();
+            self.range_end = self.modes[..self.wanted].last().map_or(0.0, |own| own.eigenvalue.im);
         }
         dropped
     }
@@ -154,9 +169,15 @@ mod tests {
             range_end: 5.0,
             has_coarse_lefts: false,
         };
-        assert_eq!(point.drop_unconverged(), [3.0, 2.0]);
+        assert_eq!(point.drop_unconverged(ModeLimit::MaxFrequency(1.0)), [3.0, 2.0]);
         assert_eq!((point.wanted, point.checks.len()), (2, 2));
         let left: Vec<f64> = point.modes.iter().map(|own| own.eigenvalue.im).collect();
         assert_eq!(left, [1.0, 4.0]);
+        // Of a number of modes the next ones move up as far as they have converged.
+        let numbers = [(1e-16, 1e-5), (2e-9, 1e-15), (2e-10, 1e-12), (2e-10, 1e-5)].map(check);
+        (point.modes, point.checks) = ((1..=4).map(mode).collect(), numbers.into());
+        point.wanted = 2;
+        assert_eq!(point.drop_unconverged(ModeLimit::Lowest(2)), [2.0]);
+        assert_eq!((point.wanted, point.range_end), (2, 3.0));
     }
 }

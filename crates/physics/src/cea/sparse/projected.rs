@@ -1,14 +1,12 @@
 //! The projected matrices at one friction coefficient, and single modes of them.
 
-use super::mode::ReducedMode;
 use super::packed::forms;
-use super::term::{Term, projected};
-use super::{HALF_THE_DIGITS, LITTLE, MOST_STEPS, SETTLED};
+use super::term::projected;
+use crate::cea::sparse::*;
 use crate::fem::own_frequency_step;
-use crate::linalg::dense::{column, column_mut, product, transpose_product};
-use crate::linalg::{ComplexDenseLu, FrictionWeights, Mat, Scale, c64};
-use crate::prestress::{LossGain, MotionMatrices};
-use std::f64::consts::TAU;
+use crate::linalg::FrictionWeights;
+use crate::linalg::dense::product;
+use crate::prestress::LossGain;
 
 /// `V^T P V` of the matrices `P`, or of their derivatives, at one friction coefficient.
 pub type ProjectedMatrices = MotionMatrices<Mat<f64>>;

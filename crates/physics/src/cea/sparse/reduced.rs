@@ -1,24 +1,16 @@
 //! The matrices of small motions projected on one basis that serves every friction coefficient.
 
+mod clusters;
 mod dense;
 mod parts;
 
-use super::NEIGHBOURS;
 use super::basis::turn_to_real;
-use super::linearization::Linearization;
-use super::mode::ReducedMode;
 use super::packed::side_by_side;
-use super::projected::{ProjectedMatrices, summed};
-use super::term::Term;
-use super::{MULTIPLE, NEAR, ROUND_OFF};
-use crate::linalg::dense::{
-    GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
-};
+use super::projected::summed;
+use crate::cea::sparse::*;
+use crate::linalg::FrictionWeights;
+use crate::linalg::dense::{GrowingColumns, orthonormal_complement, product};
 use crate::linalg::gram::complement;
-use crate::linalg::vectors::length;
-use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
-use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::{MotionMatrices, SlidingTangent};
 use parts::BasisParts;
 pub(super) use parts::inside;
 

@@ -1,15 +1,9 @@
 //! The matrices of small motions at one friction coefficient, and how their eigenproblem is solved.
 
-use super::linearization::Linearization;
-use super::packed::{PackedEntry, add_complex_multiple};
+use super::packed::add_complex_multiple;
+use crate::cea::sparse::*;
 use crate::linalg::dense::join_rows;
-use crate::linalg::{BlockOperator, MatrixPolynomial, SparsityPattern};
-use crate::linalg::{Mat, MatRef, SparseLu, c64};
-use crate::prestress::{LossGain, MotionMatrices, SlidingTangent};
-use std::sync::Arc;
-
-/// Terms of a matrix, over their sum, from which on their rounding shows in residuals.
-const CANCELLING: f64 = 1e3;
+use crate::prestress::LossGain;
 
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
 pub struct StructureMatrices<'a> {
@@ -135,7 +129,7 @@ impl<'a> StructureMatrices<'a> {
             (&tangent.damping, &own.damping),
             (&tangent.mass, &own.mass),
         ]
-        .map(|(p, values)| (p.cancellation(mu) / CANCELLING).max(1.0) * norm(values)); // Rounding of terms that cancel.
+        .map(|(p, values)| (BESIDE * p.cancellation(mu)).max(1.0) * norm(values)); // Rounding of terms that cancel.
         let damped = match self.linearization {
             Linearization::Reduced(damping, _) => {
                 damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff // |C| <= alpha |M| + beta |K|.

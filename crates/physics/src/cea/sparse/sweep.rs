@@ -8,20 +8,12 @@ mod points;
 mod results;
 
 use super::basis::BasisBuilder;
-use super::branches::{BranchLabel, TrackedBranch, label_first, track};
+use super::branches::{BranchLabel, label_first, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
-use super::linearization::Linearization;
-use super::point::SolvedPoint;
-use super::structure::StructureMatrices;
-use super::{GUARD_MODES, MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
-use crate::cea::accuracy::CHANGE_PLACES;
-use crate::cea::{
-    CeaError, FrictionSweep, ModeLimit, PartWatch, SweepRequest, SweepWatch, UnconvergedMode,
-};
-use crate::prestress::SlidingTangent;
+use crate::cea::PartWatch;
+use crate::cea::sparse::*;
 use std::borrow::Cow;
-use std::f64::consts::TAU;
 
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
 ///
@@ -66,6 +58,14 @@ fn sweep_holding(
         let limit = ModeLimit::Lowest((held + more).min(sweep.elastic()));
         return sweep_holding(tangent, request, (limit, 2 * more), &watch);
     };
+    if let ModeLimit::MaxFrequency(limit_hz) = request.limit
+        && sweep.points.iter().all(|point| point.wanted == 0)
+    {
+        let lowest = sweep.points.iter().filter_map(|point| point.modes.first());
+        let lowest = lowest.map(|mode| mode.eigenvalue.im).reduce(f64::min);
+        let lowest_hz = lowest.map_or(f64::NAN, |own| own / TAU);
+        return Err(CeaError::NoModes { limit_hz, lowest_hz });
+    }
     let (branches, counts) = sweep.count(request, branches)?;
     let found = sweep.finish(request, &branches)?;
     Ok(FrictionSweep { counts, ..found })
@@ -236,11 +236,14 @@ impl<'a> SparseSweep<'a> {
         self.points = self.solve_points(&(0..self.grid.len()).collect::<Vec<usize>>())?;
         self.climb_all()?;
         self.check_tables()?;
-        let first = self.first_asked();
         self.unconverged.clear();
-        for point in &mut self.points[first..] {
-            let mu = point.friction_coefficient;
-            let dropped = point.drop_unconverged();
+        for k in self.first_asked()..self.grid.len() {
+            let (mu, point) = (self.grid[k], &self.points[k]);
+            if point.converged() < point.wanted {
+                let above = self.check(mu, &point.modes[point.checks.len()..]); // They may take the places of those that are left out.
+                self.points[k].checks.extend(above);
+            }
+            let dropped = self.points[k].drop_unconverged(self.limit);
             self.unconverged.extend(dropped.into_iter().map(|own| UnconvergedMode::of(mu, own)));
         }
         let model = &self.builder.model;

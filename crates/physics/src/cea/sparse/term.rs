@@ -1,9 +1,7 @@
 //! Projection of one coefficient matrix on a growing basis.
 
-use crate::linalg::MatrixPolynomial;
-use crate::linalg::dense::{join_columns, product, transpose_product};
-use crate::linalg::{Mat, MatRef};
-use std::sync::Arc;
+use crate::cea::sparse::*;
+use crate::linalg::dense::product;
 
 /// One coefficient `P` of a matrix polynomial, over the unknowns that it touches.
 struct Coefficient {

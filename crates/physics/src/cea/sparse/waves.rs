@@ -1,12 +1,9 @@
 //! Tangents of a body with cyclic symmetry, one for each number of nodal diameters.
 
-use super::HALF_THE_DIGITS;
+use crate::cea::sparse::*;
 use crate::fem::DofMap;
-use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::CyclicSymmetry;
-use crate::prestress::{ContactDofs, MotionMatrices, SlidingTangent, without_symmetry};
-use std::f64::consts::TAU;
-use std::sync::Arc;
+use crate::prestress::{ContactDofs, without_symmetry};
 
 /// The small motions of a body whose `N` sectors are alike, as waves of `n = 0 ... N / 2` nodal diameters:
 ///

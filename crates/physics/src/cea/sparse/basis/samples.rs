@@ -1,15 +1,8 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
 use super::{BasisBuilder, scale_to_unit_length, turn_to_real};
-use crate::cea::CeaError;
-use crate::cea::sparse::full_problem::FullProblem;
-use crate::cea::sparse::linearization::Linearization;
-use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::packed::{PackedModes, side_by_side};
-use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{BESIDE, CHANGE_PLACES, MOST_ATTEMPTS, ROUND_OFF, SETTLED, WIDEST};
-use crate::linalg::dense::join_columns;
-use crate::linalg::{LinalgError, Mat, c64};
+use crate::cea::sparse::packed::side_by_side;
+use crate::cea::sparse::*;
 use std::convert::Infallible;
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.

@@ -1,16 +1,9 @@
 //! The modes of the projected problem by dense decompositions, of a wide one by an iteration for the leading ones.
 
-use super::ReducedModel;
-use crate::cea::sparse::linearization::Linearization;
-use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::own_frequency;
-use crate::cea::sparse::projected::ProjectedMatrices;
-use crate::cea::sparse::{CONVERGED, ROUND_OFF, SAME_EIGENVALUE, SEARCH_WIDTH, WIDEST};
-use crate::linalg::dense::{column, column_mut, product, random_columns};
+use crate::cea::sparse::*;
+use crate::linalg::dense::product;
 use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
-use crate::linalg::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_schur};
-use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError};
-use crate::linalg::{Mat, MatRef, Scale, c64};
+use crate::linalg::{KrylovSchurSettings, RealPairs, krylov_schur};
 
 /// A matrix that is applied to blocks of vectors.
 struct DenseOperator<'a>(MatRef<'a, f64>);
@@ -36,7 +29,7 @@ impl ReducedModel {
             let start_hz = gain.reference_hz;
             let frozen = |frequency_hz: f64| {
                 let at = at.frozen(frequency_hz);
-                self.solve_lossy(&at, count)
+                Ok(self.part_clusters(&at, self.solve_lossy(&at, count)?))
             };
             let mut modes = own_frequency::solve(at, &frozen, start_hz)?; // Each at its own frequency.
             for mode in &mut modes {
@@ -45,8 +38,17 @@ impl ReducedModel {
             return Ok(modes);
         }
         if !at.losses.is_empty() {
-            return self.solve_lossy(at, count); // i H alone.
+            return Ok(self.part_clusters(at, self.solve_lossy(at, count)?)); // i H alone.
         }
+        Ok(self.part_clusters(at, self.solve_viscous(at, count)?))
+    }
+
+    /// [`Self::solve_projected`] without structural damping.
+    fn solve_viscous(
+        &self,
+        at: &ProjectedMatrices,
+        count: usize,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
         let centred = self.centred(at);
         let at = centred.as_ref().unwrap_or(at);
         let lu = DenseLu::factorize(at.stiffness.clone());
@@ -66,21 +68,42 @@ impl ReducedModel {
 
         let mut order: Vec<usize> = (0..eigen.values.len()).collect();
         crate::order::sort_by_number(&mut order, |&i| -eigen.values[i].norm()); // Largest |s| first: nearest to the centre.
-        let mut modes: Vec<ReducedMode> = order
-            .into_iter()
-            .filter_map(|i| {
-                Some(ReducedMode {
-                    eigenvalue: self.linearization.eigenvalue(eigen.values[i])?,
-                    inverse_value: eigen.values[i],
-                    derivative: c64::new(0.0, 0.0),
-                    right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
-                    left: unpack(&eigen.values, left.as_ref(), m, i, true),
-                })
+        let oscillating = order.into_iter().filter_map(|i| {
+            Some(ReducedMode {
+                eigenvalue: self.linearization.eigenvalue(eigen.values[i])?,
+                inverse_value: eigen.values[i],
+                derivative: c64::new(0.0, 0.0),
+                right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
+                left: unpack(&eigen.values, left.as_ref(), m, i, true),
             })
-            .take(count)
-            .collect();
+        });
+        Ok(self.leading(oscillating, m, count, |_| true))
+    }
+
+    /// The first of modes by falling `|s|`, until `count` of them do that `is_counted` holds for, by rising frequency. Where all `m` motions
+    /// of the body are held, so are those that damping takes beyond them, though they oscillate more slowly.
+    fn leading(
+        &self,
+        all: impl Iterator<Item = ReducedMode>,
+        m: usize,
+        count: usize,
+        is_counted: impl Fn(&ReducedMode) -> bool,
+    ) -> Vec<ReducedMode> {
+        let (is_whole, mut counted, mut top) = (m == self.basis.columns().nrows(), 0, 0.0);
+        let mut modes = Vec::new();
+        for mode in all {
+            if counted < count {
+                counted += usize::from(is_counted(&mode));
+                top = mode.eigenvalue.im.max(top);
+                modes.push(mode);
+            } else if !is_whole {
+                break;
+            } else if mode.eigenvalue.im < top && !mode.is_nearly_critical() {
+                modes.push(mode);
+            }
+        }
         crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
-        Ok(modes)
+        modes
     }
 
     /// The leading pairs of a wide operator by an iteration, which costs far less than all of them; nothing where it leaves one short.
@@ -172,16 +195,7 @@ impl ReducedModel {
         };
         let oscillating = order.into_iter().filter_map(mode);
         let oscillating = oscillating.filter(|mode| !mode.hardly_oscillates());
-        let mut far_from_critical = 0;
-        let mut modes: Vec<ReducedMode> = oscillating
-            .take_while(|mode| {
-                let is_wanted = far_from_critical < count;
-                far_from_critical += usize::from(!mode.is_nearly_critical());
-                is_wanted
-            })
-            .collect();
-        crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
-        Ok(modes)
+        Ok(self.leading(oscillating, m, count, |mode| !mode.is_nearly_critical()))
     }
 
     /// The matrices about the centre of the linearisation, where it is not zero: `K + c C + c^2 M`, or `K + c^2 M`, and `C + 2 c M`.

@@ -3,13 +3,10 @@
 //! Every sample makes the basis wider, and a mode beside one costs the cube of that. Modes and left vectors are nearly combinations
 //! of the modes at the samples about them, and of the corrections there.
 
-use super::{ReducedModel, spanned};
-use crate::cea::sparse::NEIGHBOURS;
-use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::term::Term;
-use crate::linalg::dense::{GrowingColumns, column};
-use crate::linalg::{Mat, c64};
-use std::sync::{Arc, Mutex, PoisonError};
+use super::spanned;
+use crate::cea::sparse::*;
+use crate::linalg::dense::GrowingColumns;
+use std::sync::{Mutex, PoisonError};
 
 /// The projected problem in a part of the basis.
 pub(super) struct BasisPart {

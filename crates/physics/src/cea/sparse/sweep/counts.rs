@@ -1,13 +1,6 @@
 //! Counts of the modes of a sweep, and the search for those that are missing.
 
-use super::SparseSweep;
-use crate::cea::sparse::branches::TrackedBranch;
-use crate::cea::sparse::count::ModeCounter;
-use crate::cea::sparse::point::SolvedPoint;
-use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, TRACKING_MARGIN};
-use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit, SweepRequest};
-use crate::linalg::c64;
-use std::f64::consts::TAU;
+use crate::cea::sparse::*;
 
 /// Friction values up to which modes are counted at each.
 const FEW_VALUES: usize = 6;

@@ -1,11 +1,8 @@
 //! Where steady sliding loses its static stability: a motion grows there without oscillating.
 
-use super::SparseSweep;
-use crate::cea::sparse::SETTLED;
-use crate::cea::sparse::branches::{BranchEnd, TrackedBranch};
-use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::{CeaError, UnstableInterval};
-use crate::linalg::{Bracket, SparseLu, c64};
+use crate::cea::sparse::branches::BranchEnd;
+use crate::cea::sparse::*;
+use crate::linalg::Bracket;
 
 impl SparseSweep<'_> {
     /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
@@ -53,7 +50,27 @@ impl SparseSweep<'_> {
         let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
         let reach = (low - (eigenvalue / derivative).re).clamp(beyond, next);
         let places = &[beyond, reach, next][..2 + usize::from(end.is_damped)];
-        self.sign_change((low, self.sign_at(low)?), places)
+        let place = self.sign_change((low, self.sign_at(low)?), places)?;
+        let may_meet = eigenvalue.re > 0.0 && !self.tangent.is_lossy();
+        Ok(if may_meet { self.meeting(low, [beyond, next])?.or(place) } else { place })
+    }
+
+    /// Where a growing mode and its conjugate meet and become two motions that grow without oscillating, which leave the determinant its sign.
+    fn meeting(&self, mut low: f64, places: [f64; 2]) -> Result<Option<f64>, CeaError> {
+        let grown = |mu: f64| self.builder.model.static_growth(mu);
+        let two_more = grown(low)? + 2;
+        for mut high in places {
+            if grown(high)? < two_more {
+                continue;
+            }
+            while high - low > SETTLED * (1.0 + high) {
+                let middle = 0.5 * (low + high);
+                let is_before = grown(middle)? < two_more;
+                *(if is_before { &mut low } else { &mut high }) = middle;
+            }
+            return Ok(Some(high));
+        }
+        Ok(None)
     }
 
     /// Where `det K` changes from its sign at a friction coefficient, on the way to some places.

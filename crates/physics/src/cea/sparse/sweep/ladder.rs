@@ -1,10 +1,6 @@
 //! The ladder of remedies for modes that have not converged.
 
-use super::SparseSweep;
-use crate::cea::CeaError;
-use crate::cea::sparse::linearization::Linearization;
-use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::{LITTLE, NEAR, RESIDUAL_BOUND};
+use crate::cea::sparse::*;
 
 /// Remedies, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,13 +27,15 @@ struct Ladder {
 
 impl Ladder {
     /// The remedy for what is left, the `error`: another one where the last did little. What is converged is only corrected, as long as
-    /// that helps: round-off does not become less. The whole problem is one of a body that `is_small`.
-    fn climb(&mut self, error: f64, is_converged: bool, is_small: bool) -> Rung {
+    /// that helps: round-off does not become less; by its own factors, too, where slow modes beside stiff ones are not sharp yet. The whole
+    /// problem is one of a body that `is_small`.
+    fn climb(&mut self, error: f64, [is_converged, is_sharp]: [bool; 2], is_small: bool) -> Rung {
         let does_little = !(error < LITTLE * std::mem::replace(&mut self.error, error)); // Or is no number.
         if does_little {
             self.rung = match self.rung {
-                _ if is_converged => Rung::Spent,
+                _ if is_sharp => Rung::Spent,
                 Rung::AtRest => Rung::Shifted,
+                _ if is_converged => Rung::Spent,
                 Rung::Shifted => Rung::Without,
                 Rung::Without if is_small => Rung::Whole,
                 Rung::Without | Rung::Whole | Rung::Spent => Rung::Spent,
@@ -52,7 +50,8 @@ impl SparseSweep<'_> {
     /// Grows the basis until the modes at all points converge, or nothing helps.
     pub(super) fn climb_all(&mut self) -> Result<(), CeaError> {
         let first = Ladder { rung: Rung::AtRest, error: f64::INFINITY };
-        let (mut ladders, is_small) = (vec![first; self.grid.len()], self.builder.is_small());
+        let mut ladders = vec![first; self.grid.len()];
+        let is_small = self.builder.is_small() && !self.builder.is_whole; // Nothing is beyond all motions.
         loop {
             let mut missing = self.missing_points();
             missing.retain(|&k| ladders[k].rung != Rung::Spent);
@@ -68,7 +67,9 @@ impl SparseSweep<'_> {
                 if !treated.contains(&gaps[k]) {
                     treated.push(gaps[k]);
                     let (residual, error) = self.points[k].worst();
-                    let rung = ladders[k].climb(error, residual <= RESIDUAL_BOUND, is_small);
+                    let is_converged = residual <= RESIDUAL_BOUND;
+                    let is_sharp = is_converged && self.points[k].is_sharp();
+                    let rung = ladders[k].climb(error, [is_converged, is_sharp], is_small);
                     let is_alone =
                         missing.iter().filter(|&&other| gaps[other] == gaps[k]).count() == 1;
                     self.treat(k, rung, is_alone)?;
@@ -84,7 +85,7 @@ impl SparseSweep<'_> {
     fn treat(&mut self, k: usize, rung: Rung, is_alone: bool) -> Result<(), CeaError> {
         let (mu, point) = (self.grid[k], &self.points[k]);
         match rung {
-            Rung::AtRest if self.builder.is_whole => {} // Nothing is beyond all motions.
+            Rung::AtRest if self.builder.is_whole => {}
             Rung::AtRest => {
                 let is_near = is_alone && point.worst().1 <= NEAR; // Corrections do where the error is small already.
                 let modes = &point.modes[..point.checks.len()];
@@ -165,16 +166,18 @@ mod tests {
     /// An error that falls keeps its remedy; one that stays, or is no number, takes the next one until all are spent.
     #[test]
     fn the_ladder_ends_whatever_becomes_of_an_error() {
-        let climbed = |errors: &[f64], is_converged: bool, is_small: bool| {
+        let climbed = |errors: &[f64], is_converged: [bool; 2], is_small: bool| {
             let mut ladder = Ladder { rung: Rung::AtRest, error: f64::INFINITY };
             let rungs = errors.iter().map(|&error| ladder.climb(error, is_converged, is_small));
             rungs.collect::<Vec<Rung>>()
         };
         let falling = [1.0, 0.2, 0.05, 0.01];
-        assert_eq!(climbed(&falling, false, false), [Rung::AtRest; 4]);
-        assert_eq!(climbed(&[1.0, 0.9], true, false), [Rung::AtRest, Rung::Spent]);
+        assert_eq!(climbed(&falling, [false; 2], false), [Rung::AtRest; 4]);
+        assert_eq!(climbed(&[1.0, 0.9], [true; 2], false), [Rung::AtRest, Rung::Spent]);
+        let vague = climbed(&[1.0, 0.9, 0.8, 0.7], [true, false], false);
+        assert_eq!(vague, [Rung::AtRest, Rung::Shifted, Rung::Shifted, Rung::Spent]);
         let (no_number, small) = ([f64::NAN; 5], [true, false]);
-        let ends = small.map(|is_small| climbed(&no_number, false, is_small));
+        let ends = small.map(|is_small| climbed(&no_number, [false; 2], is_small));
         assert_eq!(ends[0][..4], [Rung::Shifted, Rung::Without, Rung::Whole, Rung::Spent]);
         assert_eq!(ends[1][..3], [Rung::Shifted, Rung::Without, Rung::Spent]);
     }

@@ -1,15 +1,9 @@
 //! The projected problem as a solver of single branches, for the search of their onsets.
 
-use super::SparseSweep;
 use super::points::uncertainty;
-use crate::cea::accuracy::ROUNDING_ERRORS;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
-use crate::cea::sparse::branches::{TrackedBranch, followed};
-use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::{BESIDE, MOST_STEPS, NEAR, RESIDUAL_BOUND, SAME, SETTLED};
-use crate::cea::{BranchPoint, UnstableInterval};
-use crate::linalg::LinalgError;
-use crate::linalg::vectors::length;
+use crate::cea::sparse::branches::followed;
+use crate::cea::sparse::*;
 
 /// Steps over the whole range, at least, in which a branch is led back: a crossing lies between two of them.
 const STEPS_BACK: usize = 8;

@@ -1,16 +1,12 @@
 //! Modes at the friction coefficients of a sweep, each held to its residual in the full matrices, and their vectors.
 
-use super::SparseSweep;
 use crate::cea::sparse::left::correct_lefts;
-use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::packed::{PackedModes, PackedVector, joined, side_by_side};
-use crate::cea::sparse::point::{ModeCheck, SolvedPoint, normalize};
-use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
-use crate::cea::{ModeLimit, ModeVectors, SweepProgress, SweepStage};
-use crate::linalg::vectors::length;
-use crate::linalg::{LinalgError, Mat, c64};
-use std::f64::consts::TAU;
+use crate::cea::sparse::packed::PackedVector;
+use crate::cea::sparse::packed::joined;
+use crate::cea::sparse::packed::side_by_side;
+use crate::cea::sparse::point::ModeCheck;
+use crate::cea::sparse::point::normalize;
+use crate::cea::sparse::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// `|lambda|^2 |M| + |lambda| |C| + |K|` with the `norms` of the three.

@@ -1,14 +1,7 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
-use super::SparseSweep;
 use super::onset::{FoundInterval, doubt};
-use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
-use crate::cea::sparse::mode::ModeAt;
-use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, SETTLED};
-use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
-use crate::cea::{EndedMode, UnconvergedMode, UnstableInterval};
-use crate::linalg::{LinalgError, c64};
-use std::f64::consts::TAU;
+use crate::cea::sparse::*;
 
 impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
