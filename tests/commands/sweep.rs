@@ -2,7 +2,9 @@
 //! place of a solver, so that the checks are about who runs what and what is kept of it.
 
 use crate::prelude::*;
+use frictionsim::app::OutputOptions;
 use frictionsim::app::sweep::{SweepProgress, *};
+use frictionsim::results::Head;
 use frictionsim::results::sweep::{Start, SweepFolder};
 use serde_json::Map;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -78,7 +80,9 @@ fn sweep(
     let progress = SweepProgress::new(true, points.len());
     let run = SweepRun { plan: &plan, folder: &folder, progress: &progress, runner };
     let ran = run.run(&points, threads).unwrap();
-    gather(&folder, &finished(case, &plan, &folder).unwrap(), None).unwrap();
+    let output = OutputOptions { no_figures: true, ..OutputOptions::default() };
+    let found = finished(&plan, &folder).unwrap();
+    gather(&output, &folder, (case, &plan), Head::of(&case.title, 0.0), &found).unwrap();
     Ok(ran)
 }
 
