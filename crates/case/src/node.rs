@@ -5,8 +5,9 @@ use super::reader::NodePlace;
 use crate::prelude::*;
 use frictionsim_physics::mesh::Strip;
 
-/// Share of the body's size beyond which the nearest node to a place is hardly what was meant.
-const FAR: f64 = 0.05;
+/// Shares of half the body's size beyond which the nearest node to a place is hardly what was meant, and the place not
+/// on the body at all.
+const FAR: [f64; 2] = [0.05, 0.5];
 
 /// A node that was asked for by its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,13 +60,19 @@ impl Body {
             asked: [asked[0], asked[1], z.unwrap_or(point[2])],
             at: point,
         };
-        if placed.distance() > FAR * self.size() {
+        let away = placed.distance();
+        let [is_far, is_off] = FAR.map(|share| away > share * self.size());
+        if is_far {
             let [asked, found] = [(&placed.asked, None), (&point, Some(6))]
                 .map(|(place, digits)| listed(&place[..self.dimension()], digits));
-            caution!(section, key,
-                "{}: the node nearest to {asked} m is node {} at {found} m, {:.1e} m away",
-                section.name(key), self.node_label(node), placed.distance();
-                "places are in metres");
+            let (name, node) = (section.name(key), self.node_label(node));
+            let said = format!(
+                "{name}: the node nearest to {asked} m is node {node} at {found} m, {away:.1e} m away"
+            );
+            match is_off {
+                true => refuse_at!(section, at, "{said}"; "off the body"; "places are in metres"),
+                false => caution!(section, key, "{said}"; "places are in metres"),
+            }
         }
         Some((node, Some(placed)))
     }

@@ -256,15 +256,11 @@ fn search(summary: &BasinSummary) -> Figure {
     .height(90.0)
     .layers(bounds)
     .layers(points);
-    Figure::new(
-        "basin",
-        match summary.of_modes {
-            true => "What wins over the ratio, one point for each transient.",
-            false => {
-                "The wave that wins over the ratio of the amplitudes of both at the first stick or \
-                opening, one point for each transient."
-            }
-        },
-    )
-    .panel(panel)
+    let what = match summary.of_modes {
+        true => "What wins over the ratio",
+        false => {
+            "The wave that wins over the ratio of the amplitudes of both at the first stick or opening"
+        }
+    };
+    Figure::new("basin", format!("{what}, one point for each transient.")).panel(panel)
 }

@@ -5,7 +5,7 @@ use frictionsim_chart::significant;
 use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
     Estimate, FittedMode, FrequencyResponse, HalfPowerBand, Identification, ModalFit, RayleighFit,
-    ResonanceNote, ResponseQuantity,
+    ResonanceNote,
 };
 
 /// Name of the `[damping]` section in its folder.
@@ -275,12 +275,13 @@ fn justified(e: Estimate) -> [String; 3] {
     [digits(e.value), digits(e.low), digits(e.high)]
 }
 
-/// Unit of a response.
-pub fn unit_of(quantity: ResponseQuantity) -> &'static str {
+/// The unit of a response quantity by its name; none of any other name.
+pub fn response_unit(quantity: &str) -> &'static str {
     match quantity {
-        ResponseQuantity::Accelerance => "m/s²/N",
-        ResponseQuantity::Mobility => "m/s/N",
-        ResponseQuantity::Receptance => "m/N",
+        "accelerance" => "m/s²/N",
+        "mobility" => "m/s/N",
+        "receptance" => "m/N",
+        _ => "",
     }
 }
 
@@ -309,7 +310,7 @@ pub fn identification(response: &FrequencyResponse, found: &Identification) -> F
     };
     let response = Panel::new(
         Axis::kilohertz().tight(),
-        Axis::new("|*H*|", unit_of(response.quantity())).logarithmic(),
+        Axis::new("|*H*|", response_unit(response.quantity().name())).logarithmic(),
     )
     .height(150.0)
     .layers(found.fit.modes.iter().map(tick))

@@ -116,9 +116,8 @@ fn matrix(summary: &MacSummary) -> Figure {
     let (shapes, modes) = (summary.shapes.len(), summary.modes.len());
     let span = |count: usize| ((0.5, count as f64 + 0.5), count);
     let axis = Axis::new("modal assurance criterion", "").between(0.0, 1.0);
-    let (colours, value) =
-        ((axis, ColourMap::Viridis), |mode: usize, shape: usize| summary.mac[shape][mode]);
-    let heat = Heat::of_values(span(modes), span(shapes), colours, value);
+    let value = |mode: usize, shape: usize| summary.mac[shape][mode];
+    let heat = Heat::of_values(span(modes), span(shapes), (axis, ColourMap::Viridis), value);
     let places = summary.pairs.iter().map(|pair| (pair.mode as f64, pair.shape as f64));
     let numbers = |name: &str, count: usize| {
         let (from, to) = span(count).0;
@@ -129,9 +128,7 @@ fn matrix(summary: &MacSummary) -> Figure {
         .layer(heat)
         .layer(Points::new(places).marker(Marker::Circle, 2.6, INK))
         .colour_bar(Side::Right);
-    Figure::new(
-        "mac",
-        "Modal assurance criterion of each measured shape with each mode; circles are the pairs.",
-    )
-    .panel(panel)
+    let caption =
+        "Modal assurance criterion of each measured shape with each mode; circles are the pairs.";
+    Figure::new("mac", caption).panel(panel)
 }

@@ -1,6 +1,6 @@
 //! Table, figure and report of a computed frequency response.
 
-use super::identification::unit_of;
+use super::identification::response_unit;
 use crate::common::*;
 use frictionsim_signal::reader::{self, Place};
 use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
@@ -18,6 +18,9 @@ keys! {
         backward_error: Option<f64> = "largest backward error of a cyclic solution";
         quantity: String = "accelerance, mobility or receptance";
         noise: f64 = "relative standard deviation of the noise added";
+        peak: BTreeMap<String, f64> = "largest magnitude, by its quantity: accelerance in m/s²/N, mobility in m/s/N, \
+            receptance in m/N";
+        peak_frequency_hz: Option<f64> = "frequency of that; none of a response that is zero";
     }
 }
 
@@ -46,8 +49,13 @@ pub fn write_response(
 impl ResponseSummary {
     /// What was computed, and its figure.
     pub fn document(&self) -> Document {
+        let peak = self.peak.iter().zip(self.peak_frequency_hz).map(|((name, size), at)| {
+            let size = format!("{} {}", significant(*size, 5), response_unit(name));
+            ("largest magnitude", format!("{size} at {at:.2} Hz"))
+        });
         let section = Section::new("Frequency response")
             .text([self.description.clone()])
+            .facts(peak)
             .figures(["response"]);
         Document::new("Frequency response").section(section)
     }
@@ -62,7 +70,7 @@ const PROMINENCE: (f64, f64) = (0.345, 12.0);
 const MOST_MAXIMA: usize = 40;
 
 /// The phase, degrees, followed from value to value and drawn a whole number of turns away only where it leaves the
-/// axis; where that happens the line breaks.
+/// axis; there the line breaks off at one edge and goes on from the other.
 fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
     let limit = 180.0 + PHASE_MARGIN;
     let mut points: Vec<(f64, f64)> = Vec::with_capacity(values.len());
@@ -71,8 +79,11 @@ fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
         let own = value.arg().to_degrees();
         let near = last.map_or(own, |last| own + 360.0 * ((last - own) / 360.0).round());
         let shown = if near.abs() > limit { own } else { near };
-        if shown != near {
-            points.push((f64::NAN, f64::NAN));
+        if let Some((from, start)) = points.last().copied().filter(|_| shown != near) {
+            // Out through one edge and in through the other, so that a value alone between two breaks is seen.
+            let edge = limit.copysign(near);
+            let crossed = from + (frequency - from) * (edge - start) / (near - start);
+            points.extend([(crossed, edge), (f64::NAN, f64::NAN), (crossed, edge + shown - near)]);
         }
         points.push((frequency, shown));
         last = Some(shown).filter(|phase| phase.is_finite()).or(last);
@@ -86,8 +97,7 @@ fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
 /// which of independent normal values is their standard deviation.
 fn maxima(magnitude: &[f64]) -> Vec<usize> {
     let logs: Vec<f64> = magnitude.iter().map(|m| m.max(1e-300).ln()).collect();
-    let mut steps: Vec<f64> = logs.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    steps.sort_by(f64::total_cmp);
+    let steps = sorted(logs.windows(2).map(|pair| (pair[1] - pair[0]).abs()), |own| *own);
     let noise = steps.get(steps.len() / 2).copied().unwrap_or(0.0) / 0.95;
     let least = PROMINENCE.0.max(PROMINENCE.1 * noise);
     let peaks = (1..logs.len().saturating_sub(1))
@@ -119,7 +129,7 @@ pub fn response_figure(response: &FrequencyResponse) -> Figure {
     let tips = places.iter().map(|&i| format!("maximum at {:.1} Hz", frequencies[i])).collect();
     let peaks = Points::new(places.iter().map(|&i| (frequencies[i], magnitude[i])));
     let peaks = peaks.marker(Marker::Disc, 1.6, INK).tips(tips).name("maximum");
-    let modulus = Axis::new("|*H*|", unit_of(response.quantity())).logarithmic();
+    let modulus = Axis::new("|*H*|", response_unit(response.quantity().name())).logarithmic();
     let degrees = Axis::new("phase", "°").between(-limit, limit).ticks(quarters);
     let caption = "Frequency response of the model: magnitude (a), with the maxima that stand out \
                    of the noise, and phase (b).";
@@ -159,5 +169,16 @@ mod tests {
         let phase = followed_phase(&frequencies, &values);
         let breaks = phase.iter().filter(|point| point.0.is_nan()).count();
         assert!(breaks < 6, "{breaks}");
+        // A value alone between two breaks has a line to either edge.
+        let turned =
+            [170.0_f64, -100.0, 130.0].map(|phase| c64::from_polar(1.0, phase.to_radians()));
+        let found = followed_phase(&[0.0, 1.0, 2.0], &turned);
+        let pieces: Vec<&[(f64, f64)]> = found.split(|point| point.0.is_nan()).collect();
+        assert_eq!(
+            pieces.iter().map(|piece| piece.len()).collect::<Vec<_>>(),
+            [2, 3, 2],
+            "{found:?}"
+        );
+        assert!(found.iter().all(|point| point.0.is_nan() || point.1.abs() <= 205.0), "{found:?}");
     }
 }

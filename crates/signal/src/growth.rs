@@ -22,6 +22,8 @@ const PERIODS: f64 = 12.0;
 const TOLERANCES: [f64; 4] = [0.01, 0.03, 0.1, LARGEST_DEVIATION];
 /// Largest rms deviation of the logarithmic envelope of what is still called exponential.
 const LARGEST_DEVIATION: f64 = 0.2;
+/// Share of a beat in a record.
+const LEAST_BEAT: f64 = 0.2;
 /// Ends of the search grid.
 const GRID: usize = 300;
 
@@ -91,25 +93,19 @@ impl ExponentialStage {
 /// Why a signal has no growth rate.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoGrowth {
-    /// Too few periods.
-    #[error("too short: {periods:.0} periods, {needed:.0} are needed for a growth rate")]
-    TooShort {
-        /// Periods there are.
-        periods: f64,
-        /// Periods needed.
-        needed: f64,
-    },
-    /// An amplitude that is made of round-off.
+    /// Too few periods: those there are, and those needed.
+    #[error("too short: {0:.0} periods, {1:.0} are needed for a growth rate")]
+    TooShort(f64, f64),
+    /// Too few samples in a period: those there are, and those needed.
     #[error(
-        "no vibration above round-off: its amplitude of {amplitude:.1e} is within {floor:.1e}, 1024 eps of \
-         the largest motion"
+        "{0:.2} samples a period are too few for a growth rate: sample {1:.1} times as fast or faster"
     )]
-    BelowRoundOff {
-        /// Amplitude, unit of the signal.
-        amplitude: f64,
-        /// Smallest amplitude of a vibration.
-        floor: f64,
-    },
+    TooCoarse(f64, f64),
+    /// An amplitude that is made of round-off, and the smallest of a vibration, unit of the signal.
+    #[error(
+        "no vibration above round-off: its amplitude of {0:.1e} is within {1:.1e}, 1024 eps of the largest motion"
+    )]
+    BelowRoundOff(f64, f64),
     /// An envelope that is no exponential.
     #[error(
         "the envelope at {0:.1} Hz has no exponential stretch over which it changes by a factor e"
@@ -197,7 +193,10 @@ fn stage_at(
         (stage, frequency) = (better, line.frequency_hz);
     }
     let signal = demodulated(samples, sampling_rate, frequency)?;
+    // Growth along a straight line looks like a small part of a beat.
+    let least = LEAST_BEAT * sampling_rate / samples.len() as f64;
     match beat::beat(&signal, &stage) {
+        Some(apart_hz) if apart_hz < least => Err(NoGrowth::NotExponential(frequency)),
         Some(apart_hz) => Err(NoGrowth::Beat(frequency, apart_hz)),
         None => Ok(stage),
     }
@@ -212,7 +211,7 @@ fn search(
     let floor = round_off_floor(largest(samples));
     let amplitude = signal.log_amplitude.iter().copied().fold(f64::MIN, f64::max).exp();
     if amplitude <= floor {
-        return Err(NoGrowth::BelowRoundOff { amplitude, floor });
+        return Err(NoGrowth::BelowRoundOff(amplitude, floor));
     }
     for tolerance in TOLERANCES {
         for growing in [true, false] {
@@ -237,11 +236,13 @@ fn demodulated(
     super::error::check_positive("frequency", frequency_hz, "")?;
     let block = (PERIODS * sampling_rate / frequency_hz).round() as usize;
     let hop = ((sampling_rate / frequency_hz).round() as usize).max(1);
-    if block < 32 || samples.len() < 3 * block {
-        return Err(NoGrowth::TooShort {
-            periods: samples.len() as f64 * frequency_hz / sampling_rate,
-            needed: 3.0 * PERIODS,
-        });
+    if block < 32 {
+        let each = sampling_rate / frequency_hz;
+        return Err(NoGrowth::TooCoarse(each, 32.0 / PERIODS / each));
+    }
+    if samples.len() < 3 * block {
+        let periods = samples.len() as f64 * frequency_hz / sampling_rate;
+        return Err(NoGrowth::TooShort(periods, 3.0 * PERIODS));
     }
     // Half of a real vibration turns one way, half the other.
     let doubled: Vec<f64> = centred(samples).iter().map(|x| 2.0 * x).collect();
@@ -429,6 +430,23 @@ mod tests {
             let until = stage.lasts_until(&samples, 51_200.0);
             // The window of 12 periods blurs the end.
             assert!(stage.is_growing() && (until - expected).abs() < 4e-3, "{until} {stage:?}");
+        }
+    }
+
+    /// Closed form: the rate of `a + t` is `1 / (a + t)`, no one number, and it is no beat; 9990 Hz at 20 kHz is two
+    /// samples a period.
+    #[test]
+    fn growth_along_a_straight_line_and_a_coarse_record_have_no_rate() {
+        for noise in [0.0, 1e-3] {
+            let mut gaussian = gaussian_sequence(3);
+            let mut stage = |of: &dyn Fn(f64) -> f64| {
+                let own = |j: u32| of(f64::from(j) / 2e4) + noise * gaussian();
+                exponential_stage(&(0..20_000).map(own).collect::<Vec<f64>>(), 2e4)
+            };
+            let line = stage(&|t| (0.01 + t) * (TAU * 800.0 * t).sin());
+            assert!(matches!(line, Err(NoGrowth::NotExponential(_))), "{line:?}");
+            let coarse = stage(&|t| (TAU * 9990.0 * t).sin());
+            assert!(matches!(coarse, Err(NoGrowth::TooCoarse(..))), "{coarse:?}");
         }
     }
 

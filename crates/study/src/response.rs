@@ -134,7 +134,14 @@ impl<'a> FrequencyStudy<'a> {
         if solved.iter().all(|own| *own == c64::ZERO) {
             found.description += "; it is zero, as nothing joins the two nodes";
         }
-        Ok(Response { summary: found, solved, thickness: self.case.depth() })
+        let mut all = Response { summary: found, solved, thickness: self.case.depth() };
+        let sizes = all.observed(frf).into_iter().map(|own| own.norm());
+        let peak = sizes.zip(lines).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((size, at)) = peak.filter(|own| own.0 > 0.0) {
+            all.summary.peak = BTreeMap::from([(all.summary.quantity.clone(), size)]);
+            all.summary.peak_frequency_hz = Some(*at);
+        }
+        Ok(all)
     }
 }
 
@@ -284,4 +291,40 @@ fn at_node(case: &Case, error: &FrfError) -> CaseErrors {
     let key = format!("frf.{}", error.node_key().unwrap_or("force_node"));
     let label = "cannot be excited or observed here".to_owned();
     case.error_at(&key, error.to_string(), label, None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Closed form: without contact a force on the disc does not move the shaft. The bound is held at every line, and
+    /// the largest response is told with its frequency.
+    #[test]
+    fn a_reduction_knows_a_zero_and_holds_its_bound_at_every_line() {
+        let cases = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/commands/refused/shaft.toml");
+        let bytes = std::fs::read(cases).unwrap();
+        let solve = |node: usize, method: &str| {
+            let frf = format!(
+                "frf={{ force_node = 1, response_node = {node}, force_direction = \"radial\", \
+                 response_direction = \"radial\", boundary = \"free\", method = \"{method}\", \
+                 frequencies_hz = {{ from = 500, to = 20000, count = 40 }} }}"
+            );
+            let case = Case::parse("shaft", &bytes, &[frf]).unwrap();
+            FrequencyStudy::new(&case).unwrap().solve(&|_| {}).unwrap()
+        };
+        let zero = solve(202, "reduced");
+        assert!(zero.solved.iter().all(|own| *own == c64::ZERO));
+        assert!(zero.summary.description.contains("it is zero") && zero.summary.peak.is_empty());
+        let [reduced, direct] = ["reduced", "direct"].map(|method| solve(200, method));
+        for (own, exact) in reduced.solved.iter().zip(&direct.solved) {
+            assert!((own - exact).norm() <= 1e-6 * exact.norm(), "{own} {exact}");
+        }
+        let rate = |f: f64| (TAU * f).powi(2);
+        let lines = (1..=40).map(|k| 500.0 * f64::from(k));
+        let sizes = lines.zip(&direct.solved).map(|(f, own)| (rate(f) * own.norm(), f));
+        let (size, at) = sizes.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        let own = &direct.summary;
+        assert_eq!(own.peak_frequency_hz, Some(at));
+        assert!((own.peak["accelerance"] * direct.thickness / size - 1.0).abs() < 1e-12, "{own:?}");
+    }
 }

@@ -19,8 +19,9 @@ const WHOLE_MESH: [f64; 2] = [8e3, 1e3];
 /// Memory of each harmonic of a body of revolution, bytes for each entry of its band.
 const SOLID_BYTES: f64 = 600.0;
 
-/// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
-const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
+/// Memory of a whole plane mesh, measured from 40 to 15,000 unknowns, bytes: for each unknown, for each mode, and for
+/// each unknown and mode.
+const SPARSE_BYTES: [f64; 3] = [1.8e4, 1.2e6, 360.0];
 
 /// Memory of solid bodies, measured from 1e3 to 6e4 unknowns: bytes for each entry of the factors, which are complex
 /// and general at times, and for each mode and unknown up to so many, for each more of these.
@@ -36,7 +37,7 @@ const LIKELY_PHASES: usize = 169;
 const LIKELY_GROWING: usize = 2;
 
 /// Periods that the search for a periodic motion and its multipliers take.
-const PERIODS: [f64; 2] = [80.0, 60.0];
+const PERIODS: [f64; 2] = [80.0, 100.0];
 
 /// Steps of such a period.
 const PERIOD_STEPS: f64 = 800.0;
@@ -97,7 +98,7 @@ impl Case {
             }
             _ => {
                 let (vectors, values) = (unknowns * modes as f64, friction_values as f64);
-                let basis = 2.0 * vectors + 40.0 * unknowns;
+                let [each, mode, both] = SPARSE_BYTES;
                 let (bytes, factors) = match &self.body.kind {
                     BodyKind::Assembly(own) => {
                         let entries = factor_entries(&own.mesh, unknowns);
@@ -109,7 +110,7 @@ impl Case {
                         let bytes = FACTOR_BYTES * entries + vector * modes as f64;
                         (parts * bytes, FACTORS * values * entries.powf(1.5))
                     }
-                    _ => (SPARSE_BYTES[0] + SPARSE_BYTES[1] * basis, 0.0),
+                    _ => (each * unknowns + mode * modes as f64 + both * vectors, 0.0),
                 };
                 (bytes, factors + vectors * (WHOLE_MESH[0] + WHOLE_MESH[1] * values))
             }

@@ -14,8 +14,9 @@ const MOMENTS: usize = 3;
 /// A vector that keeps less than this share of its length adds nothing.
 const DROP: f64 = 1e-10;
 
-/// Largest relative error at the check lines.
+/// Largest relative error, and how many times that at the check lines it may be between them.
 const TOLERANCE: f64 = 1e-6;
+const BETWEEN: f64 = 10.0;
 /// Shifts to begin with, and at most.
 const SHIFTS: usize = 3;
 const MOST_SHIFTS: usize = 12;
@@ -74,25 +75,25 @@ pub fn reduced_response(
                 checks.push((f, driven.factorized(f)?));
             }
         }
-        let error = |(f, h): &(f64, c64)| (model.receptance(*f) - h).norm() / h.norm();
+        // A response that nothing leads over is zero in both.
+        let error = |(f, h): &(f64, c64)| match model.receptance(*f) - h {
+            c64::ZERO => 0.0,
+            off => off.norm() / h.norm(),
+        };
         let worst = checks.iter().max_by(|a, b| error(a).total_cmp(&error(b)));
         let worst = worst.expect("both ends of the range are checked");
         let largest_error = error(worst);
-        if largest_error <= TOLERANCE {
+        let vectors = basis.ncols();
+        if BETWEEN * largest_error <= TOLERANCE {
             let mut checked_hz: Vec<f64> = checks.iter().map(|(f, _)| *f).collect();
             checked_hz.sort_by(f64::total_cmp);
-            return Ok(ReducedResponse {
-                receptance,
-                largest_error,
-                checked_hz,
-                vectors: basis.ncols(),
-            });
+            return Ok(ReducedResponse { receptance, largest_error, checked_hz, vectors });
         }
         if shifts.len() >= MOST_SHIFTS {
             return Err(FrfError::NotReduced(format!(
-                "the reduced model still errs by {largest_error:.1e} (bound {TOLERANCE:.0e}) with {} vectors: use frf.method = \"auto\", \
-                 which solves line by line then, or \"direct\"",
-                basis.ncols()
+                "the reduced model still errs by {largest_error:.1e} (bound {:.0e}) with {vectors} vectors: use \
+                 frf.method = \"auto\", which solves line by line then, or \"direct\"",
+                TOLERANCE / BETWEEN
             )));
         }
         shifts.push(worst.0); // The worst line becomes a shift.
@@ -107,13 +108,9 @@ fn check_lines(frequencies_hz: &[f64], receptance: &[c64], shifts: &[f64]) -> Ve
     sorted.sort_by(f64::total_cmp);
     let mut lines = vec![low, high];
     lines.extend(sorted.windows(2).map(|w| 0.5 * (w[0] + w[1])));
-    let top = (0..receptance.len())
-        .max_by(|i, j| {
-            let size = |k: usize| receptance[k].norm() * frequencies_hz[k].powi(2);
-            size(*i).total_cmp(&size(*j))
-        })
-        .map(|k| frequencies_hz[k]);
-    lines.extend(top);
+    let size = |k: usize| receptance[k].norm() * frequencies_hz[k].powi(2);
+    let top = (0..receptance.len()).max_by(|&i, &j| size(i).total_cmp(&size(j)));
+    lines.extend(top.map(|k| frequencies_hz[k]));
     lines
 }
 

@@ -52,7 +52,12 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
         })
         .collect();
     let runs: Vec<&str> = own.iter().map(|figure| figure.title).collect();
-    let caption = format!("{name} of {}.", runs.join(", "));
+    let curves = |figure: &&Curves<'_>| figure.panels.iter().filter(|own| has_curves(own)).count();
+    let left_out = match own.iter().map(curves).max() {
+        Some(most) if most > panels.len() => " Panels of what not all runs have are left out.",
+        _ => "",
+    };
+    let caption = format!("{name} of {}.{left_out}", runs.join(", "));
     let columns = if panels.len() > 2 { 2 } else { 1 };
     (!panels.is_empty()).then(|| Figure::new(name, caption).columns(columns).panels(panels))
 }
@@ -70,11 +75,14 @@ fn in_units_of(mut own: PanelData, other: &PanelData) -> PanelData {
     own
 }
 
+/// Whether curves can be laid over it: of the drawing of a body outlines alone say nothing.
+fn has_curves(own: &PanelData) -> bool {
+    !own.series.is_empty() && own.axes.iter().any(|own| !own.declared.is_empty())
+}
+
 fn is_alike(one: &PanelData, other: &PanelData) -> bool {
     let axes = |own: &PanelData| own.axes.clone().map(|own| (own.declared, own.fixed_ticks));
-    // Of the drawing of a body outlines alone say nothing.
-    let is_drawing = one.axes.iter().all(|own| own.declared.is_empty());
-    axes(one) == axes(other) && !one.series.is_empty() && !is_drawing
+    axes(one) == axes(other) && has_curves(one)
 }
 
 fn panel_of(panel: &PanelData, runs: &[(usize, &str, PanelData)]) -> Panel {

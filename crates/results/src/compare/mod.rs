@@ -6,6 +6,7 @@ pub use figures::overlaid;
 
 use super::sweep::{cell, join};
 use crate::common::*;
+use crate::identification::response_unit;
 use crate::{Manifest, Page};
 
 /// A finished run.
@@ -42,8 +43,9 @@ const NAMES: [&str; 7] =
 const COSTS: [&str; 4] = ["wall_s", "core_s", "element_steps_per_s", "points_per_core_hour"];
 
 /// What a person asks of two runs first.
-const FIRST: [&str; 11] = [
+const FIRST: [&str; 12] = [
     "critical_friction",
+    "peak_frequency_hz",
     "main_frequency_hz",
     "main_harmonic",
     "status.stick",
@@ -151,6 +153,7 @@ fn unit(path: &str) -> &'static str {
     let units = path.rsplit('.').map(|part| match part {
         "mass_coefficient" => "1/s",
         "stiffness_coefficient" => "s",
+        "accelerance" | "mobility" | "receptance" => response_unit(part),
         other => unit_of(other).1,
     });
     units.into_iter().find(|unit| !unit.is_empty()).unwrap_or_default()
@@ -313,6 +316,20 @@ mod tests {
         let text = print(&runs, &shared(&runs));
         assert!(!text.contains("branch=1"), "{text}");
         assert!(text.contains("1 of 6 differ by round-off"), "{text}");
+    }
+
+    #[test]
+    fn the_peak_of_a_response_is_compared_where_both_are_of_one_quantity() {
+        let of = |name, quantity: &str, at: f64| {
+            run(name, json!({ "peak": { quantity: 2.0 }, "peak_frequency_hz": at }))
+        };
+        let paths = |other: &str| -> Vec<String> {
+            let found = shared(&[of("a", "mobility", 8e3), of("b", other, 9e3)]);
+            found.into_iter().map(|own| own.path).collect()
+        };
+        assert_eq!(paths("receptance"), ["peak_frequency_hz"]);
+        assert_eq!(paths("mobility"), ["peak.mobility", "peak_frequency_hz"]);
+        assert_eq!(["peak.mobility", "peak_frequency_hz"].map(unit), ["m/s/N", "Hz"]);
     }
 
     #[test]

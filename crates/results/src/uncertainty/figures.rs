@@ -25,14 +25,9 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     let distribution = panel("share unstable below *μ*").layers(own()).layers(families);
     let probability = panel("probability of squeal").layer(interval).layers(bounds);
     let probability = probability.layers(own()).layer(value.name("some mode unstable"));
-    Figure::new(
-        "uncertainty",
-        "Distribution of the critical friction of each family of modes (a), probability of squeal \
-         over the friction coefficient (b).",
-    )
-    .columns(2)
-    .panel(distribution)
-    .panel(probability)
+    let caption = "Distribution of the critical friction of each family of modes (a), probability of squeal \
+                   over the friction coefficient (b).";
+    Figure::new("uncertainty", caption).columns(2).panel(distribution).panel(probability)
 }
 
 /// A probability over its abscissa, and its interval between its bounds.
@@ -88,13 +83,10 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
         .layer(bars(|index| index.total, 0.17, SERIES[5]))
         .layer(bars(|index| index.first, -0.17, SERIES[0]))
         .layers(whiskers);
-    Figure::new(
-        "indices",
-        "Sobol's indices of the lowest critical friction. Dark: the share of its variance that goes if the parameter \
-         is known (first order). Light: the share that stays if all others are known (total).",
-    )
-    .note("dark: first order; light: total; lines: 95 % intervals")
-    .panel(panel)
+    let caption = "Sobol's indices of the lowest critical friction. Dark: the share of its variance that goes if the \
+                   parameter is known (first order). Light: the share that stays if all others are known (total).";
+    let note = "dark: first order; light: total; lines: 95 % intervals";
+    Figure::new("indices", caption).note(note).panel(panel)
 }
 
 /// Probability of squeal over each design parameter.
@@ -116,11 +108,8 @@ pub fn robust(summary: &RobustSummary) -> Figure {
         let reached = reached.map(|place| Label::new(place, "reached").moved(3.0, -4.0));
         panel.layers(own).layers(reached)
     };
-    Figure::new(
-        "robust",
-        "Probability of squeal at the friction coefficient of the case over each design parameter, \
-         the uncertain parameters scattering as stated.",
-    )
-    .columns(summary.curves.len().min(2))
-    .panels(summary.curves.iter().map(panel))
+    let caption = "Probability of squeal at the friction coefficient of the case over each design parameter, \
+                   the uncertain parameters scattering as stated.";
+    let columns = summary.curves.len().min(2);
+    Figure::new("robust", caption).columns(columns).panels(summary.curves.iter().map(panel))
 }

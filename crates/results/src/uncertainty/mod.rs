@@ -77,7 +77,7 @@ keys! {
     /// `summary.json` of an uncertainty analysis.
     UncertaintySummary {
         samples: usize = "samples";
-        failed: usize = "samples that could not be solved; nothing below counts them";
+        failed: usize = "samples that could not be solved; nothing below counts them: the probability is of the others";
         index_samples: usize = "samples that the indices rest on";
         friction_coefficient: Option<f64> = "friction coefficient of the case; none where it is \
             uncertain, and each sample has its own";
@@ -162,9 +162,11 @@ impl FamilySummary {
 impl UncertaintySummary {
     /// Where the probability of squeal is that of.
     pub(super) fn friction_text(&self) -> String {
-        match self.friction_coefficient {
-            Some(friction) => format!("friction {friction}"),
-            None => "the friction of each sample".to_owned(),
+        let all = self.friction_coefficient.map(|friction| format!("friction {friction}"));
+        let all = all.unwrap_or_else(|| "the friction of each sample".to_owned());
+        match self.failed {
+            0 => all,
+            failed => format!("{all}, of the {} samples that did not fail", self.samples - failed),
         }
     }
 }
@@ -236,13 +238,11 @@ pub fn samples_table(keys: &[String], samples: &[Sample], largest_friction: f64)
 impl Finding for UncertaintySummary {
     fn document(&self) -> Document {
         let friction = self.friction_text();
-        let mut results = Section::new("Results").facts(facts(self)).tables([Table::new(
-            "",
-            format!(
-                "Families of modes, followed across samples by harmonic and rank, at {friction}"
-            ),
-        )
-        .columns(FAMILIES, &self.families)]);
+        let caption = format!(
+            "Families of modes, followed across samples by harmonic and rank, at {friction}"
+        );
+        let families = Table::new("", caption).columns(FAMILIES, &self.families);
+        let mut results = Section::new("Results").facts(facts(self)).tables([families]);
         if !self.sobol.is_empty() {
             let rows = sorted(self.sobol.clone(), |a| -a.1.total);
             let mut caption =
@@ -256,12 +256,9 @@ impl Finding for UncertaintySummary {
         if let Some(robust) = &self.robust {
             let bound = robust.bound;
             let caption = format!("Designs: where the probability of squeal falls to {bound}");
-            let cheapest = robust.cheapest.as_ref().map(|key| {
-                format!(
-                    "The smallest relative change that brings the probability of squeal down to \
-                     {bound} is that of {key}."
-                )
-            });
+            let change = "The smallest relative change that brings the probability of squeal down";
+            let cheapest = robust.cheapest.iter();
+            let cheapest = cheapest.map(|key| format!("{change} to {bound} is that of {key}."));
             results = results
                 .tables([Table::new("", caption).columns(DESIGNS, &robust.curves)])
                 .text(cheapest);
@@ -305,4 +302,42 @@ fn facts(summary: &UncertaintySummary) -> Vec<(String, String)> {
     let decisive = summary.decisive.iter();
     let decisive = decisive.map(|key| ("decisive parameter".to_owned(), key.clone()));
     rows.into_iter().chain(decisive).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_probability_is_said_to_be_of_the_samples_that_did_not_fail() {
+        let critical_friction = CriticalFriction {
+            mean: None,
+            mean_low: None,
+            mean_high: None,
+            median: None,
+            p05: None,
+            p95: None,
+            without_onset: 1.0,
+        };
+        let mut summary = UncertaintySummary {
+            samples: 32,
+            failed: 25,
+            index_samples: 0,
+            friction_coefficient: Some(0.3),
+            largest_friction: 0.6,
+            probability_unstable: Estimate { value: 0.43, low: 0.16, high: 0.75 },
+            critical_friction,
+            families: Vec::new(),
+            sobol: BTreeMap::new(),
+            decisive: None,
+            probability_over_friction: Vec::new(),
+            robust: None,
+            notes: Vec::new(),
+        };
+        let said = |own: &UncertaintySummary| facts(own)[0].0.clone();
+        let of_all = "probability of squeal at friction 0.3";
+        assert_eq!(said(&summary), format!("{of_all}, of the 7 samples that did not fail"));
+        summary.failed = 0;
+        assert_eq!(said(&summary), of_all);
+    }
 }

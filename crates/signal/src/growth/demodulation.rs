@@ -72,10 +72,9 @@ impl Demodulated {
         if last < first + needed {
             let period = 1.0 / self.frequency_hz.abs();
             let hop = self.times.get(1).map_or(0.0, |t| t - self.times[0]);
-            return Err(NoGrowth::TooShort {
-                periods: last.saturating_sub(first) as f64 * hop / period,
-                needed: needed as f64 * hop / period,
-            });
+            let [periods, needed] =
+                [last.saturating_sub(first), needed].map(|own| own as f64 * hop / period);
+            return Err(NoGrowth::TooShort(periods, needed));
         }
         let t = &self.times[first..last];
         let (rate, deviation) = slope(t, &self.log_amplitude[first..last], self.correlated);

@@ -32,7 +32,7 @@ pub fn harmonic_growth(
     let floor = round_off_floor(largest_motion);
     let late = &series[series.len() / 3..];
     let largest = late.iter().map(|z| z.norm()).fold(0.0, f64::max);
-    let below = |amplitude: f64| NoGrowth::BelowRoundOff { amplitude, floor };
+    let below = |amplitude: f64| NoGrowth::BelowRoundOff(amplitude, floor);
     // What is above the floor; noise a hundred times smaller never is.
     let above = |z: &c64| z.norm() > floor;
     let (Some(first), Some(last)) = (late.iter().position(above), late.iter().rposition(above))
@@ -40,7 +40,7 @@ pub fn harmonic_growth(
         return Err(below(largest));
     };
     let part = &late[first..=last];
-    let too_short = |periods| NoGrowth::TooShort { periods, needed: PERIODS };
+    let too_short = |periods| NoGrowth::TooShort(periods, PERIODS);
     if part.len() < FEWEST {
         return Err(too_short(0.0));
     }
@@ -155,10 +155,10 @@ mod tests {
     fn round_off_a_short_stage_and_a_beat_have_no_growth_rate() {
         // 1e-19 m beside a twist of 9 um: the residue of a wave that has died out.
         let dead = harmonic_growth(&wave(25_000, 3.5, 1e-19), RATE, 9e-6);
-        assert!(matches!(dead, Err(NoGrowth::BelowRoundOff { .. })), "{dead:?}");
+        assert!(matches!(dead, Err(NoGrowth::BelowRoundOff(..))), "{dead:?}");
         // 1 ms holds ten periods, of which the last two thirds count.
         let short = harmonic_growth(&wave(500, 952.0, 1e-9), RATE, 9e-6);
-        assert!(matches!(short, Err(NoGrowth::TooShort { .. })), "{short:?}");
+        assert!(matches!(short, Err(NoGrowth::TooShort(..))), "{short:?}");
         let beat: Vec<c64> = (0..20_000)
             .map(|k| {
                 let t = k as f64 / RATE;

@@ -114,7 +114,13 @@ fn modes(
     let own = [case.contact.sliding.friction_coefficient];
     let shapes_at = &own[..usize::from(is_free || shapes.is_some())];
     let solved = eigenvalues::modes_with_waves_below(&case, limit_hz, shapes_at);
-    let (modes, waves) = solved.map_err(|error| error.line())?;
+    let (modes, waves) = solved.map_err(|error| match error {
+        StudyError::Eigenvalues(CeaError::NoModes { lowest_hz, .. }) => format!(
+            "the lowest mode of the model is at {lowest_hz:.1} Hz, above all lines of the table. Check the unit of the \
+             frequencies, the case, and the bounds of fit.parameters"
+        ),
+        other => other.line(),
+    })?;
     let assurances = match shapes {
         Some(shapes) => shapes.assurances(&case, &modes).map_err(|error| error.line())?,
         None => vec![Vec::new(); modes.len()],
@@ -219,4 +225,33 @@ pub fn notes(case: &Case, wanted: &Fit, found: &FitSummary) -> Vec<String> {
         }));
     }
     notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The range of the modes comes from the table: no key of the case raises it.
+    #[test]
+    fn lines_below_all_modes_are_not_answered_by_a_key_that_does_nothing() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/fit-table-1.toml");
+        let sets = [
+            "mesh.circumferential_elements=36",
+            "mesh.radial_elements=7",
+            "fit.starts=2",
+            "cea={ method = \"sparse\", modes = 8, friction_coefficients = [0.0] }",
+        ];
+        let case =
+            Case::parse("disc", &std::fs::read(path).unwrap(), &sets.map(str::to_owned)).unwrap();
+        let line = |k: u8| MeasuredMode {
+            line: usize::from(k) + 1,
+            frequency_hz: 100.0 * f64::from(k),
+            real_hz: None,
+            harmonic: None,
+            sigma_hz: None,
+            is_unstable: false,
+        };
+        let error = fit_case(&case, &[2, 3, 4].map(line), None).unwrap_err().to_string();
+        assert!(error.contains("unit of the frequencies") && !error.contains("cea."), "{error}");
+    }
 }
