@@ -83,16 +83,13 @@ pub fn finished(plan: &SweepPlan<'_>, folder: &SweepFolder) -> Result<SweepSumma
 }
 
 /// The figures of a study, with the modes of the case at its own friction, if the points are transients that differ in
-/// speed or friction alone, and its range of friction.
+/// speed or friction alone.
 fn figures(case: &Case, plan: &SweepPlan<'_>, records: &[PointRecord]) -> Vec<Figure> {
     let is_same_body = |key: &String| key.starts_with("contact.");
     let has_modes =
         plan.analyses.contains(&Analysis::Transient) && plan.keys().iter().all(is_same_body);
-    let own = case.contact.sliding.friction_coefficient;
-    let cea = case.cea.as_ref().map(|cea| &cea.friction_coefficients);
-    let highest = cea.into_iter().flatten().copied().fold(own, f64::max);
     let modes = if has_modes { linear_stage(case).references } else { Vec::new() };
-    draw_sweep(records, (own, highest), &modes)
+    draw_sweep(records, case.contact.sliding.friction_coefficient, &modes)
 }
 
 /// Writes the tables, the figures and the summary of the finished points; gives what is printed of them, for people and

@@ -23,7 +23,7 @@ pub fn summarize(
     Ok(match analysis {
         // Mode shapes are not computed.
         Analysis::Cea => {
-            let cea = case.require_cea()?.of_tables();
+            let cea = Cea { shapes_at: Vec::new(), ..case.require_cea()?.clone() };
             let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
             eigenvalues::refuse_no_modes(&case, &cea, &solution.sweep)?;
             let wall_s = start.elapsed().as_secs_f64();
@@ -64,4 +64,27 @@ pub(super) fn cycle(
     judge(&found)?;
     let curves = Some(found.families());
     Ok(object("cycle", head, &CycleSummary { curves, ..found })?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_is_solved_at_the_friction_of_the_case_beside_those_that_it_lists() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/polycarbonate-disc.toml");
+        let sets = [
+            "mesh.circumferential_elements=12",
+            "mesh.radial_elements=3",
+            "mesh.element=\"quad4\"",
+            "cea.friction_coefficients=[0.0, 0.05]",
+            "cea.max_frequency_hz=9847",
+            "contact.friction_coefficient=0.3",
+        ];
+        let case = Case::parse("disc", &std::fs::read(path).unwrap(), &sets.map(str::to_owned));
+        let found = summarize(&case.unwrap(), Analysis::Cea, &Manifest::new("cea")).unwrap();
+        let counts = found["unstable_counts"].as_array().unwrap();
+        let frictions = counts.iter().map(|own| own["friction_coefficient"].as_f64().unwrap());
+        assert_eq!(frictions.collect::<Vec<_>>(), [0.0, 0.05, 0.3]);
+    }
 }

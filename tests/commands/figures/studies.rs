@@ -1,13 +1,12 @@
 //! Figures of parameter studies, from their points.
 
-use crate::figures::check;
+use crate::figures::{check, texts};
 use crate::prelude::*;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::sweep::{PointRecord, draw_sweep};
 
 fn point(point: usize, swept: Value, summaries: Value) -> PointRecord {
-    let objects = [swept, summaries].map(|value| value.as_object().cloned().unwrap_or_default());
-    let [swept, summaries] = objects;
+    let [swept, summaries] = [swept, summaries].map(|value| value.as_object().unwrap().clone());
     PointRecord { point, swept, summaries, ..PointRecord::default() }
 }
 
@@ -32,9 +31,8 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
     });
     let modes = [(9901.0, "mode 5, *n* = 2"), (7660.0, "mode 3, *n* = 1")];
     let modes = modes.map(|(frequency_hz, label)| ModeLine { frequency_hz, label: label.into() });
-    let figures = draw_sweep(&records.collect::<Vec<_>>(), (0.3, 1.0), &modes);
-    let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
-    assert_eq!(names, ["frequencies", "status"]);
+    let figures = draw_sweep(&records.collect::<Vec<_>>(), 0.3, &modes);
+    assert!(figures.iter().map(|f| f.name.as_str()).eq(["frequencies", "status"]));
     let words = "μ = 0.2 ; n = 1 ; n = 2 ; ω*, μ = 0.4 ; 9.90 kHz, mode 5 ; at μ = 0.3 ; \
                  rotation speed Ω (rpm)";
     let [frequency, status] = [0, 1].map(|k: usize| figures[k].to_svg(None).unwrap());
@@ -47,31 +45,34 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
 #[test]
 fn points_over_any_key_have_frequencies_and_status_too() {
     let records = (1..5).map(|i| {
-        let interference = 1e-5 * f64::from(i);
-        let swept = json!({ "contact.interference": interference });
-        point(i as usize, swept, transient(interference, 2.5e-5))
+        let delta = 1e-5 * f64::from(i);
+        point(i as usize, json!({ "contact.interference": delta }), transient(delta, 2.5e-5))
     });
-    let figures = draw_sweep(&records.collect::<Vec<_>>(), (0.3, 1.0), &[]);
+    let figures = draw_sweep(&records.collect::<Vec<_>>(), 0.3, &[]);
     assert_eq!(figures.len(), 2);
-    let svg = figures[0].to_svg(None).unwrap();
-    check("study-interference", &svg, &["interference δ ; main frequency f (kHz)"]);
+    let words = "interference δ ; main frequency f (kHz)";
+    check("study-interference", &figures[0].to_svg(None).unwrap(), &[words]);
 }
 
 #[test]
 fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_branch() {
-    let records = (0..8).map(|i| {
-        let damping = 1e-7 * 1.8f64.powi(i);
-        let entry = |harmonic: usize, factor: f64| {
-            json!({ "harmonic": harmonic, "branch": 0, "direction": -1, "unstable_from_start": false,
-                    "critical_friction": factor * (damping * 1e7).sqrt() })
-        };
-        let mut found = vec![entry(1, 0.06), entry(2, 0.1)];
-        found.truncate(if i < 5 { 2 } else { 1 });
-        let swept = json!({ "damping.stiffness_coefficient": damping });
-        point(i as usize + 1, swept, json!({ "cea": { "critical_frictions": found } }))
-    });
-    let figures = draw_sweep(&records.collect::<Vec<_>>(), (0.3, 1.0), &[]);
-    assert_eq!(figures.len(), 1);
-    let words = "stiffness damping βR (µs) ; n = 2, branch 0 ; stable ; μ (–)";
-    check("critical-friction", &figures[0].to_svg(None).unwrap(), &[words]);
+    // Nothing is known to be stable where a branch grows from the first friction value on.
+    for lowest in [0.06, 0.0] {
+        let records = (0..8).map(|i| {
+            let damping = 1e-7 * 1.8f64.powi(i);
+            let entry = |harmonic: usize, factor: f64| {
+                json!({ "harmonic": harmonic, "branch": 0, "direction": -1, "unstable_from_start": factor == 0.0,
+                        "critical_friction": factor * (damping * 1e7).sqrt() })
+            };
+            let found = &[entry(1, lowest), entry(2, 0.1)][..if i < 5 { 2 } else { 1 }];
+            let swept = json!({ "damping.stiffness_coefficient": damping });
+            point(i as usize + 1, swept, json!({ "cea": { "critical_frictions": found } }))
+        });
+        let figures = draw_sweep(&records.collect::<Vec<_>>(), 0.3, &[]);
+        assert_eq!(figures.len(), 1);
+        let svg = figures[0].to_svg(None).unwrap();
+        check("critical-friction", &svg, &["stiffness damping βR (µs) ; n = 2, branch 0 ; μ (–)"]);
+        let has = |words: &str| texts(&svg).iter().any(|line| line.contains(words));
+        assert_eq!(["n = 1, branch 0", "stable"].map(has), [lowest > 0.0; 2]);
+    }
 }

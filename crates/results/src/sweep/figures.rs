@@ -3,9 +3,9 @@
 use super::matrix_figure::operating_matrix;
 use super::record::{PointRecord, listed};
 use super::report::{TWO_FREQUENCY, UNSETTLED};
-use super::table::{FRICTION, SPEED, by_other_keys, printed};
+use super::table::{FRICTION, SPEED, by_other_keys, printed, swept_friction};
 use crate::basin::basin_map;
-use crate::cea::{CriticalFriction, arrow};
+use crate::cea::{CriticalFriction, UnstableCount, arrow};
 use crate::charts::palette::{OPEN, SLIP, STICK};
 use crate::common::*;
 use crate::cycle::{FamilyRecord, draw_branches};
@@ -19,11 +19,10 @@ const NO_STICK: f64 = 0.005;
 /// swept key; critical friction if one key besides friction was swept through eigenvalue analyses; the operating matrix
 /// of their unstable modes; branches of limit cycles if they were followed at its points.
 ///
-/// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its
-/// eigenvalue analysis.
+/// `modes` are unstable modes at `friction_coefficient`, the case's own.
 pub fn draw_sweep(
     records: &[PointRecord],
-    (friction_coefficient, highest_friction): (f64, f64),
+    friction_coefficient: f64,
     modes: &[ModeLine],
 ) -> Vec<Figure> {
     let study = Study::of(records);
@@ -31,7 +30,7 @@ pub fn draw_sweep(
     let declarations: Vec<Declaration<'_>> = vec![
         Box::new(move || Some(study.frequencies(modes, friction_coefficient))),
         Box::new(move || Some(study.status())),
-        Box::new(move || critical_friction(records, highest_friction)),
+        Box::new(move || critical_friction(records)),
         Box::new(move || basin_map(records)),
         Box::new(move || operating_matrix(records)),
     ];
@@ -288,47 +287,59 @@ fn name(onset: &CriticalFriction) -> (Option<usize>, usize, i8) {
     (onset.harmonic, onset.branch, onset.direction.unwrap_or(0))
 }
 
-/// The critical friction of each branch over the one swept key besides friction; below all of them steady sliding is
-/// stable. `highest` is the largest friction coefficient that was studied.
+/// The critical friction of each branch over the one swept key besides friction; from the lowest friction coefficient that
+/// was solved up to all of them steady sliding is stable.
 /// Nothing where not one key was swept through eigenvalue analyses.
-pub fn critical_friction(records: &[PointRecord], highest: f64) -> Option<Figure> {
-    let mut keys = records.first()?.swept.keys().filter(|key| *key != FRICTION);
+fn critical_friction(records: &[PointRecord]) -> Option<Figure> {
+    let friction = records.iter().find_map(swept_friction).map(|own| own.0);
+    let mut keys = records.first()?.swept.keys().filter(|key| Some(*key) != friction);
     let (Some(key), None) = (keys.next(), keys.next()) else { return None };
     let point = |record: &PointRecord| {
-        let onsets = record.summaries.get("cea")?.get("critical_frictions");
-        Some((record.swept.get(key)?.as_f64()?, listed::<CriticalFriction>(onsets)))
+        let cea = record.summaries.get("cea")?;
+        let solved = listed::<UnstableCount>(cea.get("unstable_counts")).into_iter();
+        let solved = extremes(solved.map(|own| own.friction_coefficient));
+        let onsets = listed::<CriticalFriction>(cea.get("critical_frictions"));
+        Some((record.swept.get(key)?.as_f64()?, solved, onsets))
     };
     let mut points = sorted(records.iter().filter_map(point), |own| own.0);
     points.dedup_by(|a, b| a.0 == b.0);
     if points.len() < 2 {
         return None;
     }
-    let values: Vec<f64> = points.iter().map(|point| point.0).collect();
-    // The first onset of each branch at each value; none where it stays stable.
-    let names: BTreeSet<_> = points.iter().flat_map(|point| &point.1).map(name).collect();
-    let critical = |branch: &(Option<usize>, usize, i8)| -> Vec<f64> {
-        let lowest = |onsets: &Vec<CriticalFriction>| {
-            let own = onsets.iter().filter(|onset| name(onset) == *branch);
-            own.filter_map(|onset| onset.critical_friction).fold(f64::NAN, f64::min)
-        };
-        points.iter().map(|point| lowest(&point.1)).collect()
+    let column = |of: &dyn Fn(&(f64, (f64, f64), Vec<CriticalFriction>)) -> f64| -> Vec<f64> {
+        points.iter().map(of).collect()
     };
-    let branches: Vec<(_, Vec<f64>)> = names.iter().map(|own| (own, critical(own))).collect();
-    let lowest = |i: usize| branches.iter().map(|own| own.1[i]).fold(highest, f64::min);
-    let lowest: Vec<f64> = (0..values.len()).map(lowest).collect();
-    let lines = branches.iter().enumerate().map(|(index, ((n, number, direction), critical))| {
-        let line = Line::new(&values, critical).nth(index).marked(look(index).1, 1.8);
+    let (values, start) = (column(&|own| own.0), column(&|own| own.1.0));
+    // A branch that is lost may turn unstable anywhere from there on.
+    let safe = |own: &CriticalFriction| own.lost_after.or(own.critical_friction);
+    let safe = column(&|own| own.2.iter().filter_map(safe).fold(own.1.1, f64::min));
+    // The first onset of each branch at each value; none where it stays stable or is unstable from the start.
+    let located = |own: &&CriticalFriction| !own.unstable_from_start;
+    let onsets = points.iter().flat_map(|own| &own.2).filter(located);
+    let names: BTreeSet<_> = onsets.map(name).collect();
+    let lines = names.iter().enumerate().map(|(index, branch)| {
+        let of_branch = |onset: &&CriticalFriction| located(onset) && name(onset) == *branch;
+        let critical = column(&|own| {
+            let own = own.2.iter().filter(of_branch);
+            own.filter_map(|onset| onset.critical_friction).fold(f64::NAN, f64::min)
+        });
+        let line = Line::new(&values, &critical).nth(index).marked(look(index).1, 1.8);
+        let (n, number, direction) = branch;
         let harmonic = n.map_or(String::new(), |n| format!("*n* = {n}, "));
         line.name(format!("{harmonic}branch {number}{}", arrow(*direction)))
     });
     let x = parameter_axis(key).scaled(Scale::for_values(values.iter().copied(), 10.0)).tight();
+    let highest = points.iter().map(|own| own.1.1).fold(0.0, f64::max);
+    let at = (0..points.len()).find(|&at| start[at] < safe[at]);
+    let label = |at| Label::new((values[at], start[at]), "stable").moved(5.0, -5.0);
+    let area = |_| Fill::between(&values, &start, &safe, STABLE).opacity(0.15);
     let panel = Panel::new(x, Axis::friction().between(0.0, highest))
         .height(150.0)
-        .layer(Fill::from(0.0, &values, &lowest, STABLE).opacity(0.15))
+        .layers(at.map(area))
         .layers(lines)
-        .layer(Label::new((values[0], 0.0), "stable").moved(5.0, -5.0));
+        .layers(at.map(label));
     let caption = format!(
-        "Critical friction of each branch over {key}; steady sliding is stable below all of them."
+        "Critical friction of each branch over {key}; steady sliding is stable where it is shaded."
     );
     Some(Figure::new("critical-friction", caption).narrow().panel(panel))
 }

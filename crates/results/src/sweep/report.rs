@@ -2,7 +2,7 @@
 //! which conditions.
 
 use super::record::{PointRecord, listed};
-use super::table::{cell, heads, of_points, swept_text, tables};
+use super::table::{cell, heads, of_points, swept_friction, swept_text, tables};
 use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
 use crate::common::*;
 use crate::number_ranges;
@@ -243,11 +243,15 @@ pub struct Condition<'a> {
     pub unstable: Vec<UnstableMode>,
 }
 
-/// The conditions of the points that have an eigenvalue analysis, in their order, friction rising within each.
+/// The conditions of the points that have an eigenvalue analysis, in their order, friction rising within each; a point
+/// of swept friction is one.
 pub(super) fn conditions<'a>(records: &'a [PointRecord]) -> Vec<Condition<'a>> {
     let of_point = |(record, summary): (&'a PointRecord, &Value)| {
         let modes = listed::<UnstableMode>(summary.get("unstable_modes"));
         let counts = listed::<UnstableCount>(summary.get("unstable_counts")).into_iter();
+        let swept = swept_friction(record);
+        let is_asked = move |mu: f64| swept.is_none_or(|own| own.1 == mu);
+        let counts = counts.filter(move |own| is_asked(own.friction_coefficient));
         counts.map(move |UnstableCount { friction_coefficient, .. }| {
             let own = modes.iter().filter(|m| m.friction_coefficient == friction_coefficient);
             let (unstable, swept) = (own.copied().collect(), &record.swept);
@@ -304,6 +308,7 @@ fn modes_table(conditions: &[Condition<'_>], keys: &[String]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
     #[test]
     fn runs_of_missing_points_are_drawn_together() {
@@ -318,5 +323,28 @@ mod tests {
         let summary = SweepSummary::of(Vec::new(), Vec::new(), 5, records, 6.0);
         assert_eq!(summary.missing, [1, 4]);
         assert_eq!(summary.points_per_core_hour, Some(1800.0));
+    }
+
+    #[test]
+    fn a_point_of_swept_friction_is_a_condition_at_its_own() {
+        let count = |mu: f64| json!({ "friction_coefficient": mu, "modes": 2, "unstable": 0 });
+        let counts = [0.0, 0.2, 0.3].map(count);
+        let cea = json!({ "unstable_counts": counts,
+                          "base_state": { "friction_coefficient": 0.2 } });
+        for (key, frictions) in [
+            ("contact.speed", vec![0.0, 0.2, 0.3]),
+            ("contact.friction_coefficient", vec![0.2]),
+            ("contacts.a.friction_coefficient", vec![0.2]),
+        ] {
+            let record = PointRecord {
+                swept: Map::from_iter([(key.to_owned(), json!(0.2))]),
+                summaries: Map::from_iter([("cea".to_owned(), cea.clone())]),
+                ..PointRecord::default()
+            };
+            let records = [record];
+            let found: Vec<f64> =
+                conditions(&records).iter().map(|own| own.friction_coefficient).collect();
+            assert_eq!(found, frictions, "{key}");
+        }
     }
 }

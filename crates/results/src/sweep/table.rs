@@ -252,6 +252,15 @@ fn long<S: DeserializeOwned, T>(
 pub(crate) const SPEED: &str = "contact.rotation_speed_rpm";
 pub(crate) const FRICTION: &str = "contact.friction_coefficient";
 
+/// The swept key and value that a point has as the own friction coefficient of its eigenvalue analysis.
+pub(super) fn swept_friction(record: &PointRecord) -> Option<(&String, f64)> {
+    let own = record.summaries.get("cea")?.pointer("/base_state/friction_coefficient")?.as_f64()?;
+    let is_own = |key: &str, value: &Value| {
+        key.ends_with(".friction_coefficient") && value.as_f64() == Some(own)
+    };
+    record.swept.iter().find(|(key, value)| is_own(key, value)).map(|(key, _)| (key, own))
+}
+
 /// A value as people read it: numbers to five significant digits.
 pub(crate) fn printed(value: &Value) -> String {
     match value.as_f64() {
