@@ -60,8 +60,7 @@ keys! {
         frequency_hz: Option<f64>;
         critical_friction: Option<f64> = "lowest critical friction of the window, of a run; empty \
             where none is below the case's own", Always "critical friction" Fixed(4);
-        /// Unstable modes there.
-        unstable: usize;
+        unstable: usize = "unstable modes there";
         unstable_beside: usize = "unstable modes at other frequencies";
         /// Frequency of the one of them that grows fastest, Hz.
         beside_hz: Option<f64>;

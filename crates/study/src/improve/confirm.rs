@@ -81,6 +81,10 @@ pub(super) fn verdict(base: &State, changed: &State) -> String {
         let frequency = changed.beside_hz.unwrap_or(f64::NAN);
         return format!("struck off: a mode at {frequency:.0} Hz begins to grow");
     }
+    if changed.unstable > base.unstable {
+        let (now, as_it_is) = (changed.unstable, base.unstable);
+        return format!("struck off: {now} modes grow, {as_it_is} as it is");
+    }
     if changed.unstable == 0 {
         return "silenced".to_owned();
     }
@@ -95,5 +99,24 @@ pub(super) fn verdict(base: &State, changed: &State) -> String {
             "struck off: the mode at {:.0} Hz grows faster",
             changed.frequency_hz.unwrap_or(f64::NAN)
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_that_makes_one_more_mode_grow_is_struck_off() {
+        let state = |growth: f64, unstable: usize| State {
+            growth_rate_per_s: Some(growth),
+            critical_friction: Some(0.03),
+            unstable,
+            ..State::default()
+        };
+        let base = state(3000.0, 6);
+        assert_eq!(verdict(&base, &state(2900.0, 6)), "confirmed");
+        let more = verdict(&base, &state(2900.0, 7));
+        assert_eq!(more, "struck off: 7 modes grow, 6 as it is");
     }
 }
