@@ -122,7 +122,7 @@ impl TransientStudy<'_> {
 /// That the time step costs accuracy.
 ///
 /// Central differences vibrate a little too fast, and nodes that come to rest or leave it do so at whole steps. Where
-/// the nodes of a wave do so one after the other that averages out; where all do at once, the period may be too short
+/// the nodes of a wave do so one after the other that averages out; where many do at once, the period may be too short
 /// by up to a step.
 fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) -> Option<String> {
     let frequency = analysis.last_fifth.main_frequency_hz?;
@@ -133,8 +133,10 @@ fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) 
     let error = (high - low) * frequency * time_step;
     (error > STEP_ERROR).then(|| {
         format!(
-            "the contact nodes stick and slip all at once, so the time step shortens the period \
-             by up to {:.2} %. A smaller transient.time_step is more accurate",
+            "between {:.0} and {:.0} % of the contact nodes stick, so the time step may shorten the \
+             period by up to {:.2} %. A smaller transient.time_step is more accurate",
+            100.0 * low,
+            100.0 * high,
             100.0 * error
         )
     })
