@@ -84,6 +84,7 @@ columns! {
     phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0),
         IfAny "phases" Count;
     critical = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
+    mode_at = own.name.mode().and_then(|own| own.sought_from), IfAny "sought from" Plain;
     mode_hz = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
     mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s),
         IfAny "its growth rate" Fixed(1);
