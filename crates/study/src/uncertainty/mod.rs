@@ -10,7 +10,7 @@ use crate::{ScrambledSobol, eigenvalues, one_line};
 use frictionsim_case::Uncertainty;
 use frictionsim_results::uncertainty::{Onset, Sample};
 pub use robust::{Design, curves};
-use summary::FRICTION;
+use summary::is_friction;
 pub use summary::{indices, indices_with_intervals, summarize, wilson};
 
 /// Samples of one block, the first of which proves which harmonics hold modes.
@@ -32,8 +32,7 @@ pub struct Sampler<'a> {
 /// Friction coefficient up to which onsets are sought.
 pub fn largest_friction(case: &Case) -> f64 {
     let range = case.cea.iter().flat_map(|cea| &cea.friction_coefficients);
-    let largest = range.fold(0.0_f64, |largest, mu| largest.max(*mu));
-    if largest > 0.0 { largest } else { case.contact.sliding.friction_coefficient }
+    range.fold(case.contact.sliding.friction_coefficient, |largest, mu| largest.max(*mu))
 }
 
 impl<'a> Sampler<'a> {
@@ -115,7 +114,7 @@ impl<'a> Sampler<'a> {
         let found = self.onsets(case, &values, harmonics);
         let error = found.as_ref().err().map(|error| one_line(error));
         let (friction_coefficient, onsets, found) = found.unwrap_or_else(|_| {
-            let place = self.uncertainty.keys().iter().position(|key| key == FRICTION);
+            let place = self.uncertainty.keys().iter().position(|key| is_friction(case, key));
             let own = place.map_or(case.contact.sliding.friction_coefficient, |k| values[k]);
             (own, Vec::new(), OnsetSearch::default())
         });

@@ -53,8 +53,13 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
     mixed.iter().map(of).collect()
 }
 
-/// The key of the friction coefficient of a sample.
-pub(super) const FRICTION: &str = "contact.friction_coefficient";
+/// Whether a key is that of the friction coefficient of a sample, which is the first contact's.
+pub(super) fn is_friction(case: &Case, key: &str) -> bool {
+    let first = case.body.assembly().and_then(|own| own.contacts.first());
+    let own = first.map(|own| format!("contacts.{}.friction_coefficient", own.name));
+    key == "contact.friction_coefficient" || own.as_deref() == Some(key)
+}
+
 /// Relative distance of critical frictions within which they are one: their round-off would have indices.
 const SAME: f64 = 1e-9;
 /// Resamples that the intervals of indices rest on.
@@ -118,8 +123,8 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     let varying = sobol.iter().filter(|own| own.1.total > 0.0);
     let decisive = varying.max_by(|a, b| a.1.total.total_cmp(&b.1.total));
     // What decides between squeal and none is the critical friction less that of the sample.
-    let is_own = keys.iter().any(|key| key == FRICTION);
-    let decisive = decisive.filter(|_| !is_own);
+    let own = keys.iter().find(|key| is_friction(case, key));
+    let decisive = decisive.filter(|_| own.is_none());
     let failed = samples.len() - count;
     let mut notes = Vec::new();
     if let Some(sample) = samples.iter().find(|sample| sample.error.is_some()) {
@@ -134,9 +139,9 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
                    unstable): it has no Sobol indices";
         notes.push(why.to_owned());
     }
-    if is_own && !sobol.is_empty() {
+    if let Some(key) = own.filter(|_| !sobol.is_empty()) {
         notes.push(format!(
-            "the indices are of the critical friction, which {FRICTION} does not move: no parameter is called decisive"
+            "the indices are of the critical friction, which {key} does not move: no parameter is called decisive"
         ));
     }
     let families = families(&solved, largest_friction);
