@@ -110,10 +110,13 @@ impl Reading {
         };
         let notable = own.iter().take_while(|row| row.share >= NOTABLE).take(2);
         let partners: Vec<String> = notable.map(partner).collect();
+        let start = own[0].reference.friction_coefficient;
         let partners = match partners.as_slice() {
-            [one] => format!("comes from mode {one}"),
-            [one, other] => format!("couples modes {one} and {other}"),
-            _ => "consists of many modes".to_owned(),
+            // Nothing is told of a mode by itself.
+            _ if start == mode.friction_coefficient => String::new(),
+            [one] => format!(" comes from mode {one} of friction {start}"),
+            [one, other] => format!(" couples modes {one} and {other} of friction {start}"),
+            _ => format!(" consists of many modes of friction {start}"),
         };
         let budget = self.contributions.iter().filter(|row| row.mode == *mode);
         let largest = budget.clone().map(|row| row.growth_rate_per_s.abs()).fold(0.0, f64::max);
@@ -125,13 +128,7 @@ impl Reading {
                 format!("{} {verb} {rate} 1/s", row.name)
             })
             .collect();
-        format!(
-            "mode {} ({}) {partners} of friction {}: {}",
-            mode.mode,
-            kilohertz(mode),
-            own[0].reference.friction_coefficient,
-            budget.join(", ")
-        )
+        format!("mode {} ({}){partners}: {}", mode.mode, kilohertz(mode), budget.join(", "))
     }
 
     /// The branches that reach the largest growth rates, the fastest first.

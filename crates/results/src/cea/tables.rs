@@ -231,8 +231,8 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         base.open,
     );
     let none = report.solution.sweep.intervals.is_empty().then(|| {
-        let values = report.friction_coefficients;
-        let [first, last] = [values.first(), values.last()].map(|v| v.copied().unwrap_or(0.0));
+        let values = report.tabulated().map(|point| point.friction_coefficient);
+        let (first, last) = extremes(values);
         let range = format!("turns unstable for friction from {first} to {last}.");
         if report.solution.sweep.unconverged.is_empty() {
             format!("No listed mode {range}")

@@ -10,7 +10,7 @@ use frictionsim_results::plural;
 /// What the counts of modes say.
 pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {
     if cea.count_modes && is_by_harmonics {
-        let said = "harmonics are counted at quarters of the friction range, as said above";
+        let said = "the modes of harmonics that were followed are not counted; with cea.method = \"sparse\" they are";
         return vec![format!("cea.count_modes: {said}")];
     }
     sweep.counts.iter().map(count_note).collect()
@@ -274,10 +274,10 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
         // Each contact of solid bodies has its own.
         (None, 3) => return None,
         (None, _) => {
-            let pressures = model.contact.iter().map(|own| own.pressure);
-            let mean = pressures.sum::<f64>() / model.contact.len().max(1) as f64;
+            let area: f64 = model.contact.iter().map(|own| own.place.area).sum();
+            let force: f64 = model.contact.iter().map(|own| own.pressure * own.place.area).sum();
             let edge = ContactInterface::of(&model.mesh);
-            (edge.steady_friction(&case.contact.sliding), mean)
+            (edge.steady_friction(&case.contact.sliding), force / area)
         }
     };
     Some(format!(
