@@ -13,7 +13,7 @@
 
 use super::eigenvalues::{WholeMesh, wave_tangent};
 use super::tangent_options;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::{Frf, FrfMethod};
 use frictionsim_physics::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, Terminal, cyclic_response,
@@ -263,8 +263,10 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
         let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
         return Ok((FrfSystem::body(&mesh, materials, frf.mass, rayleigh, is_clamped), mesh));
     };
-    // Without contact there is no base state to find, and nothing may hold the bodies.
-    let mut apart = AssemblyBody { contacts: Vec::new(), base: BaseChoice::Closed, ..body.clone() };
+    // Without contact there is no base state to find but that of its loads, and nothing may hold the bodies.
+    let is_loaded = body.contacts.is_empty() && frf.boundary == FrfBoundary::Clamped;
+    let base = if is_loaded { body.base } else { BaseChoice::Closed };
+    let mut apart = AssemblyBody { contacts: Vec::new(), base, ..body.clone() };
     if frf.boundary == FrfBoundary::Free {
         let mesh = Arc::make_mut(&mut apart.mesh);
         for boundary in &mut mesh.boundaries {
@@ -278,7 +280,8 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
 
 /// A counterface at rest sticks: there is no steady sliding to respond around.
 fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
-    if case.contact.sliding.rotation_speed != 0.0 {
+    let touches = case.body.assembly().is_none_or(|body| !body.contacts.is_empty());
+    if case.contact.sliding.rotation_speed != 0.0 || !touches {
         return Ok(());
     }
     Err(refusal!(case, "frf.boundary",
