@@ -5,7 +5,7 @@ use super::contacts::{NamedContact, contact, short_form, unit};
 use super::description::Description;
 use super::imported::{FileParts, Made, near_name};
 use super::value::quote;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::prestress::{Assembly, PrestressError, TiedSurfaces};
 
 /// Solid bodies of a mesh file that are tied together and slide on each other.

@@ -1,7 +1,7 @@
 //! The body of a case: what it is made of, and its kinds, each with data of its own.
 
 use super::{AssemblyBody, ImportedBody};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::{AnnulusMesh, MeshError};
 use std::f64::consts::PI;
 

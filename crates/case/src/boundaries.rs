@@ -2,7 +2,7 @@
 
 use super::elastic::loss_factor;
 use super::words::{ConditionWord, HeldAxis};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::ElasticSupport;
 
 /// A boundary of the case with its condition.

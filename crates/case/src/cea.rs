@@ -1,7 +1,7 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
 use super::CeaMethod;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::ModeLimit;
 
 /// `[cea]`.

@@ -4,7 +4,7 @@ use super::elastic::loss_factor;
 use super::value::quote;
 use super::words::{BaseContact, NormalLawWord};
 use super::{imported, solid};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 
 /// `[contact]`.

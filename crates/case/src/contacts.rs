@@ -3,7 +3,7 @@
 use super::contact::{contact_stiffness, friction_decay, interference};
 use super::tables::{TableFiles, topography};
 use super::words::{BaseContact, CounterfaceWord};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::contact::Topography;
 
 /// A contact with the names of its surfaces.

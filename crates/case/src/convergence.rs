@@ -2,7 +2,7 @@
 
 use super::body::node_count;
 use super::{Analysis, Contact};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 
 /// Fewest refinements that an order can be observed from.
@@ -252,7 +252,7 @@ fn analyses(section: &Section<'_>, can_run: impl Fn(Analysis) -> bool) -> Vec<An
     for analysis in &named {
         refuse_if!(!can_run(*analysis); section, "analyses",
             "convergence.analyses names \"{}\", which this case cannot run", analysis.word();
-            "an analysis needs its own section; a transient also needs quad4 elements, a cycle \
+            "an analysis needs its own section. A transient also needs quad4 elements, a cycle \
              quad4 elements and the built-in annulus on a rigid cylinder, with constant friction");
     }
     named

@@ -7,7 +7,7 @@ mod estimate;
 
 use super::sweep::evenly;
 use super::{Analysis, CaseErrors};
-use crate::prelude::*;
+use crate::*;
 use estimate::Size;
 use serde::{Serialize, Serializer};
 

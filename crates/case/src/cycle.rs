@@ -1,7 +1,7 @@
 //! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
 use super::{Contact, OnsetChoice, Spacing, StabilityChoice, keys, range_values};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
@@ -119,7 +119,7 @@ impl Body {
             let needs = "needs a constant friction coefficient";
             [needs, "friction falls with speed", "set contact.static_friction_ratio = 1.0"]
         } else if contact.stiffness.law.is_some() {
-            let is = "is a rotating wave of rigid contact, whose pressure is another one than on a contact that stiffens";
+            let is = "is a rotating wave of rigid contact, whose pressure is not that of a contact that stiffens";
             [is, "contact.normal_law is not linear", "leave contact.normal_law out"]
         } else {
             return None;

@@ -5,7 +5,7 @@ use super::modifications::Modification;
 use super::tables::TableFiles;
 use super::words::FilePart;
 use super::{UnitsWord, boundaries, elastic, modifications};
-use crate::prelude::*;
+use crate::*;
 
 /// `[damping]`.
 #[derive(Clone, Copy, Debug, PartialEq)]

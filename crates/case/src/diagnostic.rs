@@ -2,7 +2,7 @@
 
 use super::shown;
 use super::shown::shown_in_place;
-use crate::prelude::*;
+use crate::*;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::ops::Range;
 

@@ -2,7 +2,7 @@
 
 use super::tables::{TableFiles, modulus_table};
 use super::words::AxesWord;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::fem::{MaterialAxes, Orthotropy, RATIOS};
 
 /// The constants of an isotropic material.

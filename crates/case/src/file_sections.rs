@@ -2,7 +2,7 @@
 
 use super::UnitsWord;
 use super::value::quote;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::{
     FileConditionKind, FileContact, FileMaterial, MaterialAxes, ModelData,
 };

@@ -2,7 +2,7 @@
 
 use super::parameters::{number, only, read_all};
 use super::{Spacing, VariedKey};
-use crate::prelude::*;
+use crate::*;
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]

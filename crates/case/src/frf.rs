@@ -1,7 +1,7 @@
 //! `[frf]`: a frequency response of the model.
 
 use super::FrfMethod;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::frf::{Direction, Terminal};
 
 /// `[frf]`.

@@ -1,14 +1,15 @@
 //! Bodies that the case's own numbers make: `[geometry]` and the element counts of `[mesh]`, with a deformable shaft in
 //! the annulus (`[materials.shaft]`, `[boundaries.bore]`).
 
+use super::attachments::reshaped_annulus;
 use super::body::node_count;
 use super::contact::contact;
 use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
-use super::modifications::{Misfit, reshaped_annulus};
+use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
 use super::{Contact, assembly, boundaries, imported, solid};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 
 /// The generated body with what its modifications take away or move, and its contact. Closes both sections.

@@ -5,7 +5,7 @@ use super::modifications::{Misfit, reshaped};
 use super::value::quote;
 use super::words::CounterfaceWord;
 use super::{MeshBytes, elastic, inclusion, suggestion};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::mesh::{BodyPart, CyclicSymmetry, refined_file, repeated_file};
 

@@ -1,7 +1,7 @@
 //! `[improve]`: which modes are to be silenced, and by what.
 
 use super::ModificationKind;
-use crate::prelude::*;
+use crate::*;
 
 /// `[improve]`; what is `None` follows from the body and its modes.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Mesh files with the files that they include.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_bounds::{Budget, MESH, Refusal};
 use frictionsim_physics::mesh::{MeshFormat, included_text};
 use std::path::PathBuf;

@@ -3,7 +3,7 @@
 //! unit, default and meaning.
 
 use super::words::words_named;
-use crate::prelude::*;
+use crate::*;
 use std::sync::LazyLock;
 
 /// Where a number must lie.

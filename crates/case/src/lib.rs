@@ -8,6 +8,7 @@
 mod diagnostic;
 
 mod assembly;
+mod attachments;
 mod body;
 mod boundaries;
 mod cea;
@@ -73,6 +74,7 @@ pub use keys::{Bound, CaseKey, KEYS, Kind, find as find_key};
 pub use node::PlacedNode;
 pub use overrides::unset;
 pub use parameters::VariedKey;
+use prelude::*;
 pub use raw::{MeshBytes, RawCase, TableBytes, hash_of};
 pub use reader::range_values;
 pub use shown::{shown, shown_json};

@@ -6,8 +6,8 @@ use super::description::{Description, has_common_constants};
 use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
 use super::imported::{FileParts, Made};
-use super::{Contact, assembly, imported, modifications};
-use crate::prelude::*;
+use super::{Contact, assembly, attachments, imported};
+use crate::*;
 
 /// The body with its modifications, and its contact; no body where a mesh file makes none, which is an error already.
 pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact) {
@@ -16,7 +16,7 @@ pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact) {
         Some(file) => of_file(own, &file),
     };
     if let Some(body) = &mut body {
-        modifications::attach(own, body);
+        attachments::attach(own, body);
         let held = body.imported().map_or(Ok(()), |own| own.mesh.check_held());
         if let Err(error) = held {
             own.root.findings.push(own.unusable(error));

@@ -2,7 +2,7 @@
 
 use super::body::solid_node_count;
 use super::reader::NodePlace;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::Strip;
 
 /// Shares of half the body's size beyond which the nearest node to a place is hardly what was meant, and the place not

@@ -4,7 +4,7 @@
 //! is rigid. The interference that belongs to a force is the one root of their difference.
 
 use crate::Contact;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::linalg::{Bracket, newton_root};
 use frictionsim_physics::mesh::Strip;
 use frictionsim_physics::prestress::{PrestressError, SectorSliding, SolidSliding};

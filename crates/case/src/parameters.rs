@@ -2,7 +2,7 @@
 
 use super::value::leaves;
 use super::{Bound, keys};
-use crate::prelude::*;
+use crate::*;
 
 /// Sections that make the model.
 const MODEL: &str = "geometry, mesh, boundaries, material, materials, damping, contact, contacts, \

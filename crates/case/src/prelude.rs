@@ -1,9 +1,5 @@
-//! What most sections of a case are read with; what one of them has alone is named where it is used.
+//! What most sections of a case are read with of other crates; the face of this one hands it on with its own names.
 
-pub(crate) use crate::{
-    Body, BodyKind, Case, CaseErrors, CaseKey, Choice, Diagnostic, Location, RawCase, RawItem,
-    RawTable, RawValue, Section,
-};
 pub(crate) use frictionsim_bounds::first_of;
 pub(crate) use frictionsim_output::rounded;
 pub(crate) use frictionsim_physics::{
@@ -11,10 +7,7 @@ pub(crate) use frictionsim_physics::{
         Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
         SlidingContact,
     },
-    fem::{
-        ElasticMaterial, MassKind, MaterialField, ModulusTable, PlaneFormulation, RayleighDamping,
-        RegionMaterial, RotationFrame,
-    },
+    fem::{MassKind, ModulusTable, PlaneFormulation, RayleighDamping, RotationFrame},
     frf::FrfBoundary,
     linalg::c64,
     mesh::{
@@ -23,7 +16,6 @@ pub(crate) use frictionsim_physics::{
         SolidSector, SolidSpecification,
     },
     prestress::{BaseChoice, SlidingSurfaces},
-    transient::OperatorChoice,
 };
 pub(crate) use frictionsim_signal::ResponseQuantity;
 pub(crate) use nalgebra::Vector3;

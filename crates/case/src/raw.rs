@@ -3,7 +3,7 @@
 use super::diagnostic::BACKSLASH;
 use super::value::{convert_table, leaves, quote, table_of, with_point};
 use super::{Source, keys, overrides};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::MeshFileError;
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;

@@ -5,7 +5,7 @@ mod lists;
 
 use super::value::{cut, with_point};
 use super::{Bound, Kind, keys, suggestion};
-use crate::prelude::*;
+use crate::*;
 pub(super) use lists::NodePlace;
 pub use lists::range_values;
 

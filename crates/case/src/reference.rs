@@ -1,7 +1,7 @@
 //! Reference of the case keys, in the forms that people and editors read.
 
 use super::{Bound, KEYS, Kind};
-use crate::prelude::*;
+use crate::*;
 use serde_json::{Value, json};
 
 /// Sections that the built-in disc needs; of another body its mesh file may give what stands there.

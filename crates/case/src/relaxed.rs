@@ -1,7 +1,7 @@
 //! What materials with loss factors and tables over frequency are in time.
 
 use super::ModeLimit;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::fem::MaxwellChain;
 
 /// Band of a constant loss factor: from this part of `cea.max_frequency_hz` up to that.

@@ -4,7 +4,7 @@
 use super::checks::material_key;
 use super::value::table_of;
 use super::{Analysis, Cea, Convergence, Fit, Frf, Sweep, Uncertainty};
-use crate::prelude::*;
+use crate::*;
 
 impl Case {
     /// Whether it has the section of an analysis.

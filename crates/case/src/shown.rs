@@ -1,6 +1,6 @@
 //! Text from files and options, made safe to show on a terminal.
 
-use crate::prelude::*;
+use crate::*;
 
 /// Whether a terminal or a reader would act on a character instead of showing it: control characters of both sets
 /// and the marks that turn the direction of writing. Tab and newline are text.

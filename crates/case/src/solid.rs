@@ -2,7 +2,7 @@
 
 use super::description::Description;
 use super::{imported, suggestion};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::SolidPart;
 
 /// Elements over the thickness; `None` in the plane, where they are an error.

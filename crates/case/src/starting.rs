@@ -5,7 +5,7 @@ use super::file_sections::{sections, text};
 use super::taken::drop_key;
 use super::value::quote;
 use super::{FileSection, UnitsWord, inclusion};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::{FileElement, SurfaceFace};
 
 /// Densities below this are tonnes for each cubic millimetre: the lightest solid has 1 kg/m3, the heaviest 3e-8 t/mm3.

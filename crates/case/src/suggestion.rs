@@ -3,7 +3,7 @@
 use super::KEYS;
 use super::keys::find;
 use super::value::table_of;
-use crate::prelude::*;
+use crate::*;
 
 /// A hint for an unknown part of a range or of a place, which have these parts.
 pub(super) fn suggest_part(word: &str, parts: &[CaseKey]) -> String {

@@ -2,7 +2,7 @@
 
 use super::cea::mode_selection;
 use super::{Findings, ModeLimit};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;
 use sha2::{Digest, Sha256};

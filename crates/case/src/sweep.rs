@@ -2,7 +2,7 @@
 
 use super::value::range_count;
 use super::{Analysis, Bound, Combination, VariedKey, parameters};
-use crate::prelude::*;
+use crate::*;
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]

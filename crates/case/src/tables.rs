@@ -2,7 +2,7 @@
 //! surface.
 
 use super::TableBytes;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_bounds::TABLE;
 use frictionsim_physics::contact::Topography;
 use frictionsim_signal::reader::{ModulusRow, read_gaps, read_moduli};

@@ -9,7 +9,7 @@ use super::elastic::ORTHOTROPIC;
 use super::file_sections::{list, sections, text};
 use super::value::table_of;
 use super::{FileSection, MeshBytes, UnitsWord, imported};
-use crate::prelude::*;
+use crate::*;
 
 /// Entries that a warning names.
 const MOST_NAMED: usize = 8;

@@ -1,7 +1,7 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
 use super::PlacedNode;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::transient::{
     InitialState, Perturbation, RecorderSettings, StandingWave, TimeStep, TransientSettings,
     whole_intervals,

@@ -2,7 +2,7 @@
 
 use super::VariedKey;
 use super::parameters::{number, only, read_all};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.

@@ -1,6 +1,6 @@
 //! Values of a case as its TOML says them, each with its place.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_bounds::shortened;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

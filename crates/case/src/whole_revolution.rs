@@ -3,7 +3,7 @@
 
 use super::modifications::{Misfit, Modification, reshaped};
 use super::{AssemblyBody, Contact};
-use crate::prelude::*;
+use crate::*;
 
 impl Case {
     /// The case with a body of revolution on its whole mesh, as with `cea.method = "sparse"`.

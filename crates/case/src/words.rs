@@ -1,6 +1,6 @@
 //! The choices that a case names by a word, and their words.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::frf::Direction;
 use frictionsim_physics::mesh::ElementKind;
 use frictionsim_physics::transient::InitialState;

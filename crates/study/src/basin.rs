@@ -3,7 +3,7 @@
 
 use super::cycle::{Steady, disc_model, longest_step, operating_point};
 use super::transient::SteppedMesh;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cycle::periodic::{GrowingMode, ModeContest, PeriodMap};
 use frictionsim_physics::cycle::{BasinBoundary, BasinRequest};
 use frictionsim_physics::transient::OperatorChoice;

@@ -29,6 +29,10 @@ mod tangent;
 pub mod transient;
 pub mod uncertainty;
 
+use cycle::operating_point;
+use eigenvalues::{WholeMesh, asked_modes};
+use prelude::*;
+
 pub use eigenvalues::modes_at_own_friction;
 pub use error::StudyError;
 pub use linear_stage::linear_stage;

@@ -2,7 +2,7 @@
 
 use super::modes_at_own_friction;
 use super::tangent::{MODES_IN_TIME, options_in_time};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_results::charts::ModeLine;
 use frictionsim_results::transient::LinearStage;
 

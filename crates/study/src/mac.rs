@@ -2,7 +2,7 @@
 
 use super::eigenvalues::{SlidingModel, solve};
 use super::fit::least_cost;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_results::mac::{MacMode, MacPair, MacShape, MacSummary};
 use frictionsim_signal::reader::MeasuredShape;
 

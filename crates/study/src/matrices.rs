@@ -1,7 +1,7 @@
 //! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
 use super::eigenvalues::{BasePoint, Solver};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::contact::Row;
 use frictionsim_physics::linalg::{MarketMatrix, MatrixPolynomial};
 use frictionsim_results::matrices::{

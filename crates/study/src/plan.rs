@@ -1,6 +1,6 @@
 //! The points of a sweep, each a case of its own, and the shards they are dealt out to.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::Sweep;
 use serde_json::Map;
 use std::str::FromStr;

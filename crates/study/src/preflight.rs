@@ -4,7 +4,7 @@ use super::eigenvalues::Solver;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{SweepPlan, eigenvalues, improve};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::{Cost, Diagnostic, Location};
 
 /// Nodes up to which matrices are set up to find out.

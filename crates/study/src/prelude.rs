@@ -1,11 +1,5 @@
-//! What most studies name of other crates, and why they fail; what else is of this one is named where it is used.
+//! What most studies name of other crates; the face of this one hands it on with its own names.
 
-pub(crate) use crate::{
-    cycle::operating_point,
-    eigenvalues::{WholeMesh, asked_modes},
-    error::StudyError,
-    tangent::{extent_of, tangent_options},
-};
 pub(crate) use frictionsim_case::{
     Analysis, AssemblyBody, BodyKind, Case, CaseErrors, Cea, CeaMethod, Choice, ModificationKind,
     StabilityChoice, refusal,

@@ -5,7 +5,7 @@ use super::basin;
 use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use super::eigenvalues::{self, Solved};
 use super::transient::TransientStudy;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_results::cycle::CycleSummary;
 use frictionsim_results::{self, Head, object};
 

@@ -1,6 +1,6 @@
 //! The eigenvalues of a superelement that stands free.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::FreeSystem;
 use frictionsim_physics::cea::quadratic_modes;
 use frictionsim_physics::linalg::MarketMatrix;

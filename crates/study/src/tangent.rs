@@ -1,6 +1,6 @@
 //! How a case takes the tangent of its steady sliding, and what its forces are of.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_results::Extent;
 
 /// Whether forces, torques, powers and energies of a case are of its whole body, or for each metre of a plane body's

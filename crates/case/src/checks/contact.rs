@@ -4,7 +4,7 @@ use super::Limit;
 use super::material::modulus_key;
 use super::mesh::lengths;
 use crate::contact::{Springs, section_of};
-use crate::prelude::*;
+use crate::*;
 
 /// Sliding speed of dry contacts, m/s: that of brakes of racing cars and trains lies below.
 const LARGEST_SPEED: f64 = 200.0;

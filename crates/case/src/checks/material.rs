@@ -2,7 +2,7 @@
 
 use super::Limit;
 use crate::ModeLimit;
-use crate::prelude::*;
+use crate::*;
 use std::ops::RangeInclusive;
 
 /// Speeds of waves in a bar, m/s: soft rubber to ceramics.

@@ -1,6 +1,6 @@
 //! Lengths that are hardly meant, and meshes that are hardly what they should be.
 
-use crate::prelude::*;
+use crate::*;
 
 /// Lengths that a case has, m.
 const LENGTHS: [f64; 2] = [1e-5, 10.0];

@@ -6,7 +6,7 @@ mod mesh;
 mod motion;
 
 use super::KEYS;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_signal::FrequencyResponse;
 pub(super) use material::material_key;
 

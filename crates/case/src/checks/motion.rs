@@ -3,7 +3,7 @@
 use super::Limit;
 use super::contact::lame_pressure;
 use super::material::bar_wave_speed;
-use crate::prelude::*;
+use crate::*;
 use crate::{InitialState, TimeStep};
 
 /// Steps beyond which no machine finishes a transient.

@@ -1,7 +1,7 @@
 //! The size of a mesh, and the operation counts and memory behind the cost of each analysis.
 
 use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
-use crate::prelude::*;
+use crate::*;
 use crate::{
     BodyKind, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeLimit, StabilityChoice, TimeStep,
     Transient,

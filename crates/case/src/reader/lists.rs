@@ -1,7 +1,7 @@
 //! Lists, ranges, and nodes by number or by place.
 
 use super::Section;
-use crate::prelude::*;
+use crate::*;
 use crate::{Bound, Kind, Spacing, keys};
 
 /// Longest list that a range may stand for.

@@ -287,8 +287,8 @@ fn name(onset: &CriticalFriction) -> (Option<usize>, usize, i8) {
     (onset.harmonic, onset.branch, onset.direction.unwrap_or(0))
 }
 
-/// The critical friction of each branch over the one swept key besides friction; from the lowest friction coefficient that
-/// was solved up to all of them steady sliding is stable.
+/// The critical friction of each branch over the one swept key besides friction; from the lowest friction coefficient
+/// that was solved up to all of them steady sliding is stable.
 /// Nothing where not one key was swept through eigenvalue analyses.
 fn critical_friction(records: &[PointRecord]) -> Option<Figure> {
     let friction = records.iter().find_map(swept_friction).map(|own| own.0);
@@ -306,9 +306,8 @@ fn critical_friction(records: &[PointRecord]) -> Option<Figure> {
     if points.len() < 2 {
         return None;
     }
-    let column = |of: &dyn Fn(&(f64, (f64, f64), Vec<CriticalFriction>)) -> f64| -> Vec<f64> {
-        points.iter().map(of).collect()
-    };
+    type Point = (f64, (f64, f64), Vec<CriticalFriction>);
+    let column = |of: &dyn Fn(&Point) -> f64| points.iter().map(of).collect::<Vec<f64>>();
     let (values, start) = (column(&|own| own.0), column(&|own| own.1.0));
     // A branch that is lost may turn unstable anywhere from there on.
     let safe = |own: &CriticalFriction| own.lost_after.or(own.critical_friction);

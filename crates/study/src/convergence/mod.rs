@@ -18,7 +18,7 @@ mod quantities;
 
 use super::transient::TransientStudy;
 use super::{eigenvalues, summarize, summary};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::TimeStep;
 use frictionsim_results::convergence::{Quantity, Refinement, Series};
 

@@ -1,6 +1,6 @@
 //! Quantities compared between the levels of a convergence study.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::mesh::coincident_nodes;
 use frictionsim_results::cea::{Branch, branch_of, branch_of_mode, mode_name};
 use frictionsim_results::convergence::Quantity;

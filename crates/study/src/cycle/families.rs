@@ -1,7 +1,7 @@
 //! Limit cycles that a case asks for, the parameter over which they are followed, and where along it steady sliding
 //! loses its stability.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::{Cycle, OnsetChoice};
 use frictionsim_physics::cycle::{CycleSolver, DiscModel, LARGEST_FRICTION, MODES, Onset};
 use frictionsim_physics::linalg::Bracket;

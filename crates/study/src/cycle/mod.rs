@@ -9,7 +9,7 @@ pub use families::disc_model;
 pub use periodic::PeriodicStudy;
 pub(crate) use periodic::{Steady, longest_step};
 
-use crate::prelude::*;
+use crate::*;
 use families::{Sought, critical_value, next_onset, solvers};
 use frictionsim_case::Cycle;
 use frictionsim_physics::cycle::periodic::MotionFrame;

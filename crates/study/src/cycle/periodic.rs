@@ -5,7 +5,7 @@ mod steady;
 
 use super::super::transient::SteppedMesh;
 use super::families::{candidates, critical};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::{Cycle, OnsetChoice, TimeStep};
 use frictionsim_physics::cycle::periodic::{
     BranchRequest, Found, MotionRequest, PeriodMap, PeriodicBranch, PeriodicMotion, Point,

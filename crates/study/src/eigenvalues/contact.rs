@@ -1,6 +1,6 @@
 //! Steady sliding of a body, and the contact in it place by place.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::contact::{Point, SteadyFriction};
 use frictionsim_physics::mesh::ContactRing;
 use frictionsim_physics::prestress::{PressedState, SolidSliding};
@@ -44,7 +44,7 @@ pub(super) fn places<'s>(
     all.collect()
 }
 
-/// The contact point by point: pressure `p_i = N_i / w_i`, zero of a state that is free of stress, and friction traction
+/// The contact point by point: pressure `p_i = N_i / w_i`, zero of a state free of stress, and friction traction
 /// `mu drag_i p_i`.
 pub(super) fn contact_of(
     case: &Case,

@@ -36,7 +36,7 @@ pub use spectrum::{
 pub(crate) use whole::BasePoint;
 pub use whole::WholeMesh;
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::Diagnostic;
 use frictionsim_physics::cea::sparse::FrictionlessModes;
 use frictionsim_physics::linalg::banded::BandedFactor;

@@ -1,7 +1,7 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
 use super::Solution;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::cyclic;
 
 /// The eigenvalue solver that a body gets.

@@ -2,7 +2,7 @@
 
 use super::SlidingModel;
 use super::contact::mean_friction;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_results::plural;

@@ -3,7 +3,7 @@
 pub(super) mod rates;
 
 use self::rates::{Linearized, Rates, rates_of, step_of};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::ModeBranch;
 use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};

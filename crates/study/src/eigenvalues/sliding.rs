@@ -2,7 +2,7 @@
 
 use super::contact::{SolidState, contact_of};
 use super::model::Model;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_chart::literal;
 use frictionsim_physics::prestress::{PressedState, SectorSliding, SolidSliding};
 use frictionsim_results::cea::{BaseField, BaseState, ContactState, NamedDamping};

@@ -9,7 +9,7 @@ use super::notes::{
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
 use super::{SlidingModel, Solution, no_modes};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::prestress::PrestressError;
 use frictionsim_results::cea::SensitivityReport;
 use std::borrow::Cow;

@@ -1,7 +1,7 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
 use super::model::{Model, Solver, wave_tangent};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::cyclic;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.

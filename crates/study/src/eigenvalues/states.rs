@@ -4,7 +4,7 @@ mod joining;
 
 use super::Solution;
 use super::whole::notes;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::sparse::{self, CyclicTangent};
 use frictionsim_physics::prestress::{PressedRange, PressedState};
 use joining::{Part, Undecided, joined, jumps, label, undecided};

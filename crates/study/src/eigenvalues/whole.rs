@@ -1,7 +1,7 @@
 //! A body that is solved on its whole mesh, and its base states.
 
 use super::contact::places;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::contact::{ContactStiffness, Point, Turning};
 use frictionsim_physics::mesh::CyclicSymmetry;
 use frictionsim_physics::prestress::{Joined, PressedRange, PressedState};

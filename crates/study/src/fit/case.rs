@@ -5,7 +5,7 @@ use super::{FitError, FitProblem, MeasuredMode, ModelMode, fit};
 use crate::eigenvalues;
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
 use crate::mac::MeasuredShapes;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::Fit;
 use frictionsim_physics::cea::ModeBranch;
 use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};

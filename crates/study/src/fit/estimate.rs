@@ -5,7 +5,7 @@ use super::levenberg_marquardt::{KINDS, Squares, Trial};
 use super::matching::{Weights, differences};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode};
 use crate::ScrambledSobol;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::{FitParameter, find_key};
 use frictionsim_results::fit::{
     FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary,

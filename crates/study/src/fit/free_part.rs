@@ -1,6 +1,6 @@
 //! Derivatives of the free modes of undamped parts.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::VariedKey;
 use frictionsim_physics::fem::{assemble_mass, assemble_stiffness};
 

@@ -2,7 +2,7 @@
 
 use super::matching::{Weights, assign, differences};
 use super::{FitProblem, ModelMode};
-use crate::prelude::*;
+use crate::*;
 
 /// Iterations at most.
 const ITERATIONS: usize = 40;

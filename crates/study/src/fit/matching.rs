@@ -3,7 +3,7 @@
 
 use super::{FitError, MeasuredMode, ModelMode, least_cost};
 use crate::mac::{MeasuredShapes, refuse_revolution};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_signal::reader::MeasuredShape;
 
 /// Share of a line's own frequency that it costs to be matched by nothing, or by a stable mode where the line was

@@ -25,7 +25,7 @@ pub use case::{fit_case, refuse_too_few};
 pub use estimate::fit;
 pub use frictionsim_signal::reader::MeasuredMode;
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::Fit;
 use frictionsim_results::fit::ModeSummary;
 

@@ -17,7 +17,7 @@
 //! 3 (two-sided rational interpolation).
 
 use super::base::{Base, PairedMode, REACH};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::linalg::dense::{dot, transpose_product};
 use frictionsim_physics::linalg::dense_eigen::real_eigenvalues;
 use frictionsim_physics::linalg::{ComplexSparseLu, LinalgError};

@@ -1,6 +1,6 @@
 //! What there is to improve: the unstable modes of a case with their left and right vectors.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
 use frictionsim_physics::fem::element_supports;
 use frictionsim_results::improve::{State, TargetMode};

@@ -2,7 +2,7 @@
 
 use super::base::{Base, STEPS, lowest_onset, spectrum_of};
 use super::trial::{Search, Target, Trial};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_results::improve::State;
 
 /// Relative distance of critical frictions that are one.

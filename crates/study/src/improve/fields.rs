@@ -10,7 +10,7 @@
 //! Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986).
 
 use super::base::{Base, PairedMode};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::fem::element::{ElementGeometry, nodal_values};
 use frictionsim_physics::fem::element_matrices;
 

@@ -20,7 +20,7 @@ mod modal;
 mod trial;
 
 use super::mac::whole_mesh_note;
-use crate::prelude::*;
+use crate::*;
 pub(super) use base::refuse_bodies;
 use base::{Base, target_modes};
 use confirm::{keys_of, run_again, verdict};

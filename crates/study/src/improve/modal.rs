@@ -18,7 +18,7 @@
 use super::attached::{NearModes, unit_loads};
 use super::base::{Base, PairedMode};
 use crate::eigenvalues::is_like;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::sparse::FullProblem;
 use frictionsim_physics::linalg::dense::transpose_product;
 use frictionsim_physics::linalg::dense_eigen::complex_eigenvalues;

@@ -4,7 +4,7 @@
 
 use super::base::{Base, target_modes};
 use super::fields::Derivatives;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::fem::element::ElementGeometry;
 use frictionsim_physics::mesh::Counterface;
 use frictionsim_results::improve::{Sizes, TargetFields, TargetMode};

@@ -22,7 +22,7 @@ mod notes;
 mod stepped;
 
 use crate::cycle::limit_cycle;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::Transient;
 use frictionsim_physics::fem::operator::StiffnessOperator;
 use frictionsim_physics::linalg::interruption;

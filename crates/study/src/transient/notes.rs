@@ -1,7 +1,7 @@
 //! What to know of a run before its numbers are used.
 
 use super::TransientStudy;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::prestress::PrestressError;
 use frictionsim_physics::transient::{InitialState, Recorder, TransientAnalysis};
 

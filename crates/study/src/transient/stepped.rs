@@ -1,6 +1,6 @@
 //! The body of a case as the time loop takes it.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cycle::OperatingPoint;
 use frictionsim_physics::transient::SteppedBody;
 

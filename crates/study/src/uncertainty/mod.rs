@@ -5,7 +5,7 @@ mod robust;
 mod summary;
 
 use crate::eigenvalues::{OnsetSearch, Solver};
-use crate::prelude::*;
+use crate::*;
 use crate::{ScrambledSobol, eigenvalues, one_line};
 use frictionsim_case::Uncertainty;
 use frictionsim_results::uncertainty::{Onset, Sample};

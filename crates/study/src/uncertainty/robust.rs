@@ -1,7 +1,7 @@
 //! The probability of squeal over design parameters.
 
 use super::{Sampler, wilson};
-use crate::prelude::*;
+use crate::*;
 use frictionsim_results::uncertainty::{DesignCurve, Onset, RobustSummary};
 use std::str::FromStr;
 

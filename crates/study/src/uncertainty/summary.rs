@@ -1,7 +1,7 @@
 //! From samples to a probability of squeal.
 
 use super::largest_friction;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_case::Uncertainty;
 use frictionsim_results::uncertainty::{
     CriticalFriction, FamilySummary, Index, Onset, Sample, UncertaintySummary,

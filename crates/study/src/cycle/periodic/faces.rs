@@ -1,7 +1,7 @@
 //! The flat faces by which a body radiates sound.
 
-use crate::prelude::*;
 use crate::transient::SteppedMesh;
+use crate::*;
 use frictionsim_physics::cycle::periodic::FlatFace;
 use frictionsim_physics::mesh::SolidFace;
 

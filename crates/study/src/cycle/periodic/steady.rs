@@ -1,9 +1,9 @@
 //! Steady sliding at one operating point.
 
 use crate::eigenvalues::{Model, Solver};
-use crate::prelude::*;
 use crate::tangent::{MODES_IN_TIME, options_in_time};
 use crate::transient::SteppedMesh;
+use crate::*;
 use frictionsim_physics::cea::sparse;
 use frictionsim_physics::cycle::periodic::GrowingMode;
 

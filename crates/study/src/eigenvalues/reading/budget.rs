@@ -2,7 +2,7 @@
 
 use super::parts::Parts;
 use super::shapes::Shapes;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::prestress::{Kind, Part, PartForms, Terms};
 use frictionsim_results::cea::{Contribution, ModeName, Source};
 
@@ -120,7 +120,7 @@ impl Parts<'_> {
     }
 }
 
-/// The rows of a mode, each with its forms, which are shares of its energies. Its contacts feed what the others leave of
+/// The rows of a mode, each with its forms, shares of its energies. Its contacts feed what the others leave of
 /// its growth.
 pub(super) fn write<'r>(
     (name, mode): (ModeName, &ComplexMode),

@@ -14,7 +14,7 @@ use super::budget::Sums;
 use super::parts::Parts;
 use super::shapes::Shapes;
 use crate::eigenvalues::whole::BasePoint;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::contact::{PressedState, linearized, turned};
 use frictionsim_results::cea::ModeFeed;
 

@@ -12,7 +12,7 @@
 //! of it.
 
 use super::parts::Parts;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::fem::DiscretizationError;
 use frictionsim_physics::prestress::PartLaw;
 

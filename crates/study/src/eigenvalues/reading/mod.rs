@@ -22,7 +22,7 @@ mod waves;
 
 use super::model::Model;
 use super::sliding::SlidingModel;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_results::cea::Reading;
 pub(super) use mesh_error::lefts_needed;
 use parts::Parts;

@@ -2,7 +2,7 @@
 
 use super::shapes::Shapes;
 use crate::eigenvalues::contact::CONTACT;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::linalg::MatrixPolynomial;
 use frictionsim_physics::prestress::{Kind, Part, Term, Terms};
 use std::sync::Mutex;

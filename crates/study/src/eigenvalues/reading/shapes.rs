@@ -1,6 +1,6 @@
 //! Mode shapes of one friction value side by side, and quadratic forms of them.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::prestress::Kind;
 use frictionsim_results::cea::{Coupling, ModeName};
 

@@ -7,7 +7,7 @@ use super::budget::{Row, rows, write};
 use super::shapes::{couplings, name_of};
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::ModeWave;
 use frictionsim_physics::linalg::banded::CompactRows;
 use frictionsim_physics::prestress::{Kind, Part, PartForms, Term};

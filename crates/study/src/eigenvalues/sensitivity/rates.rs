@@ -2,7 +2,7 @@
 
 use super::{Pairs, Place};
 use crate::eigenvalues::model::wave_tangent;
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::cyclic::{Beside, WavePair, wave_responses};
 use frictionsim_physics::cea::sparse::ModePair;
 

@@ -1,6 +1,6 @@
 //! One sweep from those of its base states.
 
-use crate::prelude::*;
+use crate::*;
 use frictionsim_physics::cea::ModeCount;
 use std::ops::Range;
 
