@@ -5,7 +5,6 @@ use crate::cycle::arnoldi::{MultiplierSearch, Ritz, unit};
 use crate::cycle::{CycleError, FloquetMultiplier, FloquetMultipliers, Verdict};
 use crate::linalg::dense::{add, difference, dot, norm};
 use crate::linalg::{GaussianNoise, c64};
-use std::f64::consts::TAU;
 
 /// Multipliers kept, and the residual of one that is worth listing.
 const LISTED: (usize, f64) = (6, 0.1);
@@ -13,15 +12,15 @@ const LISTED: (usize, f64) = (6, 0.1);
 const CONVERGED: (usize, f64) = (2, 4e-3);
 /// Smallest and largest dimension of the Krylov space, and periods between two looks at it.
 const DIMENSIONS: [usize; 3] = [16, 100, 4];
-/// Length of a perturbation, relative to the amplitude, and to what a step moves where that is more: nodes change their status at whole
-/// steps, and all of them must do so at another one as often as in the motion.
-const PERTURBATION: [f64; 2] = [3e-3, 0.4];
+/// Length of a perturbation, relative to the amplitude: so large that some nodes change their status at another step, whose kinks
+/// then count as they do in the motion.
+const PERTURBATION: f64 = 3e-3;
 /// A multiplier whose logarithm is within this of 0 and whose direction has this share along the motion is the shift in phase. A
 /// node that starts to slip where friction falls with speed, at a whole step, takes it as far from 1 as 1.5.
 const NEUTRAL: [f64; 2] = [0.5, 0.7];
 /// Lengths at which a perturbation is followed, relative to the amplitude, periods in which it turns to where it grows fastest,
 /// and periods of either half of what is counted.
-const FOLLOWED: ([f64; 2], usize, usize) = ([3e-3, 1e-3], 8, 20);
+const FOLLOWED: ([f64; 2], usize, usize) = ([PERTURBATION, PERTURBATION / 3.0], 8, 20);
 
 impl FloquetMultipliers {
     /// Arnoldi's process on differences of the period map at a periodic motion, until the leading multipliers have converged.
@@ -41,10 +40,8 @@ impl FloquetMultipliers {
             is_shift: &is_shift,
             remedy: "cycle.confirmation_periods",
         };
-        let found = search.run(&unit(start), image.rate.clone(), |d| {
-            let [one, other] = beside.sides(d);
-            one.iter().zip(other).map(|(a, b)| 0.5 * (a + b)).collect()
-        })?;
+        let found =
+            search.run(&unit(start), image.rate.clone(), |d| beside.change_of(d, PERTURBATION))?;
         let direction = |own: &Ritz| unit(found.vector(own).iter().map(|v| v.re).collect());
         // Kinks may part the shift in phase in two. A perturbation that is followed without the shift grows as its multiplier says, a
         // part of the shift does not.
@@ -53,8 +50,7 @@ impl FloquetMultipliers {
         let growth = followed.filter(|own| (own[0] - first.value.norm().ln()).abs() > own[1]);
         let listed = &found.listed[usize::from(growth.is_some())..];
         let along = direction(&listed[0]);
-        let [one, other] = beside.sides(&along);
-        let bend = 0.5 * norm(&difference(&one, &other)) / listed[0].value.norm();
+        let bend = beside.bend(&along) / listed[0].value.norm();
         // What is open of every rate: how far the shift is from 1, the residual, and the bend.
         let shift = found.shift.map(|shift| shift.norm());
         let parts = growth.map(|_| first.value.norm()).into_iter().chain(shift);
@@ -103,12 +99,11 @@ impl Beside<'_, '_> {
         change.into_iter().map(|value| value / length).collect()
     }
 
-    /// The change on either side, of which the mean is the slope. A node that changes its status bends the map: it has another slope
-    /// along a direction than against it, and a perturbation may meet either.
-    fn sides(&mut self, direction: &[f64]) -> [Vec<f64>; 2] {
-        let [least, of_step] = PERTURBATION;
-        let length = least.max(of_step * TAU / self.map.steps() as f64); // A step moves 2 pi / N of the amplitude.
-        [length, -length].map(|share| self.change_of(direction, share))
+    /// `|P(x + l d) - 2 P(x) + P(x - l d)| / l`, 0 of a smooth map. A node that changes its status bends the map: it has another slope along
+    /// a direction than against it, and a perturbation may meet either. Known is the one along; the other is smaller by as much at most.
+    fn bend(&mut self, along: &[f64]) -> f64 {
+        let [one, other] = [PERTURBATION, -PERTURBATION].map(|share| self.change_of(along, share));
+        norm(&difference(&one, &other))
     }
 
     /// Mean of the growth over a period, `ln |P d| / |d|`, of a perturbation that begins in a `direction` and keeps a length, without the
