@@ -23,7 +23,6 @@ mod edge;
 mod fixtures;
 mod frictionless;
 mod full_problem;
-mod left;
 mod linearization;
 mod meetings;
 mod mode;

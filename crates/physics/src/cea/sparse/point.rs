@@ -102,14 +102,16 @@ impl SolvedPoint {
     /// Left vectors in the whole basis of `model`, with what depends on them: each takes an LU of that size, so points get them once
     /// their modes have converged.
     pub fn refine_lefts(&mut self, model: &ReducedModel) {
-        if !std::mem::take(&mut self.has_coarse_lefts) {
+        let mu = self.friction_coefficient;
+        let is_coarse = std::mem::take(&mut self.has_coarse_lefts);
+        if !is_coarse || mu == 0.0 || model.sample_width(mu).is_none() {
             return;
         }
         let lengths = |modes: &[ReducedMode]| -> Vec<f64> {
             modes.iter().map(|mode| length(&mode.left)).collect()
         };
         let coarse = lengths(&self.modes);
-        model.refine_lefts(&mut self.modes, self.friction_coefficient);
+        model.refine_lefts(&mut self.modes, mu);
         let refined = lengths(&self.modes);
         for (check, (old, new)) in self.checks.iter_mut().zip(coarse.iter().zip(&refined)) {
             check.uncertainty *= new / old; // It goes with the length of w.

@@ -205,9 +205,6 @@ impl ReducedModel {
     /// A sample holds right vectors only. With friction left ones are others, which that span hardly holds: overlaps
     /// and derivatives would be wrong. Right vectors at several friction coefficients together come close to them.
     pub fn refine_lefts(&self, modes: &mut [ReducedMode], mu: f64) {
-        if mu == 0.0 || self.sample_width(mu).is_none() {
-            return;
-        }
         let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
         // The iteration would turn the vectors of one multiple eigenvalue into one.
         let is_single = |lambda: c64| {

@@ -118,17 +118,30 @@ impl BasisBuilder<'_> {
     pub fn correct_both(&mut self, states: &[ModeAt], is_at_rest: bool) -> bool {
         let values: Vec<f64> = states.iter().map(|state| state.mu).collect();
         self.correct(&values, |builder, i| {
-            let (ModeAt { mu, mode }, sides) = (&states[i], [false, true]);
-            if !is_at_rest {
-                return builder.shifted_corrections(*mu, std::slice::from_ref(mode), &sides);
+            let (own, sides) = (std::slice::from_ref(&states[i].mode), [false, true]);
+            match is_at_rest {
+                true => builder.corrections_at_rest(values[i], own, &sides),
+                false => builder.shifted_corrections(values[i], own, &sides),
             }
-            let both = sides.map(|is_left| builder.residuals(&builder.side(*mu, is_left), &[mode]));
-            let both = both.concat();
-            let mut parts = side_by_side(builder.tangent.stiffness.dimension(), &both);
-            builder.factors.solve_in_place(parts.as_mut()); // t = (K(0) - sigma M(0))^-1 r.
-            turn_to_real(&mut parts);
-            parts
         })
+    }
+
+    /// Corrects left vectors of modes at `mu` by the factors without friction: what a basis of right ones lacks of them is near the contact,
+    /// where the normal force works on their slip, and follows the load as in statics.
+    pub fn correct_lefts(&mut self, mu: f64, modes: &[ReducedMode]) -> bool {
+        self.correct(&[mu], |builder, _| builder.corrections_at_rest(mu, modes, &[true]))
+    }
+
+    /// `(K(0) - sigma M(0))^-1 r` of the residuals `r` of right vectors (`false`) and of left ones where `sides` has them, two real columns
+    /// each.
+    fn corrections_at_rest(&self, mu: f64, modes: &[ReducedMode], sides: &[bool]) -> Mat<f64> {
+        let own: Vec<&ReducedMode> = modes.iter().collect();
+        let residuals = sides.iter().map(|is_left| self.residuals(&self.side(mu, *is_left), &own));
+        let residuals: Vec<Vec<c64>> = residuals.flatten().collect();
+        let mut parts = side_by_side(self.tangent.stiffness.dimension(), &residuals);
+        self.factors.solve_in_place(parts.as_mut());
+        turn_to_real(&mut parts);
+        parts
     }
 
     /// The problem at `mu` of right vectors, or of left ones.

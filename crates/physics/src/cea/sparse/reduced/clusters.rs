@@ -8,7 +8,7 @@ use crate::linalg::dense_eigen::complex_eigen;
 
 impl ReducedModel {
     /// Computes eigenvalues anew that lie together, where one of them is not one of the matrices `at` a friction coefficient, or has no
-    /// vector of its own: strong dashpots make the operator so large that its rounding is more than the accuracy of slow modes.
+    /// vector of its own; all by rising frequency: strong dashpots make the operator so large that its rounding is more than the accuracy of slow modes.
     pub(super) fn part_clusters(
         &self,
         at: &ProjectedMatrices,
@@ -30,19 +30,17 @@ impl ReducedModel {
         let is_one_of = |i: usize| modes[i].is_among(modes[..i].iter());
         let mut is_done: Vec<bool> =
             (0..modes.len()).map(|i| !is_vague(i) && !is_one_of(i)).collect();
-        for i in 0..modes.len() {
-            if is_done[i] {
-                continue;
-            }
+        while let Some(i) = is_done.iter().position(|own| !own) {
+            is_done[i] = true;
             let value = modes[i].eigenvalue;
-            let is_one = |own: &ReducedMode| {
-                (own.eigenvalue - value).norm() <= SAME_EIGENVALUE * value.norm()
-            };
-            let own: Vec<usize> = (0..modes.len()).filter(|&j| is_one(&modes[j])).collect();
+            let is_within = |own: c64, reach: f64| (own - value).norm() <= reach * value.norm();
+            let own: Vec<usize> = (0..modes.len())
+                .filter(|&j| is_within(modes[j].eigenvalue, SAME_EIGENVALUE))
+                .collect();
             let Ok((values, vectors)) = cluster(at, value, own.len()) else { continue };
             for (k, &j) in own.iter().enumerate() {
                 is_done[j] = true;
-                if (values[k] - value).norm() <= BESIDE * value.norm() {
+                if is_within(values[k], BESIDE) {
                     let mode = &mut modes[j];
                     mode.eigenvalue = values[k];
                     mode.inverse_value = self.linearization.inverse_value(values[k]);
@@ -51,6 +49,8 @@ impl ReducedModel {
                 }
             }
         }
+        // In the order of frequencies, which those of a cluster may have changed.
+        crate::order::sort_by_number(&mut modes, |own| own.eigenvalue.im);
         modes
     }
 }

@@ -80,7 +80,7 @@ impl ReducedModel {
         Ok(self.leading(oscillating, m, count, |_| true))
     }
 
-    /// The first of modes by falling `|s|`, until `count` of them do that `is_counted` holds for, by rising frequency. Where all `m` motions
+    /// The first of modes by falling `|s|`, until `count` of them do that `is_counted` holds for. Where all `m` motions
     /// of the body are held, so are those that damping takes beyond them, though they oscillate more slowly.
     fn leading(
         &self,
@@ -102,7 +102,6 @@ impl ReducedModel {
                 modes.push(mode);
             }
         }
-        crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
         modes
     }
 

@@ -1,6 +1,5 @@
 //! Modes at the friction coefficients of a sweep, each held to its residual in the full matrices, and their vectors.
 
-use crate::cea::sparse::left::correct_lefts;
 use crate::cea::sparse::packed::PackedVector;
 use crate::cea::sparse::packed::joined;
 use crate::cea::sparse::packed::side_by_side;
@@ -132,48 +131,74 @@ impl SparseSweep<'_> {
         edge / (whole - friction) // Over x^H M(0) x.
     }
 
-    /// Right vectors and, if asked for, left ones of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; coarse left ones are
-    /// corrected by the stiffness and the modes without friction.
+    /// Adds to the basis what left vectors of the wanted modes at point `k` lack, to three digits of these or more.
+    pub(super) fn sharpen_lefts(&mut self, k: usize) {
+        let (mu, point) = (self.grid[k], &mut self.points[k]);
+        if mu == 0.0 {
+            return; // The matrices are symmetric there, but for gyroscopic forces.
+        }
+        let wanted = &mut point.modes[..point.wanted];
+        for _ in 0..2 {
+            // A round leaves a tenth to a hundredth.
+            if self.builder.correct_lefts(mu, wanted) {
+                self.builder.model.refine_lefts(wanted, mu);
+            }
+        }
+    }
+
+    /// Right vectors and, if asked for, left ones of `modes` at `mu` over all nodal dofs, see [`ModeVectors`].
     pub(super) fn vectors(
         &self,
         (mu, with_lefts): (f64, bool),
         modes: &[ReducedMode],
     ) -> Vec<ModeVectors> {
-        let model = &self.builder.model;
-        let expanded = |of: fn(&ReducedMode) -> &Vec<c64>| -> Vec<Vec<c64>> {
-            let groups = modes.chunks(GROUP_WIDTH / 2).flat_map(|group| {
-                let coordinates: Vec<&Vec<c64>> = group.iter().map(of).collect();
-                let x = model.expand(side_by_side(model.dimension(), &coordinates).as_ref());
-                (0..group.len()).map(move |j| joined(&x, j))
-            });
-            groups.collect()
-        };
-        let rights = expanded(|mode| &mode.right);
-        let none = vec![Vec::new(); modes.len()];
-        let lefts = if with_lefts { expanded(|mode| &mode.left) } else { none };
-        // Over the unknowns.
-        let own = |((mode, right), left): ((&ReducedMode, _), _)| ModeVectors {
-            eigenvalue: mode.eigenvalue,
-            rate: mode.derivative,
-            right,
-            left,
-        };
-        let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(lefts).map(own).collect();
-        if with_lefts {
-            let leading = self.builder.leading_count().min(model.dimension());
-            let leading = model.expand(Mat::identity(leading, leading).as_ref());
-            let problem = (self.tangent, self.linearization);
-            correct_lefts(problem, (&self.builder.factors, leading), mu, &mut all);
-        }
-        // Over all nodal dofs.
-        for ModeVectors { right, left, .. } in &mut all {
-            *right = self.tangent.displacement(right);
-            let scale = normalize(right);
-            if with_lefts {
-                *left = self.tangent.left_displacement(left, mu);
+        let (model, sides) = (&self.builder.model, if with_lefts { 2 } else { 1 });
+        let groups = modes.chunks(GROUP_WIDTH / 4).flat_map(|group| {
+            let both = group.iter().map(|mode| [&mode.right, &mode.left]);
+            let own: Vec<&Vec<c64>> = both.flat_map(|own| own.into_iter().take(sides)).collect();
+            let x = model.expand(side_by_side(model.dimension(), &own).as_ref());
+            group.iter().enumerate().map(move |(j, mode)| {
+                let mut right = self.tangent.displacement(&joined(&x, sides * j));
+                let scale = normalize(&mut right);
+                let mut left = Vec::new();
+                if with_lefts {
+                    left = self.tangent.left_displacement(&joined(&x, sides * j + 1), mu);
+                    left.iter_mut().for_each(|v| *v *= scale); // w^T (2 lambda M + C) x stays 1.
+                }
+                ModeVectors { eigenvalue: mode.eigenvalue, rate: mode.derivative, right, left }
+            })
+        });
+        groups.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::cea::sparse::fixtures::string_on_belt;
+    use crate::cea::sparse::{mode_pairs, sweep};
+    use crate::cea::{ModeLimit, SweepRequest, Unwatched};
+    use crate::linalg::c64;
+    use crate::linalg::vectors::{dot, length};
+
+    /// Independent check: inverse iteration in the full problem, of strings whose basis does not hold all motions.
+    #[test]
+    fn left_vectors_are_those_of_the_full_problem() {
+        for is_proportional in [false, true] {
+            let (tangent, mu) = (string_on_belt(400, 0.4, is_proportional), [0.3]);
+            let request = SweepRequest {
+                shapes_at: &mu,
+                lefts_at: Some(0.3),
+                ..SweepRequest::new(&mu, ModeLimit::Lowest(12))
+            };
+            let found = sweep(&tangent, &request, &Unwatched).unwrap();
+            let modes = &found.points[0].modes;
+            let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
+            for (mode, exact) in modes.iter().zip(mode_pairs(&tangent, mu[0], &values)) {
+                let (left, exact) = (mode.left.as_deref().unwrap(), exact.unwrap().left);
+                let cosine = dot(left, &exact).norm() / (length(left) * length(&exact));
+                let away = 1.0 - cosine * cosine;
+                assert!(away < 1e-6, "{is_proportional} {}: {away}", mode.eigenvalue);
             }
-            left.iter_mut().for_each(|v| *v *= scale); // w^T (2 lambda M + C) x stays 1.
         }
-        all
     }
 }

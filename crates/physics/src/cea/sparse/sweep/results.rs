@@ -10,6 +10,8 @@ impl SparseSweep<'_> {
         request: &SweepRequest<'_>,
         branches: &[TrackedBranch],
     ) -> Result<FrictionSweep, CeaError> {
+        let lefts_at = request.lefts_at.and_then(|mu| self.grid.iter().position(|&own| own == mu));
+        lefts_at.into_iter().for_each(|k| self.sharpen_lefts(k));
         let frictions = request.friction_coefficients.iter();
         let points: Vec<FrictionPoint> = frictions
             .map(|&mu| {
