@@ -20,7 +20,12 @@ pub(super) const WIDEST_GROWTH: f64 = 0.2;
 /// The same relative to the modes listed.
 const BEYOND_LISTED: f64 = 1.5;
 
-/// A rectangle of the upper half plane, but for what does not oscillate in it.
+/// `Im lambda` over the decay of a motion at half of critical damping, 1.73: those below are not promised, so they are not counted.
+fn least_slope() -> f64 {
+    (NEARLY_CRITICAL.powi(-2) - 1.0).sqrt() // Of cos(phi) = 1/2 the tangent.
+}
+
+/// A rectangle of the upper half plane, but for what is damped by more than half of critical in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountedRegion {
     /// Range of `Im lambda / 2 pi`, Hz.
@@ -38,22 +43,22 @@ impl CountedRegion {
             factor * rates.fold(WIDEST_GROWTH * top, f64::max)
         };
         let [left, right] = [reach(-1.0), reach(1.0)];
-        // Motions that decay faster than they could oscillate below the upper end are none.
-        let (left, low) = (left.min(0.9 * top / STANDSTILL), 0.5 * lowest);
+        // Motions that decay faster are none that count below the upper end.
+        let (left, low) = (left.min(0.9 * top / least_slope()), 0.5 * lowest);
         Self {
             frequencies_hz: [(STANDSTILL * left).min(low) / TAU, top / TAU],
             growth_rates: [-left, right],
         }
     }
 
-    /// Its corners, counter-clockwise: five where the line below which motions do not oscillate cuts one off.
+    /// Its corners, counter-clockwise: five where the line of half of critical damping cuts one off.
     pub(super) fn corners(&self) -> Vec<c64> {
         let [low, high] = self.frequencies_hz.map(|hz| TAU * hz);
         let [left, right] = self.growth_rates;
-        let standing = -STANDSTILL * left;
-        let mut corners = vec![(left.max(-low / STANDSTILL), low), (right, low), (right, high)];
+        let least = -least_slope() * left;
+        let mut corners = vec![(left.max(-low / least_slope()), low), (right, low), (right, high)];
         corners.push((left, high));
-        corners.extend((standing > (1.0 + NEAR) * low).then_some((left, standing)));
+        corners.extend((least > (1.0 + NEAR) * low).then_some((left, least)));
         corners.into_iter().map(|(re, im)| c64::new(re, im)).collect()
     }
 
@@ -63,8 +68,8 @@ impl CountedRegion {
         let [low, high] = self.frequencies_hz;
         let [left, right] = self.growth_rates;
         let is_inside = low < frequency_hz && frequency_hz < high;
-        let is_standing = eigenvalue.im < -STANDSTILL * eigenvalue.re;
-        is_inside && left < eigenvalue.re && eigenvalue.re < right && !is_standing
+        let is_damped = eigenvalue.im < -least_slope() * eigenvalue.re;
+        is_inside && left < eigenvalue.re && eigenvalue.re < right && !is_damped
     }
 }
 
@@ -104,14 +109,15 @@ impl ModeCount {
 mod tests {
     use super::*;
 
-    /// Exact: beside a mode slower than fast decay could oscillate the wedge of what stands still is cut off, and holds nothing.
+    /// Exact: the wedge of what is damped by more than half of critical is cut off, and holds nothing.
     #[test]
-    fn what_stands_still_is_not_counted() {
-        let slow = CountedRegion::about(&[c64::new(-1.0, 10.0)], 1e4, 1.0);
-        assert_eq!((slow.corners().len(), slow.holds(c64::new(-1500.0, 90.0))), (5, false));
-        assert!(slow.holds(c64::new(-1500.0, 160.0)) && slow.holds(c64::new(-1.0, 10.0)));
-        let usual = CountedRegion::about(&[c64::new(-1.0, 5e3)], 1e4, 1.0);
-        assert_eq!(usual.corners().len(), 4);
+    fn what_is_strongly_damped_is_not_counted() {
+        let region = CountedRegion::about(&[c64::new(-1.0, 10.0)], 1e4, 1.0);
+        let corners = region.corners();
+        assert_eq!((corners.len(), region.holds(c64::new(-1500.0, 2500.0))), (5, false));
+        assert!(region.holds(c64::new(-1500.0, 2700.0)) && region.holds(c64::new(-1.0, 10.0)));
+        let [above, below] = [corners[4], corners[0]].map(|own| -own.re / own.norm());
+        assert!((above - 0.5).abs() < 1e-12 && (below - 0.5).abs() < 1e-12, "{above} {below}");
     }
 
     #[test]

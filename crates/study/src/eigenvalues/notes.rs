@@ -28,7 +28,9 @@ fn count_note(count: &ModeCount) -> String {
     });
     let counted = count.counted().unwrap_or_default();
     let what = format!("counted {counted} modes below {high:.1} Hz at friction {friction}");
-    let place = format!("{low:.1} Hz and above, growth rates {left:.3e} to {right:.3e} 1/s");
+    let place = format!(
+        "{low:.1} Hz and above, growth rates {left:.3e} to {right:.3e} 1/s, damping below 0.5"
+    );
     match &count.missing {
         Ok(0) => format!("{what}: complete{searched}; {place}"),
         Ok(missing @ 1..) => format!(

@@ -159,11 +159,10 @@ fn joined_intervals(parts: &mut [Part], frictions: &[f64]) -> Vec<UnstableInterv
                     known.restabilized = interval.restabilized;
                     continue;
                 }
-                // One that is stable before the change begins at it; one that was not there came from above the range,
-                // or was lost.
+                // One that is calm before the change begins at it; any other came from above the range, or was lost.
                 let last = before.last().and_then(Part::last);
-                let is_known = own == STATIC
-                    || last.is_some_and(|last| last.known().any(|mode| name(mode) == own));
+                let is_calm = |mode: &ComplexMode| name(mode) == own && !mode.is_unstable();
+                let is_known = own == STATIC || last.is_some_and(|last| last.known().any(is_calm));
                 let earlier =
                     frictions.iter().copied().filter(|mu| *mu < interval.critical_friction);
                 interval.lost_after = earlier.max_by(f64::total_cmp).filter(|_| !is_known);
@@ -207,4 +206,53 @@ fn relabel(before: &Part, after: &mut Part) {
     named.for_each(|mode| rename(&mut mode.harmonic, &mut mode.branch));
     let intervals = after.sweep.intervals.iter_mut().filter(|own| own.branch > 0);
     intervals.for_each(|own| rename(&mut own.harmonic, &mut own.branch));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A branch that grows above the list before contact opens, and is listed after: no onset is where it comes into the list.
+    #[test]
+    fn what_grew_above_the_list_has_no_onset_where_contact_opens() {
+        let mode = |growth: f64| ComplexMode {
+            eigenvalue: c64::new(growth, 9e3),
+            harmonic: 0,
+            branch: 5,
+            direction: 0,
+            nodal_diameters: None,
+            residual: 0.0,
+            uncertainty: 0.0,
+            contact_share: 0.0,
+            axial_share: None,
+            mesh_error: None,
+            shape: None,
+            left: None,
+            wave: None,
+        };
+        let point = |friction_coefficient, [modes, above]: [Vec<ComplexMode>; 2]| FrictionPoint {
+            friction_coefficient,
+            modes,
+            above,
+        };
+        for (growth, lost_after) in [(20.0, Some(0.1)), (-20.0, None)] {
+            let before = [0.1, 0.3].map(|mu| point(mu, [Vec::new(), vec![mode(growth)]]));
+            let after = [0.3, 0.5].map(|mu| point(mu, [vec![mode(30.0)], Vec::new()]));
+            let begins = UnstableInterval {
+                branch: 5,
+                critical_friction: 0.3,
+                unstable_from_start: true,
+                ..UnstableInterval::default()
+            };
+            let parts = [(before, Vec::new()), (after, vec![begins])].map(|(points, intervals)| {
+                let begin = points[0].friction_coefficient;
+                let sweep =
+                    FrictionSweep { points: points.into(), intervals, ..FrictionSweep::default() };
+                Part { begin, sweep }
+            });
+            let found = joined(parts.into(), &[0.1, 0.5]).intervals;
+            assert_eq!((found.len(), found[0].lost_after), (1, lost_after), "{growth}");
+            assert!(!found[0].unstable_from_start);
+        }
+    }
 }
