@@ -202,8 +202,7 @@ fn relabel(before: &Part, after: &mut Part) {
     };
     let points = after.sweep.points.iter_mut();
     let modes = points.flat_map(|point| point.modes.iter_mut().chain(&mut point.above));
-    let named = modes.filter(|mode| mode.branch > 0);
-    named.for_each(|mode| rename(&mut mode.harmonic, &mut mode.branch));
+    modes.filter(|own| own.branch > 0).for_each(|own| rename(&mut own.harmonic, &mut own.branch));
     let intervals = after.sweep.intervals.iter_mut().filter(|own| own.branch > 0);
     intervals.for_each(|own| rename(&mut own.harmonic, &mut own.branch));
 }

@@ -5,9 +5,6 @@ use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::followed;
 use crate::cea::sparse::*;
 
-/// Steps over the whole range, at least, in which a branch is led back: a crossing lies between two of them.
-const STEPS_BACK: usize = 8;
-
 /// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
 pub fn doubt(ModeAt { mode, .. }: &ModeAt) -> f64 {
     mode.round_off() * mode.eigenvalue.norm() / mode.derivative.re.abs() // d mu = d Re(lambda) / |Re lambda'|.
@@ -112,7 +109,7 @@ impl SparseSweep<'_> {
     /// nothing where it cannot be followed so far.
     fn led_back(&self, last: &ModeAt) -> Result<Option<Instability<ModeAt>>, LinalgError> {
         let (mut solver, mut states) = (self, vec![last.clone()]);
-        let steps = STEPS_BACK.div_ceil(self.points.len()); // At least as many in all.
+        let steps = MOST_ATTEMPTS.div_ceil(self.points.len()); // At least as many in all: a crossing lies between two.
         let points = self.points.iter().rev().map(|point| point.friction_coefficient);
         for place in points.filter(|mu| (self.lowest..last.mu).contains(mu)) {
             let start = states[0].mu;
