@@ -66,9 +66,10 @@ impl SolvedPoint {
     pub fn open_modes(&self, goal: f64) -> impl Iterator<Item = &ReducedMode> {
         let pairs = self.modes.iter().zip(&self.checks).take(self.wanted);
         let open = pairs.filter(move |(_, check)| {
-            // A residual of round-off is no excuse where the mode answers to it.
-            let is_summed = check.residual <= ROUNDING_ERRORS * f64::EPSILON;
-            let is_round_off = is_summed && check.error() <= RESIDUAL_BOUND;
+            // A residual of round-off is no excuse where the mode answers to it, but for the least that there can be.
+            let is_within = |errors: f64| check.residual <= errors * f64::EPSILON;
+            let is_summed = is_within(ROUNDING_ERRORS) && check.error() <= RESIDUAL_BOUND;
+            let is_round_off = is_within(2.0) || is_summed;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
             !is_fine && !is_round_off
         });
