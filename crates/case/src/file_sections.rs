@@ -126,9 +126,7 @@ fn material(own: &FileMaterial, units: UnitsWord, left_out: &mut Vec<LeftOut>) -
             keys.push(("shear_moduli", list(shear_moduli.map(stress).to_vec())));
             let axes = match axes {
                 MaterialAxes::Global => text("global"),
-                MaterialAxes::Vectors([first, second]) => {
-                    list(vec![numbers(first), numbers(second)])
-                }
+                MaterialAxes::Vectors(both) => list(both.iter().map(|own| numbers(own)).collect()),
                 MaterialAxes::Cylindrical([from, to]) => {
                     let what = format!("axis of the cylindrical orientation of {}", own.region);
                     let reason = format!(

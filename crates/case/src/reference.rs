@@ -73,10 +73,7 @@ pub fn template() -> String {
             };
             let comment = if needed && key.is_required() { "" } else { "# " };
             let line = format!("{comment}{} = {value}", key.short());
-            let unit = match key.unit {
-                "" => String::new(),
-                unit => format!("{unit}, "),
-            };
+            let unit = if key.unit.is_empty() { String::new() } else { format!("{}, ", key.unit) };
             let _ = writeln!(out, "{line:<37} # {unit}{}{note}", key.meaning);
         }
     }
@@ -182,15 +179,9 @@ fn key_schema(key: &CaseKey) -> Value {
             json!({ "enum": numeric.map(|key| key.name).collect::<Vec<_>>() })
         }
     };
-    schema["description"] = json!(format!(
-        "{} ({}; {})",
-        key.meaning_with_unit(),
-        key.values(),
-        match key.default_text() {
-            "required" => "required".to_owned(),
-            text => format!("default {text}"),
-        }
-    ));
+    let (meaning, values, text) = (key.meaning_with_unit(), key.values(), key.default_text());
+    let default = if text == "required" { text.to_owned() } else { format!("default {text}") };
+    schema["description"] = json!(format!("{meaning} ({values}; {default})"));
     schema
 }
 

@@ -130,9 +130,7 @@ fn write_section(section: &FileSection, shown: &str, out: &mut String) {
         };
         let _ = match value {
             // Moduli are read by their powers of ten.
-            RawValue::Float(number) if number.abs() >= 1e6 => {
-                writeln!(out, "{key} = {number:e}{unit}")
-            }
+            RawValue::Float(x) if x.abs() >= 1e6 => writeln!(out, "{key} = {x:e}{unit}"),
             _ => writeln!(out, "{key} = {value}{unit}"),
         };
     }
@@ -187,7 +185,6 @@ fn area_of(file: &FileMesh, (kind, nodes): &SurfaceFace) -> Vector3<f64> {
 /// `[contact]` of a plane body, which has one.
 fn plane_contact(file: &FileMesh) -> String {
     let names: Vec<&str> = file.curves.keys().map(String::as_str).collect();
-    let friction = |given: Option<f64>| given.unwrap_or(FRICTION);
     match file.model.contacts.first() {
         Some(contact) => format!(
             "\n[contact]\nboundary = {}\ncounterface = \"body\"\ncounter_boundary = {}\nfriction_coefficient = {}\n\
@@ -195,7 +192,7 @@ fn plane_contact(file: &FileMesh) -> String {
              contact, or rotation_speed_rpm\n",
             text(&contact.surface),
             text(&contact.counter),
-            friction(contact.friction_coefficient)
+            contact.friction_coefficient.unwrap_or(FRICTION)
         ),
         None => format!(
             "\n[contact]    # CHOOSE: the curve that touches, of {}, and what it slides \

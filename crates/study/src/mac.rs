@@ -183,15 +183,12 @@ fn off_body(
     unit: Option<&(f64, &str)>,
 ) -> CaseErrors {
     let farthest = own.iter().fold(0.0_f64, |m, (_, away)| m.max(*away));
-    let help = match unit {
-        Some((factor, unit)) => {
-            format!("the points would lie on it in {unit}: add --scale {factor}")
-        }
-        None => {
-            "give the points in metres in the coordinates of the case's mesh, or --scale FACTOR"
-                .to_owned()
-        }
-    };
+    let other =
+        "give the points in metres in the coordinates of the case's mesh, or --scale FACTOR";
+    let help = unit.map_or_else(
+        || other.to_owned(),
+        |(factor, unit)| format!("the points would lie on it in {unit}: add --scale {factor}"),
+    );
     let key = if case.raw.find("mesh.file").is_some() { "mesh.file" } else { "geometry" };
     refusal!(case, key,
         "shape {}: {off} of {} points lie off the body, up to {farthest:.3e} m from its nearest \

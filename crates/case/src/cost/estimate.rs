@@ -58,10 +58,7 @@ impl Case {
         let duration = self.transient.as_ref().map_or(0.0, |run| run.settings.duration);
         let samples = duration / self.output.sample_interval;
         let recorder = &self.output.recorder;
-        let frames = match recorder.contact_interval {
-            Some(interval) => duration / interval,
-            None => samples.min(10_000.0),
-        };
+        let frames = recorder.contact_interval.map_or(samples.min(10_000.0), |own| duration / own);
         let dimension = self.body.dimension() as f64;
         // Energies and harmonics, and the motion of each probe.
         let sample = 400.0 + 48.0 * recorder.probes.len() as f64;

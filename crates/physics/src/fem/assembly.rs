@@ -64,10 +64,9 @@ pub fn element_mass(
     let geometry = ElementGeometry::new(mesh, element);
     let elastic = material.of(mesh.region(element));
     match kind {
-        MassKind::Consistent => geometry.consistent_mass(elastic),
+        MassKind::Consistent => geometry.rotate_scalar(geometry.scalar_mass(elastic)),
         MassKind::Lumped => {
-            let masses = geometry.lumped_mass(elastic);
-            let d = mesh.dimension;
+            let (masses, d) = (geometry.lumped_mass(elastic), mesh.dimension);
             let size = d * masses.len();
             DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / d] } else { 0.0 })
         }
@@ -76,8 +75,7 @@ pub fn element_mass(
 
 /// Stiffness of the elements of one region alone, over all dofs: N/m, in the plane for each metre of thickness.
 pub fn region_stiffness(mesh: &Mesh, material: &dyn MaterialField, region: usize) -> Triplets {
-    let is_own = |e: usize| mesh.region(e) == region;
-    sum_elements((mesh, &is_own), |e| element_stiffness(mesh, material, e))
+    sum_elements((mesh, &|e| mesh.region(e) == region), |e| element_stiffness(mesh, material, e))
 }
 
 /// Those of all regions.

@@ -100,11 +100,10 @@ impl ElementGeometry {
 
     /// Every point of the rule of the stiffness; elements with curved edges take the full rule, which keeps constant strains.
     pub fn stiffness_points(&self) -> Vec<IntegrationPoint> {
-        let rule = match self.has_straight_edges() {
-            true => self.kind.stiffness_quadrature(),
-            false => self.kind.quadrature(),
-        };
-        rule.into_iter().map(|point| self.at(point)).collect()
+        if !self.has_straight_edges() {
+            return self.integration_points();
+        }
+        self.kind.stiffness_quadrature().into_iter().map(|point| self.at(point)).collect()
     }
 
     /// Whether mid-side nodes lie at the middle of their edges, to 1e-9 of their length.
@@ -268,11 +267,6 @@ impl ElementGeometry {
         self.displacement_gradients(&points, material, values).into_iter().map(of).collect()
     }
 
-    /// Element consistent mass `M_e = ∫ rho N_I N_J I dV` in nodal frames, kg, in the plane for each metre of thickness.
-    pub fn consistent_mass(&self, material: &ElasticMaterial) -> DMatrix<f64> {
-        self.rotate_scalar(self.scalar_mass(material))
-    }
-
     /// Element lumped mass of each node, kg, in the plane for each metre of thickness: row sums for linear kinds; for quadratic ones, whose
     /// row sums are not positive at the corners, the diagonal scaled to the element's mass (Hinton, Rock and Zienkiewicz 1976).
     pub fn lumped_mass(&self, material: &ElasticMaterial) -> Vec<f64> {
@@ -285,8 +279,8 @@ impl ElementGeometry {
         full.diagonal().iter().map(|value| value * scale).collect()
     }
 
-    /// Upper triangle of `∫ rho N_I N_J dV`.
-    fn scalar_mass(&self, material: &ElasticMaterial) -> DMatrix<f64> {
+    /// Upper triangle of `∫ rho N_I N_J dV`, kg, in the plane for each metre of thickness.
+    pub fn scalar_mass(&self, material: &ElasticMaterial) -> DMatrix<f64> {
         let count = self.node_count();
         let mut scalar = DMatrix::zeros(count, count);
         for point in self.integration_points() {

@@ -70,7 +70,12 @@ pub fn nodal_stress(
     displacement: &[f64],
 ) -> Vec<NodalStress> {
     let nodes = recovered_stress(mesh, material, displacement).into_iter().enumerate();
-    nodes.map(|(node, found)| in_frame(found, mesh.reported_angle(node))).collect()
+    let in_frame = |(node, found)| {
+        let frame = Rotation3::from_axis_angle(&Vector3::z_axis(), mesh.reported_angle(node));
+        let [radial, hoop, axial, shear, ..] = SolidStress(found).turned(frame.matrix()).0;
+        NodalStress { radial, hoop, shear, axial }
+    };
+    nodes.map(in_frame).collect()
 }
 
 /// Stress at each node of a solid body, recovered as [`nodal_stress`] does.
@@ -128,10 +133,4 @@ fn recovered_stress(mesh: &Mesh, material: &dyn MaterialField, displacement: &[f
         sum
     };
     (0..mesh.node_count()).map(stress).collect()
-}
-
-fn in_frame(stress: Voigt, angle: f64) -> NodalStress {
-    let frame = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
-    let [radial, hoop, axial, shear, ..] = SolidStress(stress).turned(frame.matrix()).0;
-    NodalStress { radial, hoop, shear, axial }
 }

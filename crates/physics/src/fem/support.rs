@@ -22,12 +22,9 @@ fn at_points(
 /// Springs and dashpots of the supports over all dofs, N/m and N s/m, in the plane for each metre of thickness; empty where
 /// nothing is supported.
 pub fn assemble_supports(mesh: &Mesh) -> [Triplets; 2] {
-    let mut both = <[Triplets; 2]>::default();
+    let mut both = assemble_attachments(mesh);
     let supported = mesh.boundaries.iter().filter_map(|own| Some((own, own.support()?)));
     supported.for_each(|own| add_support(mesh, own, &mut both));
-    for (all, attached) in both.iter_mut().zip(assemble_attachments(mesh)) {
-        all.entries.extend(attached.entries);
-    }
     both
 }
 

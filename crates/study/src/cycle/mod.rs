@@ -138,15 +138,8 @@ impl<'a> CycleStudy<'a> {
         let friction = self.case.contact.sliding.friction_coefficient;
         let onset = solver.onset.friction_coefficient;
         let is_stable = friction < onset;
-        Absence {
-            reason: match is_stable {
-                true => {
-                    format!("{friction} < {onset:.4}: steady sliding is stable against this wave")
-                }
-                false => error.to_string(),
-            },
-            is_stable,
-        }
+        let stable = format!("{friction} < {onset:.4}: steady sliding is stable against this wave");
+        Absence { reason: if is_stable { stable } else { error.to_string() }, is_stable }
     }
 
     /// The cycle of a family with everything asked for: branch, stability, confirmation, fields.

@@ -55,13 +55,10 @@ impl<'a> SteppedMesh<'a> {
             (None, Some((sector, mesh))) => SteppedBody::Revolution { sector, mesh },
             (None, None) => SteppedBody::Plane { mesh: &self.mesh, annulus: self.annulus.as_ref() },
         };
-        let material = case.materials_in_time();
+        let (material, beta) = (case.materials_in_time(), point.damping.stiffness_coefficient);
         TransientModel {
             stiffness: case.contact.stiffness,
-            contact_damping: match case.damping.include_contact {
-                true => point.damping.stiffness_coefficient,
-                false => 0.0,
-            },
+            contact_damping: if case.damping.include_contact { beta } else { 0.0 },
             ..TransientModel::new(body, material, point.damping, point.contact)
         }
     }

@@ -35,12 +35,8 @@ impl FromStr for Design {
         if from >= to {
             return Err(format!("{hint}; FROM must be less than TO"));
         }
-        Ok(Self {
-            key: key.trim().to_owned(),
-            values: (0..count)
-                .map(|k| from + (to - from) * k as f64 / (count - 1) as f64)
-                .collect(),
-        })
+        let values = (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64);
+        Ok(Self { key: key.trim().to_owned(), values: values.collect() })
     }
 }
 
