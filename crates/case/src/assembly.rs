@@ -231,7 +231,7 @@ impl Case {
     }
 
     /// A key of the first contact, by its full name.
-    pub(super) fn contact_key(&self, key: &str) -> String {
+    pub fn contact_key(&self, key: &str) -> String {
         let first = self.contact_sections().into_iter().next();
         format!("{}.{key}", first.map_or_else(|| "contact".to_owned(), |own| own.0))
     }

@@ -55,16 +55,18 @@ fn sliding_radius(case: &Case) -> f64 {
 
 /// A friction coefficient of the contact or of a sweep that no pair of materials has.
 pub(super) fn friction(case: &Case) -> Option<Limit> {
-    let own = [("contact.friction_coefficient", case.contact.sliding.friction_coefficient)];
+    let keys = case.contact_sections().into_iter();
+    let keys = keys.map(|(section, _)| format!("{section}.friction_coefficient"));
+    let own = keys.filter_map(|key| Some((case.number(&key)?, key)));
     let swept = case.cea.iter().flat_map(|cea| {
         let keys = ["cea.friction_coefficients", "cea.shapes_at"];
         let lists = [&cea.friction_coefficients, &cea.shapes_at];
         let pairs = keys.into_iter().zip(lists);
-        pairs.flat_map(|(key, values)| values.iter().map(move |value| (key, *value)))
+        pairs.flat_map(|(key, values)| values.iter().map(move |value| (*value, key.to_owned())))
     });
-    let largest = own.into_iter().chain(swept).min_by(|a, b| b.1.total_cmp(&a.1));
-    let (key, value) = largest.filter(|(_, value)| *value > LARGEST_FRICTION)?;
-    let said = diagnosis!(case, key,
+    let largest = own.chain(swept).min_by(|a, b| b.0.total_cmp(&a.0));
+    let (value, key) = largest.filter(|(value, _)| *value > LARGEST_FRICTION)?;
+    let said = diagnosis!(case, &key,
         "{key} = {value:?} is above {LARGEST_FRICTION}, higher than that of any dry pair of \
          materials"; "above 2"; "a friction coefficient is a ratio, not a percentage");
     Some(Limit { is_possible: value <= STICKING_FRICTION, said })
@@ -82,7 +84,7 @@ pub(super) fn lame_pressure(case: &Case) -> Option<f64> {
 
 /// Interference against the radius, else the contact pressure against the modulus.
 pub(super) fn interference(case: &Case) -> Option<Diagnostic> {
-    let key = "contact.interference";
+    let key = case.contact_key("interference");
     let (name, a) = match case.body.grid() {
         Some(grid) => ("geometry.inner_radius", grid.inner_radius),
         None => ("half the width of the mesh", case.body.size()),
@@ -109,7 +111,7 @@ pub(super) fn interference(case: &Case) -> Option<Diagnostic> {
         Some(own) => diagnosis!(case, &force,
             "{force} = {own} N pushes the counterface in by {delta:.3e} m, which {what}";
             "{label}"; "is it in newtons, and for each metre where geometry.thickness is left out?"),
-        None => diagnosis!(case, key, "{key} = {delta} m {what}";
+        None => diagnosis!(case, &key, "{key} = {delta} m {what}";
             "{label}"; "is it in metres? 25 micrometres are 25e-6"),
     })
 }

@@ -221,9 +221,7 @@ fn nothing_grows(case: &Case, beside: usize, window: Window) -> CaseErrors {
         0 => String::new(),
         count => format!("; {count} beside these frequencies do"),
     };
-    let own = "contact.friction_coefficient";
-    let key = if case.raw.find(own).is_some() { own } else { "contacts" };
-    refusal!(case, key,
+    refusal!(case, &case.contact_key("friction_coefficient"),
         "no mode {place} grows at friction {friction}: there is nothing to improve{beside}";
         "every mode decays";
         "raise the friction coefficient above the lowest critical one that `cea` prints, or widen \

@@ -55,9 +55,7 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
 
 /// Whether a key is that of the friction coefficient of a sample, which is the first contact's.
 pub(super) fn is_friction(case: &Case, key: &str) -> bool {
-    let first = case.body.assembly().and_then(|own| own.contacts.first());
-    let own = first.map(|own| format!("contacts.{}.friction_coefficient", own.name));
-    key == "contact.friction_coefficient" || own.as_deref() == Some(key)
+    key == "contact.friction_coefficient" || key == case.contact_key("friction_coefficient")
 }
 
 /// Relative distance of critical frictions within which they are one: their round-off would have indices.
