@@ -147,3 +147,21 @@ fn a_body_of_revolution_on_its_whole_mesh_stays_round_when_it_is_refined() {
         assert!((nearest - value).abs() < 1e-6 * value.abs(), "{value} {waves:?}");
     }
 }
+
+/// Its counts take the factors that those of a disc at rest take, rounded alike.
+#[test]
+fn a_generated_disc_that_turns_is_refined_by_its_counts() {
+    let motion = "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\n";
+    let solid = "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"\n";
+    let text = disc(&format!("{motion}[cea]\nmodes = 4\n[convergence]\n"));
+    let text = text.replace("[material]\n", solid);
+    let read = |[around, radial, axial]: [usize; 3]| {
+        let around = format!("mesh.circumferential_elements={around}");
+        let [radial, axial] = [("radial", radial), ("axial", axial)]
+            .map(|(name, count)| format!("mesh.{name}_elements={count}"));
+        case_of("disc.toml", &text, &[around, radial, axial])
+    };
+    let case = read([12, 2, 1]);
+    assert_eq!(case.convergence.as_ref().unwrap().factors, [1.0, 1.5, 2.25]);
+    assert_eq!(case.refined(2.25).unwrap().body, read([27, 5, 2]).body);
+}

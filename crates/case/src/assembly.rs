@@ -21,6 +21,8 @@ pub struct AssemblyBody {
     pub motions: Vec<Motion>,
     /// What the base state of the contacts is.
     pub base: BaseChoice,
+    /// The body of revolution that this is the whole mesh of, if it was generated.
+    pub made_of: Option<Box<SolidSpecification>>,
 }
 
 impl AssemblyBody {
@@ -207,8 +209,8 @@ pub(super) fn assemble(file: &FileParts<'_>, parts: AssemblyParts) -> Made {
         }
         contacts.push(surfaces);
     }
-    let (mesh, base) = (Arc::new(mesh), parts.base);
-    let kind = BodyKind::Assembly(AssemblyBody { mesh, ties, contacts, motions, base });
+    let (mesh, base, made_of) = (Arc::new(mesh), parts.base, None);
+    let kind = BodyKind::Assembly(AssemblyBody { mesh, ties, contacts, motions, base, made_of });
     Ok(Body { materials, kind })
 }
 

@@ -38,6 +38,11 @@ impl Body {
         if let BodyKind::Revolution(own) = &self.kind { Some(own) } else { None }
     }
 
+    /// The radii, thickness and element counts of a body of revolution, on its whole mesh or not.
+    pub fn revolved(&self) -> Option<&SolidSpecification> {
+        self.revolution().or_else(|| self.assembly()?.made_of.as_deref())
+    }
+
     /// The body from a mesh file, if it is one.
     pub fn imported(&self) -> Option<&ImportedBody> {
         if let BodyKind::Imported(own) = &self.kind { Some(own) } else { None }
@@ -97,8 +102,7 @@ impl Body {
     /// Contact nodes, under a ring at most those of the whole face, in a width that no input overflows.
     pub fn contact_node_count(&self) -> u128 {
         let around = |grid: &AnnulusSpecification| {
-            let per_element = if grid.element.is_quadratic() { 2 } else { 1 };
-            per_element * grid.circumferential_elements as u128
+            (1 + u128::from(grid.element.is_quadratic())) * grid.circumferential_elements as u128
         };
         match &self.kind {
             BodyKind::Annulus(annulus) => around(annulus),

@@ -60,8 +60,8 @@ impl super::Case {
                 solid.axial_elements = (solid.axial_elements as f64 * factor).round() as usize;
             }
             // A generated body on its whole mesh stays as round as it is.
-            BodyKind::Assembly(_) if self.raw.find("mesh.file").is_none() => {
-                body = self.with_counts_times(factor)?.body;
+            BodyKind::Assembly(AssemblyBody { made_of: Some(solid), .. }) => {
+                body = self.with_counts(solid, factor)?.body;
             }
             BodyKind::Assembly(assembly) => {
                 for _ in 0..factor.log2() as u32 {
@@ -79,17 +79,14 @@ impl super::Case {
     }
 
     /// The case of a generated body with so many times as many elements in every direction.
-    fn with_counts_times(&self, factor: f64) -> Result<Self, super::CaseErrors> {
-        let counts = ["circumferential_elements", "radial_elements", "axial_elements"];
-        let finer = counts.map(|count| {
-            let key = format!("mesh.{count}");
-            let own = self.number(&key).unwrap_or(1.0);
-            format!("{key}={:.0}", own * factor)
-        });
-        // The same distribution of sizes, as in `Convergence::refined`.
-        let grading = self.number("mesh.radial_grading").map(|own| own.powf(1.0 / factor));
-        let grading = grading.map(|own| format!("mesh.radial_grading={own:?}"));
-        let finer: Vec<String> = finer.into_iter().chain(grading).collect();
+    fn with_counts(&self, solid: &SolidSpecification, factor: f64) -> Result<Self, CaseErrors> {
+        let annulus = Convergence::refined(&solid.annulus, factor);
+        let finer = [
+            format!("mesh.circumferential_elements={}", annulus.circumferential_elements),
+            format!("mesh.radial_elements={}", annulus.radial_elements),
+            format!("mesh.axial_elements={}", (solid.axial_elements as f64 * factor).round()),
+            format!("mesh.radial_grading={:?}", annulus.radial_grading),
+        ];
         Self::read(self.raw.with_overrides(&finer)?)
     }
 
@@ -113,14 +110,15 @@ pub(super) fn read(
         "not beside [convergence]";
         "leave one of the two sections out, and compare meshes by hand");
     let mut factors = section.numbers("factors").unwrap_or_default();
-    if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") {
+    let solid = body.and_then(Body::revolved);
+    let grid = solid.map(|own| &own.annulus).or(body.and_then(Body::annulus));
+    if body.is_some() && grid.is_none() && !section.has("factors") {
         factors = SPLITS.to_vec();
     }
     if is_series(section, "factors", &factors, 1.0) {
-        let solid = body.and_then(Body::revolution);
-        match (body.and_then(Body::whole_mesh), body.and_then(Body::grid)) {
-            (Some(mesh), _) => check_splits(section, mesh, &factors),
-            (None, Some(grid)) => check_meshes(section, grid, solid, &factors),
+        match (grid, body.and_then(Body::whole_mesh)) {
+            (Some(grid), _) => check_meshes(section, grid, solid, &factors),
+            (None, Some(mesh)) => check_splits(section, mesh, &factors),
             (None, None) => {}
         }
     }

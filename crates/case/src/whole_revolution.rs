@@ -91,6 +91,7 @@ pub(super) fn whole_revolution(
         motions: motion.map(|own| Motion { regions, ..own }).into_iter().collect(),
         base: BaseChoice::Solved,
         mesh: Arc::new(mesh),
+        made_of: Some(Box::new(specification.clone())),
     });
     Ok(Body { materials, kind })
 }

@@ -159,12 +159,10 @@ fn series(case: &Case, study: &Levels, done: Vec<Done>) -> Result<Vec<Series>, S
         }
         Analysis::Transient => {
             let steps: Vec<String> = steps.iter().map(|step| format!("{step:.4e}")).collect();
-            let notes = match study.refinement {
-                Refinement::Mesh => vec![format!("time steps {} s", steps.join(", "))],
-                Refinement::TimeStep => Vec::new(),
-            };
+            let is_finer = study.refinement == Refinement::Mesh;
+            let notes = is_finer.then(|| format!("time steps {} s", steps.join(", ")));
             let quantities = quantities::of_transients(&sizes, &summaries);
-            vec![of("transient", quantities, notes)]
+            vec![of("transient", quantities, notes.into_iter().collect())]
         }
         Analysis::Basin => vec![of("basin", Vec::new(), Vec::new())],
         Analysis::Cycle => quantities::by_family(&summaries)
@@ -211,8 +209,8 @@ fn far_note(quantities: &[Quantity]) -> Option<String> {
 
 /// Element size and name of a mesh: the size is the side of a square of the mean element area, m.
 fn mesh_level(case: &Case) -> (f64, String) {
-    let body = &case.body;
-    let Some(grid) = body.grid() else {
+    let (body, solid) = (&case.body, case.body.revolved());
+    let Some(grid) = solid.map(|own| &own.annulus).or(body.grid()) else {
         let count = body.element_count();
         let size = match body.dimension() {
             3 => 2.0 * body.size() / (count as f64).cbrt(),
@@ -222,6 +220,6 @@ fn mesh_level(case: &Case) -> (f64, String) {
     };
     let (around, radial) = (grid.circumferential_elements, grid.radial_elements);
     let size = (body.area() / (around as f64 * radial as f64)).sqrt();
-    let layers = body.revolution().map(|own| format!(" x {}", own.axial_elements));
+    let layers = solid.map(|own| format!(" x {}", own.axial_elements));
     (size, format!("{around} x {radial}{}", layers.unwrap_or_default()))
 }
