@@ -224,3 +224,73 @@ fn the_shipped_tread_block_squeals_in_its_shear_mode() {
     has(&summary.to_string(), &["drag_n"]);
     assert!((of("frequency_hz") - 1424.66).abs() < 0.01, "{onset}");
 }
+
+/// Two blocks apart, each on a plane of its own.
+const SLIDERS: &str = include_str!("../cases/two-sliders.toml");
+
+/// Exact: a drag is a power over the speed of its own contact, a torque one over its own rotation.
+#[test]
+fn drag_and_torque_of_contacts_of_different_speed_are_the_sums_of_their_own() {
+    let blocks = [
+        brick("left", [0.0; 3], [0.02, 0.02, 0.01], [2, 2, 1]),
+        brick("right", [0.05, 0.0, 0.0], [0.02, 0.02, 0.01], [2, 2, 1]),
+    ];
+    let mesh = file_of(&blocks, |at| at);
+    let solve = |case: &str| {
+        let files = [("case.toml", case.as_bytes()), ("blocks.msh", &mesh)];
+        let answer = Run::of("cea", "case.toml").beside(&files).out("out").done();
+        let rows = answer.rows("prestress.csv");
+        let force = |name: &str| -> f64 {
+            let own = rows.iter().filter(|row| row["contact"] == name);
+            own.map(|row| row.number("shear_pa") * row.number("area_m2")).sum()
+        };
+        let forces = ["first", "second"].map(force);
+        (forces, answer.summary()["base_state"].clone(), answer.said())
+    };
+    let ([first, second], base, said) = solve(SLIDERS);
+    assert!(first > 1.0 && second > 1.5 * first, "{first} {second}");
+    let number = |base: &Value, key: &str| base[key].as_f64().unwrap_or_else(|| panic!("{base}"));
+    near_each(&[number(&base, "drag_n")], &[first + second], 1e-9);
+    near_each(&[number(&base, "power_w")], &[first + 5.0 * second], 1e-9);
+    assert!(base.get("torque_n_m").is_none_or(Value::is_null), "{base}");
+    has(&said, &["drag"]);
+    // The second plane turns about an axis beside its block.
+    let straight = "direction = [0.0, 1.0, 0.0]\nspeed = 5.0\n";
+    let turning =
+        "axis = [0.0, 0.0, 1.0]\ncenter = [0.06, -0.1, 0.0]\nrotation_speed_rpm = 600.0\n";
+    let ([first, _], base, said) = solve(&SLIDERS.replace(straight, turning));
+    near_each(&[number(&base, "drag_n")], &[first], 1e-9);
+    let power = number(&base, "power_w") - first;
+    near_each(&[number(&base, "torque_n_m")], &[power / (TAU * 10.0)], 1e-9);
+    has(&said, &["torque", "drag"]);
+}
+
+/// A blade clamped at one end and pulled at the other.
+const BLADE: &str = include_str!("../cases/stretched-blade.toml");
+
+fn blade(command: &str, sets: &[&str]) -> Answer {
+    let blade = brick("blade", [0.0; 3], [0.2, 0.01, 0.002], [10, 1, 1]);
+    let mesh = file_of_order(&[blade], 2, |at| at);
+    let files = [("case.toml", BLADE.as_bytes()), ("blade.msh", &mesh)];
+    Run::of(command, "case.toml").beside(&files).set(sets).out("out").done()
+}
+
+/// Independent: `cea` of the same blade. An undamped response changes its sign at an eigenvalue, and the stress of the pressure
+/// takes that of the unloaded blade to three times its frequency.
+#[test]
+fn a_response_without_contact_resonates_where_the_blade_is_stretched() {
+    let mode = |sets: &[&str]| blade("cea", sets).rows("eigenvalues.csv")[0].number("frequency_hz");
+    let (own, slack) = (mode(&[]), mode(&["boundaries.blade_x1.pressure=-1.0"]));
+    assert!(own > 2.5 * slack, "{own} {slack}");
+    let lines = format!("frf.frequencies_hz=[{}, {}]", 0.99 * own, 1.01 * own);
+    let rows = blade("frf", &[&lines]).rows("frf.csv");
+    let [below, above] = [0, 1].map(|line| rows[line].number("receptance_real"));
+    assert!(below > 0.0 && above < 0.0, "{own} Hz: {below:e} {above:e}");
+}
+
+#[test]
+fn bodies_that_a_pressure_pulls_are_not_told_to_be_free_of_stress() {
+    let said = blade("cea", &[]).said();
+    has(&said, &["no contact pressure"]);
+    assert!(!said.contains("free of stress"), "{said}");
+}

@@ -14,29 +14,25 @@ keys! {
         open: usize = "contact nodes without contact";
         pressure_pa: [f64; 2] = "contact pressure, smallest and largest, Pa";
         shear_pa: [f64; 2] = "friction traction with the sign of that in `prestress.csv`, smallest and largest, Pa";
-        torque_n_m?: f64 = "friction torque on a cylinder, of the whole thickness, N m";
-        drag_n?: f64 = "friction force on a plane, of the whole thickness, N";
+        torque_n_m?: f64 = "friction torque of all contacts that turn, of the whole thickness, N m";
+        drag_n?: f64 = "friction force of all contacts that slide straight, of the whole thickness, N";
         power_w: f64 = "power that the counterface puts in, W";
         extent: Extent = "what torque, force and power are of";
     }
 }
 
 impl BaseState {
-    /// Torque or drag with its name and unit.
+    /// Torque and drag with their names and units.
     pub(super) fn drive(&self) -> String {
-        match (self.torque_n_m, self.drag_n) {
-            (Some(torque), _) => {
-                format!("torque {} {}", significant(torque, 6), self.extent.unit("N m"))
-            }
-            (None, Some(drag)) => {
-                format!("drag {} {}", significant(drag, 6), self.extent.unit("N"))
-            }
-            (None, None) => String::new(),
-        }
+        let all = [("torque", self.torque_n_m, "N m"), ("drag", self.drag_n, "N")];
+        let all = all.into_iter().filter_map(|(name, value, unit)| {
+            Some(format!("{name} {} {}", significant(value?, 6), self.extent.unit(unit)))
+        });
+        all.collect::<Vec<_>>().join(", ")
     }
 
-    /// Whether nothing presses: the closed state of an analysis without prestress, or no contact at all.
-    pub(super) fn is_free_of_stress(&self) -> bool {
+    /// Whether no contact presses: closed ones without prestress, or none at all. Loads may stress the bodies.
+    pub(super) fn is_without_pressure(&self) -> bool {
         let [low, high] = self.pressure_pa;
         low >= 0.0 && high <= 0.0
     }

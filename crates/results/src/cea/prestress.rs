@@ -91,7 +91,7 @@ pub(super) fn surfaces(
     (name, what): (&str, &str),
     value: fn(&ContactState) -> f64,
 ) -> Option<Figure> {
-    if report.base.is_free_of_stress() {
+    if report.base.is_without_pressure() {
         return None;
     }
     let mesh = report.body.mesh;

@@ -215,10 +215,10 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         report.solution.method,
         report.largest_residual(),
     );
-    let free = report.body.is_assembly() && base.is_free_of_stress();
+    let free = report.body.is_assembly() && base.is_without_pressure();
     let [low, high] = base.pressure_pa.map(|pressure| fixed(1e-6 * pressure, 4));
     let state = match free {
-        true => "free of stress".to_owned(),
+        true => "no contact pressure".to_owned(),
         false => format!("pressure {low} to {high} MPa; {}, {}", base.drive(), base.power()),
     };
     let steady = format!(

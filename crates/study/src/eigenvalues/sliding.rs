@@ -87,11 +87,8 @@ impl SlidingModel {
         if largest > least || assembly.is_some_and(is_free) {
             return Ok(());
         }
-        let named = assembly.and_then(|body| body.contacts.first());
-        let key = match named.filter(|_| case.raw.find("contact").is_none()) {
-            Some(contact) => format!("contacts.{}.surface", contact.name),
-            None => "contact.interference".to_owned(),
-        };
+        let is_short = case.raw.find("contact").is_some();
+        let key = case.contact_key(if is_short { "interference" } else { "surface" });
         let friction = case.contact.sliding.friction_coefficient;
         let message = format!(
             "nothing presses the contact: its pressure is zero everywhere at friction {friction}"
@@ -113,22 +110,21 @@ impl SlidingModel {
         let sliding = &case.contact.sliding;
         let (friction, speed) = (sliding.friction_coefficient, sliding.rotation_speed);
         let contact = || self.contact.iter();
-        // Torque or drag, and its power.
-        let [drive, power_w] = match (&self.solid, self.mesh.dimension) {
+        // Torque, drag, and their power.
+        let [torque_n_m, drag_n, power_w] = match (&self.solid, self.mesh.dimension) {
             (Some(solid), _) => {
                 let torque = solid.base.torque(&solid.sector, friction);
-                [torque, torque * speed]
+                [Some(torque), None, Some(torque * speed)]
             }
             (None, 2) => {
                 let edge = ContactInterface::of(&self.mesh);
                 let forces = self.state.normal_forces(friction);
-                let torque = case.thickness * edge.torque(sliding, friction, &forces);
-                [torque, torque * speed]
+                let drive = Some(case.thickness * edge.torque(sliding, friction, &forces));
+                let [torque, drag] =
+                    [false, true].map(|own| drive.filter(|_| case.body.slides_straight() == own));
+                [torque, drag, drive.map(|drive| drive * speed)]
             }
-            (None, _) => {
-                let power = contact().map(|own| own.shear * own.place.area * own.speed).sum();
-                [if speed == 0.0 { 0.0 } else { power / speed }, power]
-            }
+            (None, _) => self.drives(speed),
         };
         // Points of a mesh lie at nodes or between them, a ring has many.
         let nodes = |own: &ContactState| match self.solid {
@@ -138,7 +134,6 @@ impl SlidingModel {
         let count = |is_pressed: bool| {
             contact().filter(|own| own.is_pressed == is_pressed).map(nodes).sum()
         };
-        let is_straight = case.body.slides_straight();
         BaseState {
             friction_coefficient: friction,
             slipping: count(true),
@@ -146,11 +141,30 @@ impl SlidingModel {
             open: count(false),
             pressure_pa: order::range(contact().map(|own| own.pressure)),
             shear_pa: order::range(contact().map(|own| own.shear)),
-            torque_n_m: (!is_straight).then_some(drive),
-            drag_n: is_straight.then_some(drive),
-            power_w,
+            torque_n_m,
+            drag_n,
+            power_w: power_w.unwrap_or(0.0),
             extent: extent_of(case),
         }
+    }
+
+    /// Torque of the contacts of solid bodies that turn, N m, drag of those that slide straight, N: of each its power
+    /// over its own speed. The power of all, W. Between bodies the torque has the sign of `speed`.
+    fn drives(&self, speed: f64) -> [Option<f64>; 3] {
+        let mut drives = [None; 3];
+        for (contact, surface) in self.contacts.iter() {
+            let own = self.contact.iter().filter(|own| own.place.contact == contact.name);
+            let power: f64 = own.map(|own| own.shear * own.place.area * own.speed).sum();
+            let rigid = contact.counter.rigid().filter(|rigid| rigid.motion.speed() != 0.0);
+            let sense = rigid.map_or(speed, |rigid| surface.spin.dot(&Vector3::from(rigid.axis)));
+            let (kind, own_speed) = match (surface.spin.norm(), rigid) {
+                (0.0, Some(rigid)) => (1, rigid.motion.speed()),
+                (turning, _) => (0, turning.copysign(sense)),
+            };
+            *drives[kind].get_or_insert(0.0) += power / own_speed;
+            *drives[2].get_or_insert(0.0) += power;
+        }
+        drives
     }
 
     /// The body as results show it.
