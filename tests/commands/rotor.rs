@@ -194,3 +194,56 @@ fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed
         assert!(nearest.abs() < 1e-6 * found, "{found}: {nearest}");
     }
 }
+
+/// A block of steel on springs that are alike in every direction, with a mass at its middle.
+const WHIRLING: &str = include_str!("../cases/whirling-mass.toml");
+
+/// Closed form: a mass on equal springs in a frame that turns whirls at `omega_0 -+ Omega` there, and at `omega_0` along the axis.
+#[test]
+fn a_point_mass_whirls_with_the_body_that_it_turns_with() {
+    let block = brick("block", [-0.01; 3], [0.02; 3], [2; 3]);
+    let files = [("case.toml", WHIRLING.as_bytes()), ("block.msh", &file_of(&[block], |at| at))];
+    let rows = Run::of("cea", "case.toml").beside(&files).out("out").done().rows("eigenvalues.csv");
+    let found: Vec<f64> = rows.iter().map(|row| row.number("frequency_hz")).collect();
+    let (side, mass): (f64, f64) = (0.02, 1.0);
+    let springs = 7e6 * 6.0 * side.powi(2);
+    let own = (springs / (mass + 7850.0 * side.powi(3))).sqrt() / TAU;
+    near_each(&found, &[own - 10.0, own, own + 10.0], 2e-5);
+}
+
+/// Damped by what turns with it, the mass whirls unstably above its critical speed.
+#[test]
+fn what_a_further_mass_does_to_a_whirl_is_predicted_as_it_is_found() {
+    let case = WHIRLING.replace("rpm = 600.0", "rpm = 3000.0");
+    let case = case.replace("mass = 1.0", "mass = 1.0\ndamping = 5.0")
+        + "[improve]\nmodifications = [\"mass\"]\nmass = 0.05\ncandidates = 1\nconfirm = 1\n";
+    let block = brick("block", [-0.01; 3], [0.02; 3], [2; 3]);
+    let files = [("case.toml", case.as_bytes()), ("block.msh", &file_of(&[block], |at| at))];
+    let found = Run::of("improve", "case.toml").beside(&files).out("out").done().summary();
+    let own = &found["candidates"][0];
+    let growth = |of: &Value| of["growth_rate_per_s"].as_f64().unwrap();
+    let (before, after) = (growth(&found["base"]), growth(&own["confirmed"]));
+    assert!(before - after > 0.03, "{own}");
+    near_each(&[growth(&own["predicted"])], &[after], 2e-3);
+    near_each(&[own["first_order_growth_rate_per_s"].as_f64().unwrap()], &[after], 5e-3);
+}
+
+/// Exact: `m Omega^2 r` away from the axis, in the frame that turns; the one at rest has no place for what turns.
+#[test]
+fn a_point_mass_is_pulled_away_from_the_axis_of_a_turning_frame() {
+    let [stiffness, damping] = [nalgebra::Matrix3::zeros(); 2];
+    let mesh = Mesh {
+        dimension: 3,
+        nodes: vec![[0.3, 0.4, 0.1]],
+        frames: NodalFrames::Solid(vec![nalgebra::Matrix3::identity()]),
+        attachments: vec![Attachment { node: 0, mass: 2.0, stiffness, damping }],
+        ..Mesh::default()
+    };
+    for (frame, pull) in
+        [(RotationFrame::Turning, [60.0, 80.0, 0.0]), (RotationFrame::Rest, [0.0; 3])]
+    {
+        let spin = Spin { velocity: nalgebra::Vector3::z() * 10.0, center: [0.0; 3], frame };
+        let terms = assemble_rotation(&mesh, &ElasticMaterial::PLAIN, &|_| Some(spin));
+        within(&terms.centrifugal, &pull, 1e-12);
+    }
+}

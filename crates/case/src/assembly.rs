@@ -46,6 +46,16 @@ impl AssemblyBody {
         regions.map(|&region| self.mesh.regions[region].as_str())
     }
 
+    /// Nodes of the bodies that pass through their mesh: they turn, with their inertia in the frame at rest.
+    pub fn passing_nodes(&self) -> BTreeSet<u32> {
+        let (rest, mesh) = (Some(RotationFrame::Rest), &self.mesh);
+        let all =
+            self.motions.iter().filter(|own| own.inertia == rest && own.rotation_speed != 0.0);
+        let regions: Vec<usize> = all.flat_map(|own| own.regions.iter().copied()).collect();
+        let elements = (0..mesh.element_count()).filter(|&e| regions.contains(&mesh.region(e)));
+        elements.flat_map(|e| mesh.element_nodes(e)).copied().collect()
+    }
+
     /// Whether motions are those in a frame that turns with the bodies.
     pub fn turns_with_its_frame(&self) -> bool {
         let turning = Some(RotationFrame::Turning);

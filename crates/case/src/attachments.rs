@@ -18,8 +18,7 @@ pub(super) fn reshaped_annulus(
         deformable shaft as a mesh file";
         return Err((key, why.to_owned()));
     }
-    let mesh = AnnulusMesh::generate(spec);
-    let mesh = mesh.map_err(|error| (key.clone(), error.to_string()))?.mesh;
+    let mesh = AnnulusMesh::generate(spec).map_err(|error| (key.clone(), error.to_string()))?.mesh;
     let contact = mesh.contact_edge().name.clone();
     let file = Arc::new(mesh.to_file());
     let (file, center) = reshaped(file, 1.0, &contact, modifications)?;
@@ -30,8 +29,7 @@ pub(super) fn reshaped_annulus(
         opposite: None,
         conditions: vec![("outer".to_owned(), spec.outer)],
     };
-    let body = Mesh::from_gmsh(&file, &specification);
-    let body = body.map_err(|error: BodyError| (key, error.to_string()))?;
+    let body = Mesh::from_gmsh(&file, &specification).map_err(|error| (key, error.to_string()))?;
     Ok(ImportedBody::new(body, file, specification))
 }
 
@@ -44,6 +42,7 @@ pub(super) fn attach(case: &Description<'_>, body: &mut Body) {
     let is_plane = body.dimension() == 2;
     let extent = if is_plane { case.thickness } else { 1.0 };
     let (mut attachments, mut patches) = (Vec::new(), Vec::new());
+    let passing = body.assembly().map_or_else(BTreeSet::new, AssemblyBody::passing_nodes);
     for own in &case.modifications {
         let section = all.section(&own.name, false);
         let leaves = |vector: Option<[f64; 3]>| vector.is_some_and(|[.., z]| z != 0.0);
@@ -53,6 +52,10 @@ pub(super) fn attach(case: &Description<'_>, body: &mut Body) {
         }
         if let Some(place) = &own.at {
             let found = body.find_node(&section, "at", place);
+            let passes = found.is_some_and(|(node, _)| passing.contains(&(node as u32)));
+            refuse_if!(own.mass != 0.0 && passes; section, "mass" =>
+                "lies on a body that turns, in the frame at rest: it would move through the mesh";
+                "a mass turns with its body"; "give that [motion.NAME] frame = \"turning\"");
             attachments.extend(found.map(|(node, _)| own.attachment(node, extent)));
         }
         if own.coefficients == [0.0; 2] {
@@ -62,11 +65,8 @@ pub(super) fn attach(case: &Description<'_>, body: &mut Body) {
         let elements = mesh.elements_within(center, radius);
         refuse_if!(elements.is_empty(); section, "radius" => "holds no element's middle";
             "no element within it"; "center and radius are in metres");
-        patches.push(DampedPatch {
-            elements,
-            mass_coefficient: own.coefficients[0],
-            stiffness_coefficient: own.coefficients[1],
-        });
+        let [mass_coefficient, stiffness_coefficient] = own.coefficients;
+        patches.push(DampedPatch { elements, mass_coefficient, stiffness_coefficient });
     }
     let mesh = match &mut body.kind {
         BodyKind::Imported(own) => Arc::make_mut(&mut own.mesh),

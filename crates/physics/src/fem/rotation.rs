@@ -32,6 +32,12 @@ impl Spin {
         let arm = Vector3::from(place) - Vector3::from(self.center);
         self.velocity.cross(&arm)
     }
+
+    /// Coriolis and centrifugal terms of a mass in the turning frame, `2 m [Omega x]`, N s/m, and `m [Omega x]^2`, N/m.
+    pub fn of_mass(&self, mass: f64) -> [Matrix3<f64>; 2] {
+        let across = self.velocity.cross_matrix();
+        [across * (2.0 * mass), across * across * mass]
+    }
 }
 
 /// What the rotation of some regions adds to the equation of small motions.
@@ -50,7 +56,7 @@ impl Spin {
 /// rho (u'' + 2 Omega x u' + Omega x (Omega x u)),   G_IJ = 2 ∫ rho N_I N_J dV [Omega x],   S_IJ = ∫ rho N_I N_J dV [Omega x]^2.
 /// ```
 ///
-/// `G` is skew and takes no power. Over all dofs, N s/m and N/m.
+/// `G` is skew and takes no power. Over all dofs, N s/m and N/m; point masses have theirs in the turning frame.
 #[derive(Clone, Debug)]
 pub struct RotationTerms {
     /// `G`: Coriolis and transport, times the velocity.
@@ -78,6 +84,12 @@ pub fn assemble_rotation(
             add_element(mesh, e, material.of(region).density, &spin, &mut terms);
         }
     }
+    // A frame that turns does so with all regions, and with what is attached to them.
+    if let Some(spin) = turning(0).filter(|spin| spin.frame == RotationFrame::Turning) {
+        for own in &mesh.attachments {
+            add_blocks(mesh, [own.node; 2], (&spin, own.mass), spin.of_mass(own.mass), &mut terms);
+        }
+    }
     terms
 }
 
@@ -92,39 +104,39 @@ fn add_element(mesh: &Mesh, element: usize, density: f64, spin: &Spin, terms: &m
         let velocity = spin.velocity_at(geometry.position(&point));
         let weight = density * point.measure;
         let slopes: Vec<f64> = point.gradients.iter().map(|g| g.dot(&velocity)).collect();
-        for i in 0..count {
-            for j in 0..count {
-                let sum = &mut sums[i * count + j];
-                sum[0] += weight * point.values[i] * point.values[j];
-                sum[1] += weight * point.values[i] * slopes[j];
-                sum[2] += weight * slopes[i] * slopes[j];
-            }
-            let pull = mesh.frame(nodes[i] as usize).transpose() * spin.velocity.cross(&velocity);
-            for axis in 0..3 {
-                let force = weight * point.values[i] * pull[axis];
-                terms.centrifugal[3 * nodes[i] as usize + axis] -= force;
-            }
+        for (k, sum) in sums.iter_mut().enumerate() {
+            let (i, j) = (k / count, k % count);
+            sum[0] += weight * point.values[i] * point.values[j];
+            sum[1] += weight * point.values[i] * slopes[j];
+            sum[2] += weight * slopes[i] * slopes[j];
         }
     }
-    let across = spin.velocity.cross_matrix();
-    for i in 0..count {
-        for j in 0..count {
-            let [mass, along, twice] = sums[i * count + j];
-            let [gyroscopic, transport] = match spin.frame {
-                RotationFrame::Rest => {
-                    let skew = along - sums[j * count + i][1];
-                    [skew, -twice].map(Matrix3::from_diagonal_element)
-                }
-                RotationFrame::Turning => [across * (2.0 * mass), across * across * mass],
-            };
-            add_block(mesh, [nodes[i], nodes[j]], &gyroscopic, &mut terms.gyroscopic);
-            add_block(mesh, [nodes[i], nodes[j]], &transport, &mut terms.transport);
-        }
+    for (k, &[mass, along, twice]) in sums.iter().enumerate() {
+        let (i, j) = (k / count, k % count);
+        let blocks = match spin.frame {
+            RotationFrame::Rest => {
+                let skew = along - sums[j * count + i][1];
+                [skew, -twice].map(Matrix3::from_diagonal_element)
+            }
+            RotationFrame::Turning => spin.of_mass(mass),
+        };
+        add_blocks(mesh, [i, j].map(|i| nodes[i] as usize), (spin, mass), blocks, terms);
     }
 }
 
-/// Adds what one node's displacement does at another, in their frames.
-fn add_block(mesh: &Mesh, [i, j]: [u32; 2], block: &Matrix3<f64>, sum: &mut Triplets) {
-    let [i, j] = [i, j].map(|node| node as usize);
-    sum.push_block([3 * i, 3 * j], &(mesh.frame(i).transpose() * block * mesh.frame(j)));
+/// Adds `[G, S]` of what a node's displacement does at another, and the load of the mass that they share, in their frames.
+fn add_blocks(
+    mesh: &Mesh,
+    [i, j]: [usize; 2],
+    (spin, mass): (&Spin, f64),
+    blocks: [Matrix3<f64>; 2],
+    terms: &mut RotationTerms,
+) {
+    let turn = mesh.frame(i).transpose();
+    for (sum, block) in [&mut terms.gyroscopic, &mut terms.transport].into_iter().zip(blocks) {
+        sum.push_block([3 * i, 3 * j], &(turn * block * mesh.frame(j)));
+    }
+    // - m Omega x (Omega x r).
+    let inertia = turn * spin.velocity.cross(&(spin.velocity_at(mesh.nodes[j]) * mass));
+    (0..3).for_each(|axis| terms.centrifugal[3 * i + axis] -= inertia[axis]);
 }

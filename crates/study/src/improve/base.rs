@@ -2,7 +2,7 @@
 
 use crate::*;
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
-use frictionsim_physics::fem::element_supports;
+use frictionsim_physics::fem::{RotationFrame, element_supports};
 use frictionsim_results::improve::{State, TargetMode};
 
 /// Steps of friction from 0 to that of the case, over which branches are followed.
@@ -71,6 +71,8 @@ pub(super) struct Base<'a> {
     pub friction: f64,
     /// Displacement of the base state there, with which elements have a geometric stiffness; none where they have none.
     pub displacement: Option<Vec<f64>>,
+    /// Coriolis and centrifugal terms of a unit mass where the frame turns with the bodies, else zero.
+    pub turning: [Matrix3<f64>; 2],
     /// Springs and dashpots of supports on the faces of each element.
     pub supports: BTreeMap<u32, [Triplets; 2]>,
     pub window: Window,
@@ -141,7 +143,10 @@ impl<'a> Base<'a> {
         });
         let is_stressed = whole.options.geometric_stiffness;
         let stressing = whole.assembly(case).stressing(whole.state()).filter(|_| is_stressed);
+        let spin = case.body.assembly().and_then(|body| body.motions.first()?.spin());
+        let spin = spin.filter(|own| own.frame == RotationFrame::Turning);
         Ok(Self {
+            turning: spin.map_or([Matrix3::zeros(); 2], |own| own.of_mass(1.0)),
             supports: element_supports(&whole.mesh),
             displacement: stressing.map(|state| state.displacement(friction)),
             mesh: whole.mesh,

@@ -49,10 +49,13 @@ impl Derivatives {
     }
 
     /// `d lambda / d m` by a mass at a node, rad/s for each kg (in the plane for each kg/m).
-    pub fn by_mass(&self, node: usize, alpha: f64) -> c64 {
-        let own = &self.nodes[node];
-        let lambda = self.eigenvalue;
-        -(lambda * (lambda + alpha)) * (own[0][0] + own[1][1] + own[2][2])
+    pub fn by_mass(&self, node: usize, base: &Base<'_>) -> c64 {
+        let (own, lambda, [coriolis, centrifugal]) =
+            (&self.nodes[node], self.eigenvalue, base.turning);
+        let inertia = lambda * (lambda + base.options.damping.mass_coefficient);
+        let turning = (0..9).map(|k| (k / 3, k % 3));
+        let turning = turning.map(|at| own[at.0][at.1] * (lambda * coriolis[at] + centrifugal[at]));
+        -inertia * (own[0][0] + own[1][1] + own[2][2]) - turning.sum::<c64>()
     }
 
     /// The symmetric matrix `S` with `d lambda = d^T S d` by a spring or a dashpot along a unit vector `d`, real parts.

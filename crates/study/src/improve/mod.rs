@@ -166,13 +166,17 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
     match (&trial.target, trial.kind) {
         (Target::Node(node, direction), kind) => {
             let dofs: Vec<usize> = (0..d).map(|axis| d * node + axis).collect();
-            let own = base.mesh.in_frame(*node, &confirm::law(*direction));
-            let (_, amount) = search.attached(kind);
-            let matrix = DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / base.case.depth());
+            let amount = search.attached(kind).1 / base.case.depth();
+            let of = |law: Matrix3<f64>| {
+                let own = base.mesh.in_frame(*node, &law);
+                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)])
+            };
+            let (matrix, [coriolis, centrifugal]) =
+                (of(confirm::law(*direction)), base.turning.map(of));
             let none = || DMatrix::<f64>::zeros(d, d);
             let alpha = base.options.damping.mass_coefficient;
             let matrices = match kind {
-                ModificationKind::Mass => [matrix.clone(), matrix * alpha, none()],
+                ModificationKind::Mass => [matrix.clone(), matrix * alpha + coriolis, centrifugal],
                 ModificationKind::Spring => [none(), none(), matrix],
                 _ => [none(), matrix, none()],
             };

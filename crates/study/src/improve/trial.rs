@@ -148,11 +148,9 @@ impl Search<'_> {
     /// The best places of a kind by first order, apart from each other; those that do not help are left out.
     pub fn best(&self, kind: ModificationKind) -> Vec<Trial> {
         let mut found = match kind {
-            ModificationKind::Mass | ModificationKind::Spring | ModificationKind::Dashpot => {
-                self.at_nodes(kind)
-            }
             ModificationKind::Damping | ModificationKind::Removal => self.in_patches(kind),
             ModificationKind::Offset => return self.of_hole(),
+            _ => self.at_nodes(kind),
         };
         let before = self.growth(&|_| c64::ZERO);
         found.retain(|trial| trial.first_order.is_some_and(|growth| growth < before));
@@ -185,12 +183,11 @@ impl Search<'_> {
     }
 
     fn at_nodes(&self, kind: ModificationKind) -> Vec<Trial> {
-        let alpha = self.base.options.damping.mass_coefficient;
         let amount = self.attached(kind).1 / self.base.case.depth();
         let trial = |&node: &usize| {
             let (direction, first_order) = match kind {
                 ModificationKind::Mass => {
-                    (None, self.growth(&|own| own.by_mass(node, alpha) * amount))
+                    (None, self.growth(&|own| own.by_mass(node, self.base) * amount))
                 }
                 _ => {
                     let along =
@@ -204,7 +201,10 @@ impl Search<'_> {
             };
             Trial { kind, target: Target::Node(node, direction), first_order: Some(first_order) }
         };
-        parallel::map(&self.places.nodes, trial)
+        let body = self.base.case.body.assembly().filter(|_| kind == ModificationKind::Mass);
+        let passing = body.map_or_else(BTreeSet::new, AssemblyBody::passing_nodes);
+        let nodes = self.places.nodes.iter().filter(|&&node| !passing.contains(&(node as u32)));
+        parallel::map(nodes.collect::<Vec<_>>(), trial)
     }
 
     fn in_patches(&self, kind: ModificationKind) -> Vec<Trial> {
@@ -306,20 +306,16 @@ pub(super) fn target_fields(search: &Search<'_>) -> Vec<TargetFields> {
     let sizes = (0..search.base.mesh.element_count()).map(|e| element_size(search, e)[1]);
     let sizes: Vec<f64> = sizes.collect();
     let of = |(own, mode): (&Derivatives, TargetMode)| {
-        let alpha = search.base.options.damping.mass_coefficient;
         let extent = search.base.case.depth();
         let nodes = || 0..own.nodes.len();
-        let least = |form: Matrix3<f64>| match search.base.mesh.dimension {
-            2 => {
-                let plane = form.fixed_view::<2, 2>(0, 0).into_owned();
-                SymmetricEigen::new(plane).eigenvalues.min() / extent
-            }
-            _ => SymmetricEigen::new(form).eigenvalues.min(),
+        let least = |form: Matrix3<f64>| {
+            let along = steepest(&form, search.base.mesh.dimension);
+            along.dot(&(form * along)) / extent
         };
         let of_links = |kind| nodes().map(|n| least(own.by_link(kind, n))).collect();
         TargetFields {
             mode,
-            mass: nodes().map(|n| own.by_mass(n, alpha).re / extent).collect(),
+            mass: nodes().map(|n| own.by_mass(n, search.base).re / extent).collect(),
             spring: of_links(ModificationKind::Spring),
             dashpot: of_links(ModificationKind::Dashpot),
             removal: own.removal.iter().zip(&sizes).map(|(d, v)| d.re / v).collect(),
