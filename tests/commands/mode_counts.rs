@@ -44,7 +44,9 @@ fn harmonics_hold_as_many_modes_as_the_whole_mesh() {
         for count in counts.as_array().unwrap() {
             let friction = count["friction_coefficient"].as_f64().unwrap();
             let rows = waves.rows("eigenvalues.csv").into_iter();
-            let listed = rows.filter(|row| row.numbers(["friction_coefficient"]) == [friction]);
+            let keys = ["friction_coefficient", "damping_factor"];
+            let listed = rows.map(|row| row.numbers(keys)).filter(|own| own[0] == friction);
+            let listed = listed.filter(|own| own[1] < 0.5); // Faster decay is not promised.
             assert_eq!(count["counted"], listed.count(), "{case} {count}");
         }
     }

@@ -23,9 +23,8 @@ fn count_note(count: &ModeCount) -> String {
         0 => String::new(),
         _ => format!(" ({recovered} of them found by a search that the count gave rise to)"),
     };
-    let near = count.near.map_or_else(String::new, |near| {
-        format!(" near {:.0} Hz, growth rate {:.0} 1/s", near.im / TAU, near.re)
-    });
+    let near = |own: c64| format!(" near {:.0} Hz, growth rate {:.0} 1/s", own.im / TAU, own.re);
+    let near = count.near.map(near).unwrap_or_default();
     let counted = count.counted().unwrap_or_default();
     let what = format!("counted {counted} modes below {high:.1} Hz at friction {friction}");
     let place = format!(

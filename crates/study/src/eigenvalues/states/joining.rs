@@ -120,7 +120,7 @@ pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
     let mut counts: Vec<ModeCount> =
         counts.filter(|count| is_asked(count.friction_coefficient)).collect();
     counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
-    let unconverged = parts.iter().flat_map(|part| part.unconverged.iter().copied());
+    let unconverged = parts.iter().flat_map(|part| part.unconverged.clone());
     let unconverged = unconverged.filter(|own| is_asked(own.friction_coefficient)).collect();
     let rigid_motions = parts.first().map_or(0, |part| part.rigid_motions);
     let joined = FrictionSweep::joined(points, found, ended);
@@ -211,7 +211,7 @@ fn relabel(before: &Part, after: &mut Part) {
 mod tests {
     use super::*;
 
-    /// A branch that grows above the list before contact opens, and is listed after: no onset is where it comes into the list.
+    /// A branch that grows above the list before contact opens, and is listed after, has no onset there.
     #[test]
     fn what_grew_above_the_list_has_no_onset_where_contact_opens() {
         let mode = |growth: f64| ComplexMode {
@@ -245,9 +245,8 @@ mod tests {
             };
             let parts = [(before, Vec::new()), (after, vec![begins])].map(|(points, intervals)| {
                 let begin = points[0].friction_coefficient;
-                let sweep =
-                    FrictionSweep { points: points.into(), intervals, ..FrictionSweep::default() };
-                Part { begin, sweep }
+                let (points, none) = (points.into(), FrictionSweep::default());
+                Part { begin, sweep: FrictionSweep { points, intervals, ..none } }
             });
             let found = joined(parts.into(), &[0.1, 0.5]).intervals;
             assert_eq!((found.len(), found[0].lost_after), (1, lost_after), "{growth}");
