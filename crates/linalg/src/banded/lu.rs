@@ -40,6 +40,7 @@ impl BandedLu {
             row[stored..].fill(c64::ZERO);
         }
         let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.re.abs()).max(v.im.abs()));
+        let mut reach = 0; // The last column of the rows so far.
         for k in 0..n {
             let last = (k + h).min(n - 1);
             let size = |i: usize| {
@@ -53,7 +54,8 @@ impl BandedLu {
                 }
             }
             self.pivots[k] = pivot;
-            let columns = (k + 2 * h).min(n - 1) - k + 1;
+            reach = reach.max((pivot + h).min(n - 1));
+            let columns = reach - k + 1;
             let (top, below) = self.upper.split_at_mut((k + 1) * width);
             let top = &mut top[k * width + h..][..columns];
             if pivot != k {

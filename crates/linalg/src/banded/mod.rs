@@ -1,16 +1,17 @@
 //! Banded matrices: storage, inertia by `L D L^H`, complex LU with partial pivoting, several complex systems at a time.
 
 mod batch;
-mod compact;
 mod definite;
 mod lu;
 
 pub use batch::{BandedBatch, LANES, Lanes, Quality};
-pub use compact::CompactRows;
 pub use definite::BandedFactor;
 pub use lu::BandedLu;
 
-use faer::c64;
+use crate::dense::{column, column_mut};
+use faer::{Mat, MatRef, c64};
+use std::iter::Sum;
+use std::ops::Mul;
 
 /// `A x`, or `A^H x`, of a complex band with `h` off-diagonals on either side, laid out like [`BandedMatrix::values`].
 pub fn multiply_band(values: &[c64], h: usize, x: &[c64], adjoint: bool) -> Vec<c64> {
@@ -127,14 +128,37 @@ impl BandedMatrix {
         self.values.iter().all(|value| *value == 0.0)
     }
 
+    /// The entries of `A x`, one after the other.
+    fn images<T: Copy + Mul<f64, Output = T> + Sum>(&self, x: &[T]) -> impl Iterator<Item = T> {
+        (0..self.dimension).map(move |row| {
+            let columns = self.columns(row);
+            let values = &self.row(row)[columns.start + self.half_bandwidth - row..];
+            x[columns].iter().zip(values).map(|(x, value)| *x * *value).sum()
+        })
+    }
+
     /// `A x`.
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
-        (0..self.dimension)
-            .map(|row| {
-                self.columns(row)
-                    .map(|column| self.values[self.place(row, column)] * x[column])
-                    .sum()
-            })
-            .collect()
+        self.images(x).collect()
+    }
+
+    /// `A X`.
+    pub fn multiply_columns(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        let mut image = Mat::zeros(self.dimension, x.ncols());
+        for j in 0..x.ncols() {
+            let values = self.images(column(x, j));
+            column_mut(&mut image, j).iter_mut().zip(values).for_each(|(sum, own)| *sum = own);
+        }
+        image
+    }
+
+    /// `y^H A x`.
+    pub fn form(&self, y: &[c64], x: &[c64]) -> c64 {
+        self.images(x).zip(y).map(|(image, y)| y.conj() * image).sum()
+    }
+
+    /// Adds `factor A x` to a sum.
+    pub fn add_product(&self, factor: c64, x: &[c64], sum: &mut [c64]) {
+        self.images(x).zip(sum).for_each(|(image, sum)| *sum += factor * image);
     }
 }

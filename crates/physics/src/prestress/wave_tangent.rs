@@ -5,7 +5,7 @@ use super::{FrictionPolynomial, HarmonicTangent, RigidFriction, TabledGain, Tang
 use crate::contact::Row;
 use crate::fem::ModulusTable;
 use crate::fem::fold::{SectorMatrix, WaveDofs};
-use crate::linalg::banded::{BandedMatrix, CompactRows};
+use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use std::collections::BTreeSet;
 
@@ -119,11 +119,11 @@ impl WaveTangent {
     }
 
     /// The terms of regions and supports in the unknowns of harmonic `n`; those of power one come with `i mu`.
-    pub fn body_terms(&self, n: usize) -> Vec<Term<CompactRows>> {
+    pub fn body_terms(&self, n: usize) -> Vec<Term<BandedMatrix>> {
         let bodies = self.terms.all.iter().filter(|own| matches!(own.part, Part::Body(_)));
         let folded = bodies.map(|term| {
-            let own = self.dofs.fold(n, term.power, &term.matrix[term.power]); // Of all copies, each turned by 2 pi n / N.
-            term.with(CompactRows::new(&own))
+            // Of all copies, each turned by 2 pi n / N.
+            term.with(self.dofs.fold(n, term.power, &term.matrix[term.power]))
         });
         folded.collect()
     }

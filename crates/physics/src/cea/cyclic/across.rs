@@ -50,7 +50,7 @@ impl Across {
     pub fn held_modes(&self, pencil: &Pencil, kappa: f64) -> Modes {
         let stiffest = (0..self.dashpots.dimension())
             .filter(|&k| self.dashpots.get(k, k) > 0.0)
-            .map(|k| pencil.stiffness().get(k, k) / self.dashpots.get(k, k))
+            .map(|k| pencil.stiffness.get(k, k) / self.dashpots.get(k, k))
             .fold(0.0, f64::max); // s A_ii >= K_ii for every i.
         let held = pencil.stiffened(stiffest / NEAR, &self.dashpots); // K + s A, far stiffer than the body wherever A acts.
         held.map_or_else(Vec::new, |held| held.lowest(held.count_below(kappa)))

@@ -1,13 +1,14 @@
 //! Modes of one harmonic without friction.
 
 use crate::cea::cyclic::*;
-use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
+use crate::linalg::banded::{BandedFactor, BandedMatrix};
 use crate::linalg::{SymmetricPairs, SymmetricPencil, symmetric_pairs};
 
 /// The pencil of one harmonic at rest over the unknowns that may move, and its stiffness factorized.
 pub(super) struct Pencil {
-    pub mass: CompactRows,
-    bands: [BandedMatrix; 2],
+    pub mass: BandedMatrix,
+    /// `K` over the unknowns that may move, N/m.
+    pub stiffness: BandedMatrix,
     /// Below all eigenvalues: `K - shift M` is factorized. Zero but for a body that can move as a whole or gives way.
     shift: f64,
     pub factor: BandedFactor,
@@ -29,26 +30,20 @@ impl Pencil {
             is_held.then_some((shift, factor))
         });
         let (shift, factor) = found?;
-        Some(Self { mass: CompactRows::new(&mass), bands: [mass, stiffness], shift, factor })
-    }
-
-    /// `K` over the unknowns that may move, N/m.
-    pub fn stiffness(&self) -> &BandedMatrix {
-        &self.bands[1]
+        Some(Self { mass, stiffness, shift, factor })
     }
 
     /// The pencil with `factor A` as further stiffness; `None` where that is not positive definite.
     pub fn stiffened(&self, factor: f64, a: &BandedMatrix) -> Option<Self> {
-        let [mass, stiffness] = &self.bands;
-        let mut stiffness = stiffness.clone();
+        let mut stiffness = self.stiffness.clone();
         stiffness.add_scaled(factor, a); // K + factor A.
-        Self::new(mass.clone(), stiffness)
+        Self::new(self.mass.clone(), stiffness)
     }
 
     /// Number of modes below `kappa`.
     pub fn count_below(&self, kappa: f64) -> usize {
-        let [mass, stiffness] = &self.bands;
-        BandedFactor::new(stiffness, mass, kappa).negative_count() // Sylvester: as many negative pivots of K - kappa M.
+        // Sylvester: as many negative pivots of K - kappa M.
+        BandedFactor::new(&self.stiffness, &self.mass, kappa).negative_count()
     }
 
     /// The `count` modes of lowest frequency; fewer where the iteration does not settle.
@@ -67,7 +62,7 @@ impl Pencil {
 
 impl BlockOperator for Pencil {
     fn dimension(&self) -> usize {
-        self.bands[0].dimension()
+        self.mass.dimension()
     }
 
     fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
@@ -79,6 +74,6 @@ impl BlockOperator for Pencil {
 
 impl SymmetricPencil for Pencil {
     fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        self.mass.multiply_columns(&x.to_owned())
+        self.mass.multiply_columns(x)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::across::Across;
 use crate::cea::cyclic::*;
-use crate::linalg::banded::{BandedMatrix, CompactRows};
+use crate::linalg::banded::BandedMatrix;
 use crate::linalg::dense::{add, dot, product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::vectors;
@@ -45,7 +45,7 @@ impl Reduction {
         (contact, lossy): (&[usize], &[&BandedMatrix]),
         (modes, held): (Modes, Modes),
     ) -> Self {
-        let count = pencil.stiffness().dimension();
+        let count = pencil.stiffness.dimension();
         let unit = |unknown: usize| {
             let mut load = vec![0.0; count];
             load[unknown] = 1.0;
@@ -176,7 +176,7 @@ impl Reduction {
 
     /// `A V`.
     fn images(&self, matrix: &BandedMatrix) -> Mat<f64> {
-        CompactRows::new(matrix).multiply_columns(&self.basis)
+        matrix.multiply_columns(self.basis.as_ref())
     }
 
     /// `V^T A_p V`; at rest the matrices are symmetric.

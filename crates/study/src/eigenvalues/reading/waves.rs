@@ -9,7 +9,7 @@ use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
 use crate::*;
 use frictionsim_physics::cea::ModeWave;
-use frictionsim_physics::linalg::banded::CompactRows;
+use frictionsim_physics::linalg::banded::BandedMatrix;
 use frictionsim_physics::prestress::{Kind, Part, PartForms, Term};
 use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Reading, Source};
 
@@ -19,7 +19,7 @@ struct Apart<'a> {
     /// Regions, then supports.
     rows: Vec<Row<'a>>,
     /// Their matrices in the harmonics that are needed.
-    harmonics: BTreeMap<usize, Vec<Term<CompactRows>>>,
+    harmonics: BTreeMap<usize, Vec<Term<BandedMatrix>>>,
     /// Unknowns of each contact node, or ring of them.
     contact: Vec<Vec<usize>>,
 }
@@ -32,7 +32,7 @@ struct Waving<'a> {
     /// Eigenvalue of the wave `+n`.
     root: c64,
     /// Matrices of its harmonic, each with what friction multiplies it by.
-    terms: Vec<(&'a Term<CompactRows>, c64)>,
+    terms: Vec<(&'a Term<BandedMatrix>, c64)>,
     /// `M x` of all regions.
     momentum: Vec<c64>,
     /// `x^H M x`.
@@ -80,7 +80,7 @@ impl<'t> Apart<'t> {
     }
 
     fn waving<'a>(&'a self, point: &'a FrictionPoint) -> Vec<Waving<'a>> {
-        let power = |term: &Term<CompactRows>| match term.power {
+        let power = |term: &Term<BandedMatrix>| match term.power {
             0 => c64::ONE,
             _ => c64::new(0.0, point.friction_coefficient),
         };
