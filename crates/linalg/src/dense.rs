@@ -54,16 +54,11 @@ impl GrowingColumns {
 
     /// Appends columns.
     pub fn append(&mut self, new: MatRef<'_, f64>) {
-        let known = self.count();
+        let (rows, known) = (self.storage.nrows(), self.count());
         let total = known + new.ncols();
-        let rows = self.storage.nrows();
         if self.room < total {
-            // Memory that no column fills yet is not touched, and a copy touches all of it twice.
-            let room = 4 * total;
-            let mut roomy = Mat::with_capacity(rows, room);
-            roomy.resize_with(rows, known, |i, j| self.storage[(i, j)]);
-            self.storage = roomy;
-            self.room = room;
+            self.room = 4 * total; // Memory that no column fills yet is not touched.
+            self.storage.reserve(rows, self.room);
         }
         self.storage.resize_with(rows, total, |i, j| new[(i, j - known)]);
     }

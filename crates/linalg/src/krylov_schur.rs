@@ -1,8 +1,8 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
 use super::dense::{
-    GrowingColumns, Orthonormalized, add_product, join_columns, join_rows, orthonormalize,
-    pick_columns, product, transpose_product,
+    GrowingColumns, Orthonormalized, add_product, join_rows, orthonormalize, pick_columns, product,
+    transpose_product,
 };
 use super::dense_eigen::{RealEigen, real_eigen, real_eigen_above};
 use super::gram::orthonormal_columns;
@@ -86,7 +86,7 @@ pub fn krylov_schur(
         if process.applications < next_look && !process.is_exhausted() && !is_spent {
             continue;
         }
-        let eigen = real_eigen(process.projection.as_ref(), false, settings.wanted)?;
+        let eigen = real_eigen(process.projections()[0], false, settings.wanted)?;
         let chosen = leading(&eigen.values, is_wanted, settings.wanted, 1.0); // Ritz values are those of H.
         let residuals = process.residuals(&eigen, &chosen);
         let is_converged = residuals.iter().all(|residual| *residual <= settings.tolerance);
@@ -178,10 +178,8 @@ struct BlockArnoldi<'a> {
     basis: GrowingColumns,
     /// `Q'`, the next block.
     next: Mat<f64>,
-    /// `H`.
-    projection: Mat<f64>,
-    /// `B`.
-    coupling: Mat<f64>,
+    /// `H` above `B`.
+    images: Mat<f64>,
     applications: usize,
 }
 
@@ -190,14 +188,8 @@ impl<'a> BlockArnoldi<'a> {
         let n = operator.dimension();
         let empty = Mat::<f64>::zeros(n, 0);
         let next = orthonormalize(empty.as_ref(), start, 1e-10).columns;
-        Self {
-            operator,
-            coupling: Mat::zeros(next.ncols(), 0),
-            next,
-            basis: GrowingColumns::new(n),
-            projection: Mat::zeros(0, 0),
-            applications: 0,
-        }
+        let images = Mat::zeros(next.ncols(), 0);
+        Self { operator, basis: GrowingColumns::new(n), next, images, applications: 0 }
     }
 
     fn dimension(&self) -> usize {
@@ -206,6 +198,11 @@ impl<'a> BlockArnoldi<'a> {
 
     fn width(&self) -> usize {
         self.next.ncols()
+    }
+
+    /// `H` and `B`.
+    fn projections(&self) -> [MatRef<'_, f64>; 2] {
+        self.images.as_ref().split_at_row(self.dimension()).into()
     }
 
     /// Whether the basis spans an invariant subspace: nothing is left to add.
@@ -219,17 +216,23 @@ impl<'a> BlockArnoldi<'a> {
         self.applications += self.width();
         let old = self.dimension();
         self.basis.append(self.next.as_ref());
-        let result = orthonormalize_block(self.basis.columns(), image);
-        let known = join_rows(self.projection.as_ref(), self.coupling.as_ref()); // The old coupling becomes the last rows of H.
-        self.projection = join_columns(known.as_ref(), result.against.as_ref());
-        let uncoupled = Mat::<f64>::zeros(result.columns.ncols(), old);
-        self.coupling = join_columns(uncoupled.as_ref(), result.within.as_ref()); // Only the last block goes beyond the basis.
-        self.next = result.columns;
+        let Orthonormalized { columns, against, within } =
+            orthonormalize_block(self.basis.columns(), image);
+        // The old coupling becomes the last rows of H; only the last block goes beyond the basis.
+        let known = self.dimension();
+        self.images.resize_with(known + columns.ncols(), known, |i, j| {
+            match (i < known, j < old) {
+                (true, _) => against[(i, j - old)],
+                (false, true) => 0.0,
+                (false, false) => within[(i - known, j - old)],
+            }
+        });
+        self.next = columns;
     }
 
     /// `|B y| / |theta|`, `|y| = 1`, of the Ritz pairs `chosen`.
     fn residuals(&self, eigen: &RealEigen, chosen: &[usize]) -> Vec<f64> {
-        let overflow = product(self.coupling.as_ref(), eigen.right.as_ref());
+        let overflow = product(self.projections()[1], eigen.right.as_ref());
         let residual = |&i: &usize| {
             let pair = pair_columns(&eigen.values, i);
             let norm = |m: &Mat<f64>| length(m, pair.clone());
@@ -249,17 +252,16 @@ impl<'a> BlockArnoldi<'a> {
         let ritz = pick_columns(&eigen.right, &kept);
         let empty = Mat::<f64>::zeros(self.dimension(), 0);
         let vectors = orthonormalize(empty.as_ref(), ritz, 1e-12).columns;
+        let [projection, coupling] = self.projections().map(|own| product(own, vectors.as_ref()));
+        let projection = transpose_product(vectors.as_ref(), projection.as_ref());
+        self.images = join_rows(projection.as_ref(), coupling.as_ref()); // V^T H V above B V.
         self.basis.combine(vectors.as_ref());
-        let image = product(self.projection.as_ref(), vectors.as_ref());
-        self.projection = product(vectors.transpose(), image.as_ref()); // V^T H V.
-        self.coupling = product(self.coupling.as_ref(), vectors.as_ref()); // B V.
     }
 
     /// The `chosen` Ritz pairs, one application of the operator further.
     fn finish(self, eigen: &RealEigen, chosen: &[usize], residuals: Vec<f64>) -> RealPairs {
         let ritz = pick_columns(&eigen.right, chosen);
-        let within = product(self.projection.as_ref(), ritz.as_ref());
-        let beyond = product(self.coupling.as_ref(), ritz.as_ref());
+        let [within, beyond] = self.projections().map(|own| product(own, ritz.as_ref()));
         let mut vectors = product(self.basis.columns(), within.as_ref());
         add_product(vectors.as_mut(), 1.0, self.next.as_ref(), beyond.as_ref()); // Q H y + Q' B y.
         normalized(eigen, chosen, vectors, residuals)
@@ -306,14 +308,9 @@ fn normalized(
     residuals: Vec<f64>,
 ) -> RealPairs {
     let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
-    let mut i = 0;
-    while i < values.len() {
-        let pair = pair_columns(&values, i);
-        let length = length(&vectors, pair.clone());
-        i = pair.end() + 1;
-        for j in pair {
-            vectors.col_mut(j).iter_mut().for_each(|v| *v /= length);
-        }
+    let lengths = (0..values.len()).map(|i| length(&vectors, pair_columns(&values, i)));
+    for (j, length) in lengths.collect::<Vec<_>>().into_iter().enumerate() {
+        vectors.col_mut(j).iter_mut().for_each(|v| *v /= length);
     }
     RealPairs { values, vectors, residuals }
 }
