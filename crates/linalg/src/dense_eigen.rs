@@ -212,12 +212,10 @@ fn conjugate(values: &[c64], vectors: &mut Mat<f64>) {
 /// The back substitution of the decomposition loses up to all digits in the vectors of repeated complex eigenvalues. Inverse iteration
 /// restores them; projections against the sound vectors of equal eigenvalues keep them independent.
 fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut Mat<f64>) {
-    let first_columns: Vec<usize> = (0..values.len())
-        .filter(|&j| values[j].im >= 0.0 && values[j].norm() >= smallest)
-        .collect();
     let images = product(matrix, vectors.as_ref());
-    let mut sound: Vec<usize> = Vec::new();
-    let mut unsound: Vec<usize> = Vec::new();
+    let first_columns =
+        (0..values.len()).filter(|&j| values[j].im >= 0.0 && values[j].norm() >= smallest);
+    let (mut sound, mut unsound) = (Vec::new(), Vec::new());
     for j in first_columns {
         let vector = complex_column(values, vectors, j);
         let image = complex_column(values, &images, j);
@@ -225,16 +223,13 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
         // |A x - lambda x|, and what x has beyond sound vectors of the same lambda.
         let error = pairs.map(|(a, x)| (a - values[j] * x).norm_sqr()).sum::<f64>().sqrt();
         let mut beyond = vector.clone();
-        orthogonalize(&mut beyond, &orthonormal(alike(values, vectors, &sound, j)));
+        orthogonalize(&mut beyond, &alike(values, vectors, &sound, j));
         let is_independent = length(&beyond) > INDEPENDENT * length(&vector);
-        if is_independent && error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector) {
-            sound.push(j);
-        } else {
-            unsound.push(j);
-        }
+        let is_sound = error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector);
+        if is_independent && is_sound { &mut sound } else { &mut unsound }.push(j);
     }
     for j in unsound {
-        let known = orthonormal(alike(values, vectors, &sound, j)); // Each new vector is one more that the next ones keep off.
+        let known = alike(values, vectors, &sound, j); // Each new vector is one more that the next ones keep off.
         let vector = inverse_iteration(matrix, values[j], &known, j as u64);
         for (i, v) in vector.iter().enumerate() {
             vectors[(i, j)] = v.re;
@@ -246,11 +241,17 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
     }
 }
 
-/// The vectors of those `sound` eigenvalues that equal eigenvalue `j`.
+/// An orthonormal basis of the vectors of those `sound` eigenvalues that equal eigenvalue `j`.
 fn alike(values: &[c64], vectors: &Mat<f64>, sound: &[usize], j: usize) -> Vec<Vec<c64>> {
     let is_equal = |k: usize| (values[k] - values[j]).norm() < 1e-8 * values[j].norm();
-    let equal = sound.iter().filter(|&&k| is_equal(k));
-    equal.map(|&k| complex_column(values, vectors, k)).collect()
+    let mut basis: Vec<Vec<c64>> = Vec::new();
+    for &k in sound.iter().filter(|&&k| is_equal(k)) {
+        let mut vector = complex_column(values, vectors, k);
+        orthogonalize(&mut vector, &basis);
+        normalize(&mut vector);
+        basis.push(vector);
+    }
+    basis
 }
 
 /// An eigenvector of `value` orthogonal to `known`, which span others of the same eigenvalue.
@@ -288,16 +289,6 @@ fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
     }
     let imaginary = column(vectors.as_ref(), j + 1); // A pair has p + i q in two columns.
     real.iter().zip(imaginary).map(|(&p, &q)| c64::new(p, q)).collect()
-}
-
-fn orthonormal(vectors: Vec<Vec<c64>>) -> Vec<Vec<c64>> {
-    let mut basis: Vec<Vec<c64>> = Vec::new();
-    for mut vector in vectors {
-        orthogonalize(&mut vector, &basis);
-        normalize(&mut vector);
-        basis.push(vector);
-    }
-    basis
 }
 
 #[cfg(test)]

@@ -3,12 +3,14 @@
 use super::LinalgError;
 use super::dissection::nested_dissection;
 use faer::Side;
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
-use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
+use faer::sparse::utils::{transpose, transpose_scratch};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use std::sync::{Arc, OnceLock};
 
 /// Entries of factors from which on nested dissection is tried. At ten million it saves what it takes, at two hundred a third of them.
@@ -94,6 +96,13 @@ impl SparsityPattern {
     pub fn column(&self, column: usize) -> impl Iterator<Item = (usize, usize)> {
         let range = self.column_pointers()[column]..self.column_pointers()[column + 1];
         range.map(|position| (position, self.row_indices()[position]))
+    }
+
+    /// All nonzeros: `(index among the nonzeros, row, column)`.
+    #[inline]
+    pub fn nonzeros(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        let columns = 0..self.dimension();
+        columns.flat_map(|j| self.column(j).map(move |(position, i)| (position, i, j)))
     }
 
     /// The nonzeros of one row: `(index among the nonzeros, column)`.
@@ -183,24 +192,17 @@ impl SparsityPattern {
 
 /// Sorts the nonzeros of a column-wise pattern by rows: start of each row, index of each nonzero, its column.
 fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<u32>, Vec<u32>) {
-    let (dimension, count) = (symbolic.ncols(), symbolic.row_idx().len());
-    assert!(u32::try_from(count).is_ok(), "{count} nonzeros are too many");
-    let mut pointers = vec![0; dimension + 1];
-    for &row in symbolic.row_idx() {
-        pointers[row + 1] += 1; // How many nonzeros each row has, then where it begins.
-    }
-    for row in 0..dimension {
-        pointers[row + 1] += pointers[row];
-    }
-    let mut next = pointers.clone(); // Columns in turn: each row gets its columns ascending.
-    let (mut positions, mut columns) = (vec![0; count], vec![0; count]);
-    for column in 0..dimension {
-        let range = symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1];
-        for position in range {
-            let slot = &mut next[symbolic.row_idx()[position]];
-            (positions[*slot], columns[*slot]) = (position as u32, column as u32);
-            *slot += 1;
-        }
-    }
-    (pointers, positions, columns)
+    let (n, count) = (symbolic.ncols(), symbolic.row_idx().len());
+    let most = u32::try_from(count).unwrap_or_else(|_| panic!("{count} nonzeros are too many"));
+    let indices: Vec<u32> = (0..most).collect();
+    let (mut pointers, mut columns, mut positions) =
+        (vec![0; n + 1], vec![0; count], vec![0; count]);
+    transpose(
+        &mut positions,
+        &mut pointers,
+        &mut columns,
+        SparseColMatRef::new(symbolic.as_ref(), &indices),
+        MemStack::new(&mut MemBuffer::new(transpose_scratch::<usize>(n, n))),
+    );
+    (pointers, positions, columns.into_iter().map(|column| column as u32).collect())
 }

@@ -1,5 +1,6 @@
 //! Sparse matrices that are polynomials in one parameter, on one shared sparsity pattern.
 
+use super::dense::add;
 use super::pattern::SparsityPattern;
 use std::sync::Arc;
 
@@ -174,16 +175,14 @@ impl MatrixPolynomial {
         let origin = self.origin();
         if origin > 0.0 && terms.len() > 1 {
             let linear = terms.remove(1);
-            let pairs = terms[0].iter_mut().zip(&linear);
-            pairs.for_each(|(constant, value)| *constant += origin * value); // min(mu, a) is a there.
+            add(&mut terms[0], origin, &linear); // min(mu, a) is a there.
         }
         // Taylor's shift by repeated Horner steps: mu - origin = (mu - a) + shift.
         let shift = a - origin;
         for first in 0..terms.len() {
             for p in (first..terms.len() - 1).rev() {
                 let (lower, upper) = terms.split_at_mut(p + 1);
-                let pairs = lower[p].iter_mut().zip(&upper[0]);
-                pairs.for_each(|(value, above)| *value += shift * above); // P_p += shift P_{p+1}.
+                add(&mut lower[p], shift, &upper[0]); // P_p += shift P_{p+1}.
             }
         }
         terms
@@ -212,26 +211,22 @@ impl MatrixPolynomial {
     ///
     /// Friction touches the contact rows only: on the shared pattern most of such a coefficient is structural zeros.
     pub fn compact_coefficient(&self, power: usize) -> (Self, Vec<usize>) {
-        let (values, count) = (&self.coefficients[power], self.dimension());
-        let nonzeros = |column: usize| {
-            let all = self.pattern.column(column);
-            all.filter(|(position, _)| values[*position] != 0.0)
-        };
+        let values = &self.coefficients[power];
+        let nonzeros = || self.pattern.nonzeros().filter(|own| values[own.0] != 0.0);
 
         // The unknowns, and their places among themselves.
-        let mut touched = vec![false; count];
-        for column in 0..count {
-            nonzeros(column).for_each(|(_, row)| (touched[row], touched[column]) = (true, true));
+        let mut place = vec![None; self.dimension()];
+        nonzeros().for_each(|(_, row, column)| (place[row], place[column]) = (Some(0), Some(0)));
+        let mut unknowns = Vec::new();
+        for (unknown, own) in place.iter_mut().enumerate().filter(|(_, own)| own.is_some()) {
+            *own = Some(unknowns.len());
+            unknowns.push(unknown);
         }
-        let unknowns: Vec<usize> = (0..count).filter(|&i| touched[i]).collect();
-        let mut place = vec![0; count];
-        unknowns.iter().enumerate().for_each(|(slot, &i)| place[i] = slot);
 
         // Rows and columns keep their order.
-        let columns = || unknowns.iter().flat_map(|&j| nonzeros(j).map(move |own| (own, j)));
-        let positions = columns().map(|((_, row), column)| (place[row], place[column]));
+        let positions = nonzeros().filter_map(|(_, row, column)| place[row].zip(place[column]));
         let pattern = SparsityPattern::from_positions(unknowns.len(), positions);
-        let kept = columns().map(|((position, _), _)| values[position]).collect();
+        let kept = nonzeros().map(|(position, ..)| values[position]).collect();
         (Self::from_coefficients(&Arc::new(pattern), vec![kept]), unknowns)
     }
 
@@ -281,11 +276,8 @@ impl MatrixPolynomial {
         let count = a.coefficients.len().max(b.coefficients.len());
         let mut coefficients = vec![vec![0.0; a.pattern.nonzero_count()]; count];
         for (factor, polynomial) in [(alpha, a), (beta, b)] {
-            for (sum, values) in coefficients.iter_mut().zip(&polynomial.coefficients) {
-                for (s, &v) in sum.iter_mut().zip(values) {
-                    *s += factor * v;
-                }
-            }
+            let pairs = coefficients.iter_mut().zip(&polynomial.coefficients);
+            pairs.for_each(|(sum, values)| add(sum, factor, values));
         }
         Self::from_coefficients(&a.pattern, coefficients).frozen_below(a.origin().max(b.origin()))
     }

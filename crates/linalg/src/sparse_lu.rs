@@ -26,7 +26,6 @@ use faer::linalg::triangular_solve::{
 use faer::traits::math_utils::abs;
 use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par, c64};
 use front::{Eliminated, Remainder, Scalar};
-use order::Order;
 use std::sync::Arc;
 
 /// Right-hand sides solved together: enough to stream the factors once for many of them, few enough that a block of them stays in cache.
@@ -60,7 +59,7 @@ impl LuAnalysis {
     /// # Errors
     /// If the analysis runs out of memory or index range.
     pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
-        let fronts = Arc::new(Order::of(pattern)?.fronts(pattern));
+        let fronts = Arc::new(order::fronts(pattern)?);
         Ok(Self { pattern: Arc::clone(pattern), fronts })
     }
 
@@ -289,11 +288,9 @@ macro_rules! sparse_lu {
 
             /// `b - A x`.
             fn residual(&self, x: &[$scalar], right_side: &[$scalar]) -> Vec<$scalar> {
-                let (pattern, mut r) = (&self.analysis.pattern, right_side.to_vec());
-                for (column, x) in x.iter().enumerate() {
-                    for (position, row) in pattern.column(column) {
-                        r[row] -= self.values[position] * x;
-                    }
+                let mut r = right_side.to_vec();
+                for (position, row, column) in self.analysis.pattern.nonzeros() {
+                    r[row] -= self.values[position] * x[column];
                 }
                 r
             }

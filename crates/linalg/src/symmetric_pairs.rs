@@ -14,7 +14,7 @@ pub trait SymmetricPencil: BlockOperator {
 
 /// Pairs `A^-1 M x = theta x` by falling `theta`, with `x^T M x = 1`.
 pub struct SymmetricPairs {
-    /// How many of them keep the tolerance: all, unless the iteration was spent.
+    /// How many of them keep the tolerance: all, unless the iteration was spent or a decomposition of its forms failed.
     pub converged: usize,
     /// `theta`.
     pub values: Vec<f64>,
@@ -29,7 +29,7 @@ pub struct SymmetricPairs {
 /// out orthonormal. Small `theta` are as accurate, relative to themselves, as round-off relative to the largest allows.
 ///
 /// # Errors
-/// If a dense decomposition does not converge.
+/// As [`krylov_schur`].
 pub fn symmetric_pairs(
     pencil: &dyn SymmetricPencil,
     count: usize,
@@ -48,7 +48,7 @@ pub fn symmetric_pairs(
     // Orthonormal columns, plainly first and then in the inner product of the mass.
     let mut basis = complement(Mat::zeros(n, 0).as_ref(), found.vectors, 0.0);
     let momenta = pencil.mass_times(basis.as_ref());
-    let (squares, mut turn) = decomposed(transpose_product(basis.as_ref(), momenta.as_ref()))?;
+    let (squares, mut turn) = symmetric_eigen(&transpose_product(basis.as_ref(), momenta.as_ref()));
     // V^T M V = T S T^T: V T S^-1/2 is orthonormal in M.
     for (j, square) in squares.iter().enumerate() {
         turn.col_mut(j).iter_mut().for_each(|v| *v /= square.sqrt());
@@ -59,20 +59,12 @@ pub fn symmetric_pairs(
     let momenta = pencil.mass_times(basis.as_ref());
     let images = pencil.apply(basis.as_ref());
     // V^T M A^-1 M V y = theta y.
-    let (rising, ritz) = decomposed(transpose_product(momenta.as_ref(), images.as_ref()))?;
+    let (rising, ritz) = symmetric_eigen(&transpose_product(momenta.as_ref(), images.as_ref()));
     let falling: Vec<usize> = (0..rising.len()).rev().take(wanted).collect();
     let ritz = pick_columns(&ritz, &falling);
     let values: Vec<f64> = falling.iter().map(|&j| rising[j]).collect();
     let converged = converged.min(values.len());
     Ok(SymmetricPairs { converged, values, vectors: product(basis.as_ref(), ritz.as_ref()) })
-}
-
-fn decomposed(form: Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), LinalgError> {
-    let (values, vectors) = symmetric_eigen(&form);
-    match values.len() == form.ncols() {
-        true => Ok((values, vectors)),
-        false => Err(LinalgError::dense_eigen(form.ncols())),
-    }
 }
 
 #[cfg(test)]

@@ -10,13 +10,6 @@ pub fn product(a: &[c64], x: &[c64]) -> c64 {
     product_sum(a, x, |a, x| a * x) // Nothing is conjugated.
 }
 
-/// Adds a vector to another.
-pub fn add(sum: &mut [c64], term: &[c64]) {
-    for (s, t) in sum.iter_mut().zip(term) {
-        *s += t;
-    }
-}
-
 /// Largest modulus.
 pub fn largest(x: &[c64]) -> f64 {
     x.iter().fold(0.0, |m, v| v.norm().max(m))

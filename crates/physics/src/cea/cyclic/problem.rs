@@ -4,7 +4,8 @@ use crate::cea::counted::STANDSTILL;
 use crate::cea::cyclic::*;
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
-use crate::linalg::vectors::{add, dot, largest};
+use crate::linalg::dense::add;
+use crate::linalg::vectors::{dot, largest};
 use crate::prestress::{FrictionPolynomial, MovingHarmonic, evaluate};
 
 /// `T(theta) x = 0` for one harmonic.
@@ -64,7 +65,7 @@ impl HarmonicProblem {
             // Of `mu P`: `P + mu P'`.
             let sum =
                 damping_rate.get_or_insert_with(|| vec![c64::ZERO; now.matrices.damping.len()]);
-            add(sum, &evaluate(dashpots, z));
+            add(sum, c64::ONE, &evaluate(dashpots, z));
             for (sum, slope) in sum.iter_mut().zip(rate(dashpots, z).iter().flatten()) {
                 *sum += slope * mu;
             }
