@@ -28,9 +28,9 @@ impl Line {
         Self { xs, ys, stroke, marker: None, arrows: 0, name: None, label: None, is_whole: false }
     }
 
-    /// The same as the `index`-th of several series, with its colour and dashes.
+    /// The same as the `index`-th of several series, with its colour; neighbours differ in their dashes, too.
     pub fn nth(mut self, index: usize) -> Self {
-        let (colour, _, dash) = look(index);
+        let (colour, dash) = (look(index).0, look(SERIES.len() * index).2);
         self.stroke = Stroke { colour: colour.into(), ..self.stroke }.dashes(dash);
         self
     }
@@ -292,7 +292,23 @@ impl Marker {
 /// 35th.
 pub fn look(index: usize) -> (&'static str, Marker, &'static [f64]) {
     const DASHES: [&[f64]; 3] = [&[], &[4.0, 1.6], &[1.2, 1.2]];
-    let colour = SERIES[index % SERIES.len()];
     let dashes = DASHES[index / SERIES.len() % DASHES.len()];
-    (colour, Marker::ALL[index % Marker::ALL.len()], dashes)
+    (SERIES[index % SERIES.len()], Marker::ALL[index % Marker::ALL.len()], dashes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whoever sees no colours tells neighbours, and any two of the first three, by their dashes.
+    #[test]
+    fn several_series_are_told_by_more_than_colour() {
+        let strokes: Vec<Stroke> = (0..21).map(|at| Line::through([]).nth(at).stroke).collect();
+        for (at, one) in strokes.iter().enumerate() {
+            assert_ne!(one.dash, strokes[(at + 1) % 21].dash, "{at}");
+            assert_ne!(one.dash, strokes[(at + 2) % 21].dash, "{at}");
+            let is_same = |other: &&Stroke| (other.dash, other.colour) == (one.dash, one.colour);
+            assert_eq!(strokes.iter().filter(is_same).count(), 1, "{at}");
+        }
+    }
 }
