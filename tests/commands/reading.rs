@@ -319,3 +319,19 @@ fn gyroscopic_forces_have_their_own_row_in_the_budget() {
     }
     assert!(largest > 1e-3, "rotation matters: {largest}");
 }
+
+/// Friction that falls with speed feeds both waves of a pair: the one gains far more than the other loses, and the page said that it
+/// gains what the other loses. Constant friction couples them.
+#[test]
+fn friction_couples_a_pair_where_one_wave_loses_what_the_other_gains() {
+    let sections = "[cea]\nfriction_coefficients = [0.0, 0.1, 0.2, 0.3]\nmodes = 12\n";
+    let case = disc_of([36, 6], sections);
+    let page = |law: &str| {
+        let run = Run::of("cea", "case.toml").beside(&[("case.toml", &case)]).out("out");
+        run.set(&[law]).done().text("report.html")
+    };
+    let couples = "friction couples the two waves of the pair";
+    has(&page("contact.friction_coefficient=0.3"), &[couples]);
+    let falling = "contact.static_friction_ratio=3.0 ; contact.decay_speed=0.5 ; contact.rotation_speed_rpm=100.0";
+    has(&page(falling), &["!friction couples"]);
+}

@@ -49,20 +49,12 @@ pub(super) fn kilohertz(mode: &ModeName) -> String {
 
 /// How a wave travels, behind its name; nothing of one that stands.
 pub(super) fn travels(direction: i8) -> &'static str {
-    match direction {
-        1.. => ", with the rotor",
-        0 => "",
-        ..0 => ", against the rotor",
-    }
+    [", against the rotor", "", ", with the rotor"][(direction.signum() + 1) as usize]
 }
 
 /// The same as an arrow.
 pub(crate) fn arrow(direction: i8) -> &'static str {
-    match direction {
-        1.. => " ↺",
-        0 => "",
-        ..0 => " ↻",
-    }
+    [" ↻", "", " ↺"][(direction.signum() + 1) as usize]
 }
 
 /// Harmonic, branch and direction: what identifies a mode over friction.
@@ -124,35 +116,25 @@ pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&Unstable
 
 /// Largest distance of two frequencies that couple, relative to their mean.
 const NEAR: f64 = 0.05;
+/// Share of what a wave gains that the other one of its pair loses where friction couples them: below, something feeds both.
+const LOST: f64 = 0.5;
 
-/// A sentence for each branch that turns unstable whose partner is known.
+/// A sentence for each branch that turns unstable whose partner is known, at the first friction value at which it is
+/// unstable: its real part has risen since the lowest friction, while that of the partner fell.
 ///
-/// On a body of revolution the two waves of a pair couple, the one with and the one against the rotor. On any other
-/// body the partner is the mode nearest in frequency, within 5 %, at the first friction value at which the branch is
-/// unstable, whose real part has fallen since the lowest friction while that of the branch rose.
+/// On a body of revolution the partner is the other wave of the pair, and loses most of what the branch gains: friction
+/// that falls with speed feeds both. On any other body it is the mode nearest in frequency, within 5 %.
 pub(super) fn sentences(report: &CeaReport<'_>) -> Vec<String> {
     let intervals = &report.solution.sweep.intervals;
-    let sentence = |branch: Branch| match report.has_harmonics {
-        true => of_pair(branch),
-        false => of_modes(report, intervals.iter().find(|own| branch_of(own) == branch)?),
-    };
-    distinct(intervals.iter().map(branch_of)).into_iter().filter_map(sentence).collect()
+    let first = |branch: Branch| intervals.iter().find(|own| branch_of(own) == branch);
+    let branches = distinct(intervals.iter().map(branch_of)).into_iter();
+    branches.filter_map(|branch| sentence(report, first(branch)?)).collect()
 }
 
-fn of_pair((harmonic, branch, direction): Branch) -> Option<String> {
-    let (own, other) = (direction_name(direction), direction_name(-direction));
-    (harmonic > 0 && direction != 0).then(|| {
-        format!(
-            "n = {harmonic}, branch {branch}: friction couples the two waves of the pair; the one {own} the rotor \
-            gains what the one {other} it loses."
-        )
-    })
-}
-
-fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<String> {
-    let branch = branch_of(interval);
+fn sentence(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<String> {
+    let branch @ (harmonic, rank, direction) = branch_of(interval);
     let all = branches(&report.solution.sweep);
-    let is_here = |mode: &&ComplexMode| mode.branch == interval.branch;
+    let is_here = |mode: &&ComplexMode| interval.is_of(mode);
     let is_behind = |point: &&FrictionPoint| {
         point.friction_coefficient >= interval.critical_friction
             && point.modes.iter().any(|mode| is_here(&mode) && mode.is_unstable())
@@ -165,20 +147,29 @@ fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
     };
     let rises = |mode: &ComplexMode| Some(mode.real_hz() - start(mode)?);
     let distance = |mode: &ComplexMode| (mode.frequency_hz() / own.frequency_hz() - 1.0).abs();
-    let others = point.modes.iter().filter(|mode| mode.branch != own.branch);
-    let near = others.filter(|mode| distance(mode) < NEAR);
-    let falling = near.filter(|mode| rises(mode).is_some_and(|rise| rise < 0.0));
-    let partner = falling.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    rises(own).filter(|rise| *rise > 0.0)?;
-    let name = |mode: &ComplexMode| {
-        let frequency = fixed(mode.frequency_hz(), 1);
-        format!("{} ({frequency} Hz)", report.branch_name(branch_of_mode(mode)))
+    let gained = rises(own).filter(|rise| *rise > 0.0)?;
+    let is_pair = report.has_harmonics;
+    let is_near = |mode: &&ComplexMode| match is_pair {
+        true => direction != 0 && branch_of_mode(mode) == (harmonic, rank, -direction),
+        false => mode.branch != own.branch && distance(mode) < NEAR,
     };
+    let least = if is_pair { LOST * gained } else { 0.0 };
+    let falling = point.modes.iter().filter(is_near);
+    let falling = falling.filter(|mode| rises(mode).is_some_and(|rise| -rise > least));
+    let partner = falling.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    if is_pair {
+        let [own, other] = [direction, -direction].map(direction_name);
+        return Some(format!(
+            "n = {harmonic}, branch {rank}: friction couples the two waves of the pair; the one {own} the rotor gains \
+             what the one {other} it loses."
+        ));
+    }
     Some(format!(
-        "{}: at friction {} it lies beside {}, which loses what it gains: these two couple.",
+        "{}: at friction {} it lies beside {} ({} Hz), which loses what it gains: these two couple.",
         report.branch_name(branch),
         point.friction_coefficient,
-        name(partner)
+        report.branch_name(branch_of_mode(partner)),
+        fixed(partner.frequency_hz(), 1)
     ))
 }
 

@@ -144,9 +144,5 @@ impl<'a> CeaReport<'a> {
 
 /// Direction in words.
 fn direction_name(direction: i8) -> &'static str {
-    match direction {
-        1.. => "with",
-        0 => "standing",
-        ..0 => "against",
-    }
+    ["against", "standing", "with"][(direction.signum() + 1) as usize]
 }
