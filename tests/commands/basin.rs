@@ -40,3 +40,14 @@ fn a_mesh_of_few_modes_has_a_basin() {
     let run = Run::of("basin", "case.toml").beside(&[("case.toml", case)]);
     has(&run.end().said(), &["!cea.modes"]);
 }
+
+/// A wave of five nodal diameters decays on this disc: seeded fifty times as large it has lost before the other one saturates.
+/// That was told as a boundary at a ratio of 1e-12.
+#[test]
+fn a_wave_that_does_not_grow_is_no_rival() {
+    for harmonics in ["[2, 5]", "[5, 1]"] {
+        let set = format!("basin.harmonics={harmonics}");
+        let said = ["waves of 5 nodal diameters", "harmonics that grow: {1, 2"];
+        run(&["basin", "case.toml", "--no-figures"]).set(&[&set]).end().code(1).warns(&said);
+    }
+}

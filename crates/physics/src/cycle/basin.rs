@@ -13,6 +13,7 @@ use crate::transient::{
     TransientModel, TransientSettings, stable_step_limit,
 };
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// Velocity of the larger seed, in units of what saturates a wave, the slip speed or the interference times its frequency: a
@@ -120,7 +121,7 @@ impl DiscModel {
     /// changes the winner more than once, one of the changes is found.
     ///
     /// # Errors
-    /// [`CycleError::Stepping`] where a transient cannot start, [`CycleError::NotFound`] where neither wave grows.
+    /// [`CycleError::Stepping`] where a transient cannot start, [`CycleError::NotFound`] where one of the waves does not grow.
     pub fn basin(
         &self,
         point: &OperatingPoint,
@@ -141,20 +142,20 @@ impl DiscModel {
         request.boundary(request.harmonics, |ratio| contest.run(ratio))
     }
 
-    /// Period of the slower of the two waves that grow, s.
+    /// Period of the slower of the two waves, s, which both grow: another one wins from no small start.
     fn slowest_period(&self, at: &OperatingPoint, asked: &BasinRequest) -> Result<f64, CycleError> {
         let friction = at.contact.friction_coefficient;
         let onsets = self.onsets(friction, crate::cea::ModeLimit::Lowest(super::MODES))?;
+        let growing: BTreeSet<usize> = onsets.iter().map(|onset| onset.harmonic).collect();
+        if let Some(still) = asked.harmonics.iter().find(|own| !growing.contains(own)) {
+            return Err(CycleError::NotFound(format!(
+                "steady sliding is stable against waves of {still} nodal diameters at \
+                 contact.friction_coefficient = {friction}: they win from no small start. Raise \
+                 it, or name others in basin.harmonics (harmonics that grow: {growing:?})"
+            )));
+        }
         let own = onsets.iter().filter(|onset| asked.harmonics.contains(&onset.harmonic));
-        let slowest = own.map(|onset| onset.frequency).reduce(f64::min).ok_or_else(|| {
-            let [one, other] = asked.harmonics;
-            CycleError::NotFound(format!(
-                "steady sliding is stable against waves of {one} and {other} nodal diameters at \
-                 contact.friction_coefficient = {friction}: neither can win. Raise it, or name \
-                 others in basin.harmonics"
-            ))
-        })?;
-        Ok(TAU / slowest)
+        Ok(TAU / own.map(|onset| onset.frequency).fold(f64::INFINITY, f64::min))
     }
 }
 
