@@ -84,6 +84,7 @@ fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<us
 #[cfg(test)]
 mod tests {
     use super::*;
+    use frictionsim_physics::cycle::periodic::{ACCEPTED, find_from, shortest};
     use std::fmt::Write;
 
     /// A block of 35 unknowns under friction that falls with speed; three times the frequency of mode 1 is near that of
@@ -121,6 +122,27 @@ mod tests {
         let case = Case::parse("block", text.as_bytes(), &overrides);
         std::fs::remove_file(path).unwrap();
         case.unwrap()
+    }
+
+    /// Whole multiples of a period are none of their own, though the motion repeats itself over them.
+    #[test]
+    fn a_cycle_is_told_over_its_shortest_period() {
+        let case = block(&[]);
+        let stepped = SteppedMesh::of(&case).unwrap();
+        let steady = Steady::of(&case, &stepped).unwrap();
+        let mode = steady.mode(steady.growing()[0]);
+        let body = stepped.body(&case);
+        let operator = body.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        let mut map = PeriodMap::new(body, operator.as_ref(), mode.eigenvalue.im, None).unwrap();
+        let own = find_from(&mut map, &mode).unwrap();
+        for count in 2..=5 {
+            let mut told = own.clone();
+            (told.state.period, told.steps) = (count as f64 * own.state.period, count * own.steps);
+            map.step_in(told.steps);
+            let found = shortest(&mut map, told);
+            assert!((found.state.period / own.state.period - 1.0).abs() < 1e-6, "{count}");
+            assert!(found.residual <= ACCEPTED && map.steps() == found.steps, "{count}");
+        }
     }
 
     /// The third harmonic of the cycle of mode 1 has the shape of mode 2, whose amplitude stays at 12 % and goes up and

@@ -143,11 +143,10 @@ impl MeshStepping<'_> {
         let main = harmonics.max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
         let least = 1e-4 * cycle.state.point.contact.interference;
         let main = main.filter(|(_, own)| size(own) > least);
+        let turns = main.as_ref().map(|(_, own)| turned_by_halves(own).abs() / TAU);
         let found = Confirmation {
             periods,
-            main_frequency_hz: main
-                .as_ref()
-                .map(|(_, own)| turned_by_halves(own).abs() / TAU / duration), // Turns over time.
+            main_frequency_hz: turns.map(|turns| turns / duration),
             main_harmonic: main.map(|(harmonic, _)| harmonic),
             status: counts.fractions(),
             external_power: powers.external / counted as f64,

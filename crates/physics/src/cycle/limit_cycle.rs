@@ -31,10 +31,8 @@ impl CyclePowers {
 
     /// Every power times `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            contact: self.contact.scaled(factor),
-            material_damping: factor * self.material_damping,
-        }
+        let material_damping = factor * self.material_damping;
+        Self { contact: self.contact.scaled(factor), material_damping }
     }
 }
 

@@ -143,11 +143,8 @@ impl Wave {
     /// Which point of the grid lies from its first as `to` from `from`: all are alike, a response depends on how far apart they are.
     pub fn lag(&self, from: usize, to: usize) -> usize {
         let [from, to] = [from, to].map(|point| self.places(point));
-        let [first, second] = [0, 1].map(|phase| match to[phase] >= from[phase] {
-            true => to[phase] - from[phase],
-            false => to[phase] + self.sides[phase] - from[phase],
-        });
-        second * self.sides[0] + first
+        let way = |at: usize| (to[at] + self.sides[at] - from[at]) % self.sides[at];
+        way(1) * self.sides[0] + way(0)
     }
 
     /// Place of a harmonic in a spectrum of all.

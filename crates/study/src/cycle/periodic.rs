@@ -9,7 +9,7 @@ use crate::*;
 use frictionsim_case::{Cycle, OnsetChoice, TimeStep};
 use frictionsim_physics::cycle::periodic::{
     BranchRequest, Found, MotionRequest, PeriodMap, PeriodicBranch, PeriodicMotion, Point,
-    REMAINDER, Sound, find_from,
+    REMAINDER, Sound, find_from, shortest,
 };
 use frictionsim_physics::cycle::{Confirmation, FloquetMultipliers};
 use frictionsim_physics::fem::operator::StiffnessOperator;
@@ -266,9 +266,8 @@ impl<'a> PeriodicStudy<'a> {
     ) -> Result<(PeriodMap<'b>, Found), CycleError> {
         let branch = branch.ok_or(CycleError::Died(0))?;
         let kept = std::mem::take(&mut branch.kept);
-        let largest = kept
-            .into_iter()
-            .max_by(|a, b| a.found.image.amplitude.total_cmp(&b.found.image.amplitude));
+        let amplitude = |own: &Point| own.found.image.amplitude;
+        let largest = kept.into_iter().max_by(|a, b| amplitude(a).total_cmp(&amplitude(b)));
         let Some(Point { found, .. }) = largest else {
             let parameter = branch.parameter;
             let value = |value: f64| parameter.in_key_units(value);
@@ -282,6 +281,7 @@ impl<'a> PeriodicStudy<'a> {
         };
         let mut map = self.map(self.body(), operator, mode)?;
         map.step_in(found.steps);
+        let found = shortest(&mut map, found);
         Ok((map, found))
     }
 

@@ -93,11 +93,8 @@ impl Follower<'_, '_, '_> {
             let Some(next) = self.at_amplitude(&three, amplitude) else { break };
             let gain = (place(&next)[0] - places[1][0]) * sense;
             let is_above = amplitude > places[1][1];
-            if gain > 0.0 {
-                three[if is_above { 0 } else { 2 }] = std::mem::replace(&mut three[1], next); // The old extreme is the end behind.
-            } else {
-                three[if is_above { 2 } else { 0 }] = next;
-            }
+            let own = if gain > 0.0 { std::mem::replace(&mut three[1], next) } else { next };
+            three[if (gain > 0.0) == is_above { 0 } else { 2 }] = own; // An old extreme is the end behind.
             let widths = [0, 2].map(|i| (place(&three[i])[0] - place(&three[1])[0]).abs());
             if widths[0].max(widths[1]) < FOLDED || gain.abs() < 0.01 * FOLDED {
                 break;

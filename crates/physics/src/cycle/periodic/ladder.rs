@@ -1,7 +1,7 @@
 //! The cycle that a growing mode leads to: where the search starts on it, and one start after the other.
 
 use super::map::{PeriodMap, PeriodicState};
-use super::search::{Found, find, find_settled};
+use super::search::{ACCEPTED, Found, find, find_settled};
 use super::two_frequencies::transient_from;
 use crate::cycle::CycleError;
 use crate::fem::operator::scatter;
@@ -122,8 +122,8 @@ fn off(mode: &GrowingMode<'_>, found: &Found) -> f64 {
     (TAU / (found.state.period * mode.eigenvalue.im) - 1.0).abs()
 }
 
-/// The same motion over the shortest period after which it repeats itself.
-fn shortest(map: &mut PeriodMap<'_>, found: Found) -> Found {
+/// The same motion over the shortest period after which it repeats itself, where it can in steps of that, else in its own.
+pub fn shortest(map: &mut PeriodMap<'_>, found: Found) -> Found {
     let steps = map.steps();
     for count in (2..=REPETITIONS).rev() {
         let mut state = found.state.clone();
@@ -135,6 +135,13 @@ fn shortest(map: &mut PeriodMap<'_>, found: Found) -> Found {
             && (own.state.period / state.period - 1.0).abs() < REPEATED
         {
             return Found { periods: found.periods + own.periods, ..own };
+        }
+        // The search may end elsewhere, or nowhere; in the same steps the part is the motion itself.
+        map.step_in((steps / count).max(1));
+        let image = map.image(&state);
+        let residual = image.relative_residual();
+        if steps.is_multiple_of(count) && residual <= ACCEPTED {
+            return Found { state, image, residual, steps: steps / count, ..found };
         }
     }
     map.step_in(steps);

@@ -38,7 +38,7 @@ mod two_frequencies;
 pub use branch::{BranchMotion, BranchRequest, PeriodicBranch};
 pub use contest::ModeContest;
 pub use corrector::Point;
-pub use ladder::{ASTRAY, GrowingMode, balanced_start, find_from};
+pub use ladder::{ASTRAY, GrowingMode, balanced_start, find_from, shortest};
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
 pub use motion::{
     MotionFrame, MotionHarmonic, MotionRequest, PeriodicMotion, REFERENCE_VELOCITY, REMAINDER,
