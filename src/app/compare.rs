@@ -6,7 +6,7 @@ use crate::case::hash_of;
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, SharedQuantity, document, file, overlaid, print, shared,
 };
-use crate::results::{Page, read_manifest, read_record, read_summary, write_table};
+use crate::results::{Extent, Page, read_manifest, read_record, read_summary, write_table};
 
 /// Set finished runs side by side: numbers and curves
 ///
@@ -38,9 +38,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         let what = format!("these runs ({commands}) share no number: compare runs of one command");
         return Err(Failure::usage(what));
     }
-    let places = ["/extent", "/base_state/extent"];
-    let summaries = runs.iter().map(|run| &run.summary);
-    let mut extents = summaries.filter_map(|own| places.iter().find_map(|at| own.pointer(at)));
+    let mut extents = runs.iter().filter_map(|run| Extent::of_summary(&run.summary));
     if extents.next().is_some_and(|first| extents.any(|other| other != first)) {
         let what = "forces, torques, powers and energies of some runs are for each metre of \
                     thickness, of others of the whole body";

@@ -279,3 +279,20 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
     has(&text, &["7432.13 ; 9433.12 ; 1.250e-6 ; 12.5 ; 12.50 ; 620.7 ; 7432.20"]);
     has(&text, &["n = 1 and 2 together", "its branch stops at one end where one wave vanishes"]);
 }
+
+/// The case of the block gives no thickness: its powers are for each metre, in words and tables, and of the whole with one.
+#[test]
+fn powers_of_a_plane_body_without_thickness_are_for_each_metre() {
+    let folder = folder();
+    let mesh = coarse_block(folder.path());
+    let own = "contact.friction_coefficient=0.7 ; \
+               cycle={ confirmation_periods = 2, stability = \"none\" }";
+    let told = |set: &str, head: &str, words: &[&str]| {
+        let run = Run::of("cycle", shipped("sliding-block.toml")).out("out");
+        let answer = run.set(&[&mesh, own, set]).done().says(&[head]).says(words);
+        has(&answer.text("report.html"), &[head]);
+        assert!(answer.header("cycle.csv").contains("external_w,stick_w"));
+    };
+    told("contact.speed=1.5", "normal contact (W/m)", &["!(W)", " W/m\n"]);
+    told("geometry.thickness=0.01", "normal contact (W)", &["!W/m"]);
+}

@@ -28,6 +28,7 @@ pub(super) const ENDINGS: &[(&str, &str)] = &[
     ("_m_per_s", "m/s"),
     ("_n_s_per_m", "N s/m"),
     ("_n_per_m", "N/m"),
+    ("_w_per_m", "W/m"),
     ("_per_s", "1/s"),
     ("_hz", "Hz"),
     ("_rpm", "rpm"),

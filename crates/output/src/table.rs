@@ -4,7 +4,6 @@ use super::csv;
 use super::number::{Format, unit_of};
 use serde::{Deserialize, Serialize};
 use std::borrow::Borrow;
-use std::fmt::Write as _;
 use std::io;
 
 /// What stands in one place of a table.
@@ -199,10 +198,8 @@ impl Head {
     /// Label and unit.
     fn label(&self) -> String {
         let Some((_, label, format)) = &self.look else { return self.key.clone() };
-        let unit = match format {
-            Format::Percent(_) => "%",
-            _ => unit_of(&self.key).1,
-        };
+        let is_share = matches!(format, Format::Percent(_));
+        let unit = if is_share { "%" } else { unit_of(&self.key).1 };
         if unit.is_empty() { label.clone() } else { format!("{label} ({unit})") }
     }
 }
@@ -257,6 +254,14 @@ impl Table {
         self
     }
 
+    /// The same with powers for each metre of thickness; of a table for people, as names in files stay what they are.
+    #[must_use]
+    pub fn for_each_metre(mut self) -> Self {
+        let powers = self.heads.iter_mut().filter(|head| head.key.ends_with("_w"));
+        powers.for_each(|head| head.key += "_per_m");
+        self
+    }
+
     /// The same with one column that people see where it has something, and files do not have.
     #[must_use]
     pub fn shown_column<C: Into<Cell>>(
@@ -300,9 +305,7 @@ impl Table {
     }
 
     fn row(&mut self, at: usize) -> &mut Vec<Cell> {
-        if self.rows.len() <= at {
-            self.rows.resize(at + 1, Vec::new());
-        }
+        self.rows.resize(self.rows.len().max(at + 1), Vec::new());
         &mut self.rows[at]
     }
 
@@ -351,20 +354,16 @@ impl Table {
             cells.chain([labels[at].chars().count()]).max().unwrap_or(0)
         };
         let is_number = |cell: &str| ["", "-"].contains(&cell) || cell.parse::<f64>().is_ok();
-        let looks =
-            (0..labels.len()).map(|at| (width(at), rows.iter().all(|row| is_number(&row[at]))));
-        let looks: Vec<(usize, bool)> = looks.collect();
+        let are_numbers = |at: usize| rows.iter().all(|row| is_number(&row[at]));
+        let looks: Vec<_> = (0..labels.len()).map(|at| (width(at), are_numbers(at))).collect();
         let mut out = String::new();
         for row in std::iter::once(&labels).chain(&rows) {
             let mut line = String::new();
             for (cell, &(width, is_number)) in row.iter().zip(&looks) {
-                let _ = match is_number {
-                    true => write!(line, "  {cell:>width$}"),
-                    false => write!(line, "  {cell:<width$}"),
-                };
+                let right = if is_number { width } else { 0 };
+                line += &format!("  {:<width$}", format!("{cell:>right$}"));
             }
-            out.push_str(line.trim_end());
-            out.push('\n');
+            out.extend([line.trim_end(), "\n"]);
         }
         out
     }

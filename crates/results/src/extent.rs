@@ -16,12 +16,22 @@ pub enum Extent {
 }
 
 impl Extent {
-    /// The unit of a quantity that grows with the thickness: "W", or "W/m" for each metre of it.
+    /// The unit of a quantity: for each metre "W/m" for "W", but "Hz" for "Hz", which does not grow with the thickness.
     pub fn unit(self, unit: &str) -> String {
-        match self {
-            Self::WholeBody => unit.to_owned(),
-            Self::MetreOfThickness => format!("{unit}/m"),
-        }
+        let grows = ["W", "J", "N", "N m", "N/m", "N s/m", "kg"].contains(&unit);
+        let is_each = grows && self == Self::MetreOfThickness;
+        if is_each { format!("{unit}/m") } else { unit.to_owned() }
+    }
+
+    /// A table for people, in these units.
+    pub fn table(self, table: Table) -> Table {
+        if self == Self::MetreOfThickness { table.for_each_metre() } else { table }
+    }
+
+    /// That of a summary, where it says one.
+    pub fn of_summary(summary: &Value) -> Option<Self> {
+        let own = summary.get("extent").or_else(|| summary.pointer("/base_state/extent"));
+        Self::deserialize(own?).ok()
     }
 
     /// What is to be said beside numbers for each metre; nothing of those of a whole body.

@@ -167,7 +167,8 @@ fn table_of(
     quantities: &[&SharedQuantity],
 ) -> Table {
     let words = |label: &'static str| Some((label, Format::Plain));
-    let units = quantities.iter().map(|own| unit(&own.path).to_owned());
+    let extent = runs.iter().find_map(|run| Extent::of_summary(&run.summary)).unwrap_or_default();
+    let units = quantities.iter().map(|own| extent.unit(unit(&own.path)));
     let mut table = Table::new(file, caption)
         .column("quantity", words("quantity"), quantities.iter().map(|own| own.path.clone()))
         .column("unit", words("unit"), units);
@@ -330,6 +331,22 @@ mod tests {
         assert_eq!(paths("receptance"), ["peak_frequency_hz"]);
         assert_eq!(paths("mobility"), ["peak.mobility", "peak_frequency_hz"]);
         assert_eq!(["peak.mobility", "peak_frequency_hz"].map(unit), ["m/s/N", "Hz"]);
+    }
+
+    #[test]
+    fn powers_for_each_metre_of_thickness_say_so() {
+        let of = |name, power: f64| {
+            let frequency = 9e3 + power;
+            let powers = json!({ "external": power });
+            let extent = "metre-of-thickness";
+            run(
+                name,
+                json!({ "extent": extent, "power_w": powers, "main_frequency_hz": frequency }),
+            )
+        };
+        let runs = [of("a", 1.0), of("b", 2.0)];
+        let text = print(&runs, &shared(&runs));
+        assert!(text.contains(" W/m ") && text.contains(" Hz "), "{text}");
     }
 
     #[test]

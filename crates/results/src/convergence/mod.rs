@@ -280,7 +280,7 @@ fn group_of(quantity: &Quantity) -> &str {
     match (quantity.name.split_once(", "), quantity.unit.as_str()) {
         (Some((property, _)), _) => property,
         (None, "Hz") => "frequency",
-        (None, "W") => "power",
+        (None, "W" | "W/m") => "power",
         (None, _) => "fractions and shares",
     }
 }

@@ -254,6 +254,8 @@ impl CycleSummary {
             .columns(NAMES, found())
             .group("", "", POWERS, found().map(power))
             .columns(BALANCE, found());
+        let pairs_of_waves =
+            Table::new("", "Motions of two frequencies").columns(SHOWN, &self.two_waves);
         let file = Table::new("cycle.csv", "")
             .columns(NAMES, cycles)
             .columns(MOTION, cycles)
@@ -267,8 +269,8 @@ impl CycleSummary {
             true => results,
             false => results.facts(cycles.iter().map(SoughtCycle::fact)).tables([
                 motions,
-                powers,
-                Table::new("", "Motions of two frequencies").columns(SHOWN, &self.two_waves),
+                self.extent.table(powers),
+                self.extent.table(pairs_of_waves),
             ]),
         };
         let names = ["status", "contact", "history", "orbit", "harmonics", "velocity", "shear"];
@@ -277,7 +279,7 @@ impl CycleSummary {
             .section(results)
             .section(
                 Section::new("Limit cycles")
-                    .text(cycles.iter().flat_map(SoughtCycle::sentences))
+                    .text(cycles.iter().flat_map(|own| own.sentences(self.extent)))
                     .figures(names),
             )
             .section(

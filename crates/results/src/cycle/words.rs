@@ -4,7 +4,7 @@ use super::branch::{BranchSummary, StabilityChangeSummary};
 use super::record::{ModeSummary, OnsetSummary};
 use super::summary::{CycleSummary, Origin, SoughtCycle};
 use super::verdicts::{ConfirmationSummary, StabilitySummary};
-use crate::plural;
+use crate::{Extent, plural};
 use frictionsim_output::significant;
 use frictionsim_physics::cycle::periodic::ASTRAY;
 
@@ -112,7 +112,7 @@ impl CycleSummary {
         let coarse = self.cycles.iter().filter_map(SoughtCycle::coarse_sentence);
         let doubted = self.cycles.iter().filter(|own| own.agrees() == Some(false) && !own.leaves());
         let said = doubted.filter_map(|own| {
-            Some(format!("{}: {}; {remedy}", own.name, own.confirmation_sentence()?))
+            Some(format!("{}: {}; {remedy}", own.name, own.confirmation_sentence(self.extent)?))
         });
         coarse.chain(said).collect()
     }
@@ -137,15 +137,11 @@ impl SoughtCycle {
     }
 
     /// How it was found, what a transient and small perturbations say of it.
-    pub(super) fn sentences(&self) -> Vec<String> {
-        let own = [
-            self.motion_sentence(),
-            self.astray_sentence(),
-            self.sound_sentence(),
-            self.confirmation_sentence(),
-            self.stability_sentence(),
-        ];
-        own.into_iter().flatten().map(|text| format!("{}: {text}", self.name)).collect()
+    pub(super) fn sentences(&self, extent: Extent) -> Vec<String> {
+        let found = [self.motion_sentence(), self.astray_sentence(), self.sound_sentence()];
+        let known = [self.confirmation_sentence(extent), self.stability_sentence()];
+        let all = found.into_iter().chain(known).flatten();
+        all.map(|text| format!("{}: {text}", self.name)).collect()
     }
 
     fn motion_sentence(&self) -> Option<String> {
@@ -188,7 +184,7 @@ impl SoughtCycle {
     }
 
     /// What a transient says of the cycle; nothing where none was asked for.
-    fn confirmation_sentence(&self) -> Option<String> {
+    fn confirmation_sentence(&self, extent: Extent) -> Option<String> {
         let run = match self.confirmation.as_ref()? {
             ConfirmationSummary::Ran(run) => run,
             ConfirmationSummary::Failed { error, .. } => {
@@ -208,10 +204,11 @@ impl SoughtCycle {
         let [stick, slip, open] =
             [run.status.stick, run.status.slip, run.status.open].map(|own| own.unwrap_or(0.0));
         Some(format!(
-            "{verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, power {:.2}",
+            "{verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, power {:.2} {}",
             run.periods,
             run.main_frequency_hz.unwrap_or(0.0),
             run.power_w.external.unwrap_or(0.0),
+            extent.unit("W"),
         ))
     }
 

@@ -161,7 +161,7 @@ fn series(case: &Case, study: &Levels, done: Vec<Done>) -> Result<Vec<Series>, S
             let steps: Vec<String> = steps.iter().map(|step| format!("{step:.4e}")).collect();
             let is_finer = study.refinement == Refinement::Mesh;
             let notes = is_finer.then(|| format!("time steps {} s", steps.join(", ")));
-            let quantities = quantities::of_transients(&sizes, &summaries);
+            let quantities = quantities::of_transients(&sizes, &summaries, extent_of(case));
             vec![of("transient", quantities, notes.into_iter().collect())]
         }
         Analysis::Basin => vec![of("basin", Vec::new(), Vec::new())],
@@ -182,7 +182,7 @@ fn series(case: &Case, study: &Levels, done: Vec<Done>) -> Result<Vec<Series>, S
                         ));
                     }
                 }
-                let quantities = quantities::of_limit_cycles(&sizes, &cycles);
+                let quantities = quantities::of_limit_cycles(&sizes, &cycles, extent_of(case));
                 of(&format!("cycle-{}", family.tag()), quantities, notes)
             })
             .collect(),

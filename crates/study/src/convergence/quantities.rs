@@ -3,7 +3,7 @@
 use crate::*;
 use frictionsim_physics::mesh::coincident_nodes;
 use frictionsim_results::cea::{Branch, branch_of, branch_of_mode, mode_name};
-use frictionsim_results::convergence::Quantity;
+use frictionsim_results::{Extent, convergence::Quantity};
 
 /// The name of a mode, which its branch is known by on every mesh.
 fn name_of((harmonic, branch, direction): Branch, has_harmonics: bool) -> String {
@@ -161,18 +161,18 @@ fn listed<'a>(summary: &'a Value, name: &str) -> impl Iterator<Item = &'a Value>
 }
 
 /// Frequency, harmonic, status, powers and growth rates of transients, from their summaries.
-pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+pub fn of_transients(sizes: &[f64], summaries: &[Value], extent: Extent) -> Vec<Quantity> {
     let harmonics = summaries.iter().map(|summary| number(summary, "/main_harmonic"));
     let harmonic = Quantity::count("main harmonic".to_owned(), harmonics.collect());
-    let mut quantities = of_limit_cycles(sizes, summaries);
+    let mut quantities = of_limit_cycles(sizes, summaries, extent);
     quantities.insert(1, harmonic);
     quantities.extend(growth_rates(sizes, summaries));
     quantities
 }
 
 /// Frequency, status and powers of limit cycles.
-pub fn of_limit_cycles(sizes: &[f64], cycles: &[Value]) -> Vec<Quantity> {
-    let each = |name: &str, unit: &'static str, path: &str| {
+pub fn of_limit_cycles(sizes: &[f64], cycles: &[Value], extent: Extent) -> Vec<Quantity> {
+    let each = |name: &str, unit: &str, path: &str| {
         let values = cycles.iter().map(|cycle| number(cycle, path));
         Quantity::new(name.to_owned(), unit, sizes, values.collect())
     };
@@ -187,7 +187,7 @@ pub fn of_limit_cycles(sizes: &[f64], cycles: &[Value]) -> Vec<Quantity> {
         each("stick fraction", "", "/status/stick"),
         each("slip fraction", "", "/status/slip"),
         each("open fraction", "", "/status/open"),
-        each("external power", "W", "/power_w/external"),
+        each("external power", &extent.unit("W"), "/power_w/external"),
         share("stick", "/power_w/stick"),
         share("slide", "/power_w/slide"),
         share("contact dissipation", "/power_w/contact_dissipated"),

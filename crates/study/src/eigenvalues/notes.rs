@@ -157,8 +157,8 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let which = ["mode near critical damping is", "modes near critical damping are"];
     let damped = listed(damped, which).map(|(which, places)| {
         format!(
-            "{which} not followed beyond it ({places}). Friction across the sliding acts there as a dashpot mu p / V, \
-             which grows without bound as the sliding slows down"
+            "{which} not followed beyond it ({places}). What damps them is a dashpot of the case, or friction across \
+             the sliding. That is a dashpot mu p / V, which grows without bound as the sliding slows down"
         )
     });
     let lost = listed(lost, ["branch changes", "branches change"]).map(|(which, places)| {
