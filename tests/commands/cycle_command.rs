@@ -286,10 +286,11 @@ fn powers_of_a_plane_body_without_thickness_are_for_each_metre() {
     let folder = folder();
     let mesh = coarse_block(folder.path());
     let own = "contact.friction_coefficient=0.7 ; \
-               cycle={ confirmation_periods = 2, stability = \"none\" }";
+               cycle={ confirmation_periods = 20, stability = \"none\" }";
     let told = |set: &str, head: &str, words: &[&str]| {
-        let run = Run::of("cycle", shipped("sliding-block.toml")).out("out");
-        let answer = run.set(&[&mesh, own, set]).done().says(&[head]).says(words);
+        let run = Run::new(&["cycle", &shipped("sliding-block.toml")]).out(set);
+        let answer =
+            run.within(folder.path()).set(&[&mesh, own, set]).done().says(&[head]).says(words);
         has(&answer.text("report.html"), &[head]);
         assert!(answer.header("cycle.csv").contains("external_w,stick_w"));
     };

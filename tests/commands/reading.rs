@@ -327,7 +327,7 @@ fn friction_couples_a_pair_where_one_wave_loses_what_the_other_gains() {
     let sections = "[cea]\nfriction_coefficients = [0.0, 0.1, 0.2, 0.3]\nmodes = 12\n";
     let case = disc_of([36, 6], sections);
     let page = |law: &str| {
-        let run = Run::of("cea", "case.toml").beside(&[("case.toml", &case)]).out("out");
+        let run = Run::new(&["cea", "case.toml"]).beside(&[("case.toml", &case)]).out("out");
         run.set(&[law]).done().text("report.html")
     };
     let couples = "friction couples the two waves of the pair";

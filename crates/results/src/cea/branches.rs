@@ -116,7 +116,7 @@ pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&Unstable
 
 /// Largest distance of two frequencies that couple, relative to their mean.
 const NEAR: f64 = 0.05;
-/// Share of what a wave gains that the other one of its pair loses where friction couples them: below, something feeds both.
+/// Share of what a wave gains that the other of its pair loses where friction couples them; with less both are fed.
 const LOST: f64 = 0.5;
 
 /// A sentence for each branch that turns unstable whose partner is known, at the first friction value at which it is
