@@ -92,11 +92,6 @@ fn lost(friction: f64) -> String {
 }
 
 impl CeaError {
-    /// No friction coefficient at all.
-    pub(super) fn no_friction() -> Self {
-        Self::Asked("cea.friction_coefficients is empty: give at least one value".to_owned())
-    }
-
     /// More modes asked for than there are.
     pub(super) fn too_many_modes(asked: usize, total: usize) -> Self {
         Self::Asked(format!(

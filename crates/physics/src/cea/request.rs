@@ -1,6 +1,7 @@
 //! Request of a sweep: friction coefficients, modes, shapes.
 
 use super::CeaError;
+use super::sparse::FrictionlessModes;
 
 /// Which modes are wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,7 @@ impl ModeLimit {
 }
 
 /// What a sweep is to find.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 pub struct SweepRequest<'a> {
     /// Friction coefficients, in any order; repeated values are computed once.
     pub friction_coefficients: &'a [f64],
@@ -44,6 +45,8 @@ pub struct SweepRequest<'a> {
     /// Whether it goes on from a sweep that ends at its first friction coefficient: branches begin there, not without friction, and
     /// their names are for the caller to give.
     pub is_continued: bool,
+    /// Modes without friction of nearly the same body, over the same unknowns, which serve for its own.
+    pub rest: Option<&'a FrictionlessModes>,
 }
 
 impl<'a> SweepRequest<'a> {
@@ -56,6 +59,7 @@ impl<'a> SweepRequest<'a> {
             lefts_at: None,
             count_modes: false,
             is_continued: false,
+            rest: None,
         }
     }
 
@@ -63,7 +67,8 @@ impl<'a> SweepRequest<'a> {
     pub(super) fn rising_grid(&self) -> Result<Vec<f64>, CeaError> {
         let values = self.friction_coefficients;
         if values.is_empty() {
-            return Err(CeaError::no_friction());
+            let problem = "cea.friction_coefficients is empty: give at least one value";
+            return Err(CeaError::Asked(problem.to_owned()));
         }
         if let Some(&value) = values.iter().find(|v| !(v.is_finite() && **v >= 0.0)) {
             return Err(CeaError::Asked(format!(

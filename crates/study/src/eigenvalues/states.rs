@@ -5,7 +5,7 @@ mod joining;
 use super::Solution;
 use super::whole::notes;
 use crate::*;
-use frictionsim_physics::cea::sparse::{self, CyclicTangent};
+use frictionsim_physics::cea::sparse::{self, CyclicTangent, FrictionlessModes};
 use frictionsim_physics::prestress::{PressedRange, PressedState};
 use joining::{Part, Undecided, joined, jumps, label, undecided};
 
@@ -18,12 +18,16 @@ struct Common<'a> {
     dofs: usize,
     /// What keeps a mesh of equal sectors from being solved by waves around it.
     asymmetry: Option<String>,
+    /// Modes without friction of the first state that goes on from another one: they serve for those of all after it.
+    rest: Option<FrictionlessModes>,
     /// Sweeps so far, by the pressed points of their state and their friction coefficients.
     solved: Vec<(Vec<bool>, Vec<f64>, FrictionSweep)>,
 }
 
 /// Share of the largest contact force from which on it is said that base states leave that out.
 const COARSE: f64 = 1e-7;
+/// Share of a gap that the next state leaves on either side at least.
+const LEAST_SHARE: f64 = 1e-3;
 /// Rounds in which base states are solved where stability changes between two of them.
 const MOST_ROUNDS: usize = 30;
 
@@ -43,7 +47,7 @@ impl WholeMesh {
         // The base states of each round beyond those of the model, and their friction coefficients.
         let (mut finer, mut unsolved): (Vec<(PressedRange, Vec<f64>)>, bool) = (Vec::new(), false);
         let (dofs, asymmetry, solved) = (0, None, Vec::new());
-        let mut common = Common { case, request, progress, dofs, asymmetry, solved };
+        let mut common = Common { case, request, progress, dofs, asymmetry, rest: None, solved };
         for round in 0.. {
             let first = (&self.range, request.friction_coefficients);
             let (range, frictions) = finer.last().map_or(first, |(range, at)| (range, &at[..]));
@@ -103,10 +107,13 @@ impl WholeMesh {
             // solved where it begins to hold, too: another one may be found that ends there.
             let unknown = k.checked_sub(1).map_or(first..first, |k| range.unknown_between(k));
             let is_new = !common.request.friction_coefficients.iter().any(|mu| values.contains(mu));
+            let end = range.changes.get(k);
+            // One between them, over all of its own range.
+            values.retain(|_| !is_new || end.is_none());
             if is_new || unknown.is_empty() {
                 values.insert(0, unknown.end);
             }
-            values.extend(range.changes.get(k));
+            values.extend(end);
             let known = common.solved.iter().find(|(set, at, _)| {
                 *set == state.is_pressed && values.iter().all(|mu| place_of(at, *mu).is_some())
             });
@@ -154,7 +161,11 @@ impl WholeMesh {
                 }
             }
         }
-        sparse::sweep(&tangent, request, &watch)
+        if request.is_continued && common.rest.is_none() {
+            common.rest = Some(FrictionlessModes::compute(&tangent, request.limit)?);
+        }
+        let rest = common.rest.as_ref().filter(|_| request.is_continued);
+        sparse::sweep(&tangent, &SweepRequest { rest, ..*request }, &watch)
     }
 }
 
@@ -166,12 +177,12 @@ fn place_of(solved: &[f64], friction: f64) -> Option<f64> {
     solved.iter().copied().find(|own| (own - friction).abs() <= SAME_CHANGE)
 }
 
-/// Where in a gap the next state is solved: where a branch may change its stability, every other time in the middle.
+/// Where in a gap the next state is solved: where a branch may change its stability, every fourth time in the middle.
 fn place_in(Undecided { gap, guess }: &Undecided, round: usize) -> f64 {
-    let width = gap.end - gap.start;
-    let is_inside = |mu: &f64| (mu - gap.start).min(gap.end - mu) > 0.01 * width;
-    let guess = guess.filter(|mu| round.is_multiple_of(2) && is_inside(mu));
-    guess.unwrap_or(0.5 * (gap.start + gap.end))
+    let least = LEAST_SHARE * (gap.end - gap.start);
+    let guess = guess.filter(|_| round % 4 != 3);
+    let middle = 0.5 * (gap.start + gap.end);
+    guess.map_or(middle, |mu| mu.clamp(gap.start + least, gap.end - least))
 }
 
 /// What there is to say of contact points that open or close within a sweep.

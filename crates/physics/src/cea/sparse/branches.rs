@@ -60,11 +60,6 @@ fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
     decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
 }
 
-/// Whether the growth of a mode may change its sign within a step of friction, either way.
-fn may_turn(mode: &ReducedMode, step: f64) -> bool {
-    mode.eigenvalue.re.abs() < mode.derivative.re.abs() * step
-}
-
 /// Whether a mode lies above what is wanted at the next friction coefficient, by more than it may be wrong there: of the lowest ones
 /// others may have come from below.
 fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
@@ -244,7 +239,8 @@ fn match_modes(
             let (j, beyond) = second[i].clone()?;
             let mode = &modes[i];
             let changes = mode.is_growing() != own.is_growing() || !passed.is_empty(); // A sign that changes and changes back is kept.
-            if changes || may_turn(mode, middle - from.0) {
+            let reach = mode.derivative.re.abs() * (middle - from.0); // Its growth may change its sign within it, either way.
+            if changes || mode.eigenvalue.re.abs() < reach {
                 passed.push(ModeAt { mu: middle, mode: mode.clone() });
             }
             passed.extend(beyond);

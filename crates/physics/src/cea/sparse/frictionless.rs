@@ -37,23 +37,32 @@ impl FrictionlessModes {
         Self::found_by(tangent, &Inertia::new(tangent)?, limit)
     }
 
-    /// [`Self::compute`], or what an earlier run of the same sweep found.
+    /// [`Self::compute`], or what is known of the same or nearly the same body, with factors of its own: from an earlier run or given.
     pub(super) fn compute_watched(
         tangent: &SlidingTangent,
-        limit: ModeLimit,
+        request: &SweepRequest<'_>,
         watch: &dyn SweepWatch,
     ) -> Result<Self, CeaError> {
         let inertia = Inertia::new(tangent)?;
         let unknowns = tangent.stiffness.dimension();
-        if let Some((columns, frequencies, centre)) =
-            watch.recalled::<(Vec<_>, Vec<f64>, Centre)>("frictionless")
-            && let Some(vectors) = from_columns(&columns, unknowns)
-        {
+        let recalled = || {
+            let (columns, frequencies, centre) =
+                watch.recalled::<(Vec<_>, Vec<f64>, Centre)>("frictionless")?;
+            Some((from_columns(&columns, unknowns)?, frequencies, centre))
+        };
+        let given = request.rest.filter(|own| own.vectors.nrows() == unknowns);
+        let given = given.map(|own| (own.vectors.clone(), own.frequencies.clone(), own.centre));
+        if let Some((vectors, frequencies, centre)) = given.or_else(recalled) {
             let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
             let rigid = vectors.ncols() - frequencies.len();
-            return Ok(Self { vectors, rigid, frequencies, centre, factors });
+            let below = frequency_amid(&frequencies)
+                .map_or(0, |amid| rigid + frequencies.partition_point(|own| *own < amid));
+            // Of the same body as many lie below the factors' shift.
+            if factors.negative_count() == below {
+                return Ok(Self { vectors, rigid, frequencies, centre, factors });
+            }
         }
-        let found = Self::found_by(tangent, &inertia, limit)?;
+        let found = Self::found_by(tangent, &inertia, request.limit)?;
         let vectors = columns_of(&found.vectors);
         watch.keep_value("frictionless", &(vectors, &found.frequencies, found.centre));
         Ok(found)

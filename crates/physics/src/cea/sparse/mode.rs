@@ -5,9 +5,6 @@ use crate::cea::sparse::*;
 use crate::linalg::dense::orthogonalize;
 use crate::linalg::vectors::product;
 
-/// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
-const HARDLY_OSCILLATING: f64 = 0.95;
-
 /// One mode of the projected problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReducedMode {
@@ -87,11 +84,6 @@ impl ReducedMode {
     /// Whether it may cease to oscillate at the next friction coefficient.
     pub fn is_nearly_critical(&self) -> bool {
         self.damping_factor() > NEARLY_CRITICAL
-    }
-
-    /// Whether it may as well be one of the motions that do not oscillate.
-    pub fn hardly_oscillates(&self) -> bool {
-        self.damping_factor().abs() > HARDLY_OSCILLATING
     }
 
     /// Whether its right vector is in the span of those of `others` that have its eigenvalue.

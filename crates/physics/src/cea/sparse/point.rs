@@ -105,7 +105,7 @@ impl SolvedPoint {
     pub fn refine_lefts(&mut self, model: &ReducedModel) {
         let mu = self.friction_coefficient;
         let is_coarse = std::mem::take(&mut self.has_coarse_lefts);
-        if !is_coarse || mu == 0.0 || model.sample_width(mu).is_none() {
+        if !is_coarse || mu == 0.0 || !model.samples.iter().any(|own| own.0 == mu) {
             return;
         }
         let lengths = |modes: &[ReducedMode]| -> Vec<f64> {

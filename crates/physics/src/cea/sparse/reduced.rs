@@ -246,12 +246,6 @@ impl ReducedModel {
         self.hold_coordinates(mu, transpose_product(self.basis.columns(), vectors.as_ref())); // V^T x.
     }
 
-    /// Number of columns that span the modes held at `mu`, if there are any.
-    pub fn sample_width(&self, mu: f64) -> Option<usize> {
-        let own = self.samples.iter().find(|sample| sample.0 == mu);
-        own.map(|(_, coordinates)| coordinates.ncols())
-    }
-
     /// Forgets the modes held at `mu`.
     pub fn drop_sample(&mut self, mu: f64) {
         self.samples.retain(|sample| sample.0 != mu);

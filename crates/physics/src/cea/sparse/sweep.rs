@@ -42,7 +42,9 @@ fn sweep_holding(
     (limit, more): (ModeLimit, usize),
     watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
-    let mut sweep = SparseSweep::prepare(tangent, &SweepRequest { limit, ..*request }, watch)?;
+    let rest = request.rest.filter(|_| limit == request.limit); // More modes than wanted are found anew.
+    let own = SweepRequest { limit, rest, ..*request };
+    let mut sweep = SparseSweep::prepare(tangent, &own, watch)?;
     sweep.limit = request.limit;
     sweep.cover()?;
     sweep.solve()?;
@@ -139,7 +141,7 @@ impl<'a> SparseSweep<'a> {
         let mut grid = request.rising_grid()?;
         request.limit.check()?;
         let lowest = grid[0];
-        let modes = FrictionlessModes::compute_watched(tangent, request.limit, watch)?;
+        let modes = FrictionlessModes::compute_watched(tangent, request, watch)?;
         // What structural damping leaves of rigid motions is recognised by following them from rest.
         let is_continued = request.is_continued && !(tangent.is_lossy() && modes.rigid > 0);
         if lowest > 0.0 && !is_continued {

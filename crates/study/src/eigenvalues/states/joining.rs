@@ -76,8 +76,19 @@ fn unknown(pair: &[Part]) -> Range<f64> {
 /// Friction coefficients at which the state is unknown and between which a branch changes its stability.
 pub struct Undecided {
     pub gap: Range<f64>,
-    /// Where the state beyond would have that branch change it, if it held there.
+    /// Where its growth may vanish: on the straight line between both ends, or as the state beyond would have it, if it held there.
     pub guess: Option<f64>,
+}
+
+/// Where the straight line between the growth rates of a branch at both ends of a gap vanishes.
+fn crossing_of(branch: Name, [before, after]: [&Part; 2]) -> Option<f64> {
+    let beyond = after.sweep.points.iter().find(|own| own.friction_coefficient >= after.begin);
+    let ends = [before.last()?, beyond?];
+    let growth = ends.map(|own| own.known().find(|mode| name(mode) == branch));
+    let [from, to] = [growth[0]?.eigenvalue.re, growth[1]?.eigenvalue.re];
+    let [start, end] = ends.map(|own| own.friction_coefficient);
+    let place = start + (end - start) * from / (from - to); // Of from + (to - from) (mu - start) / (end - start).
+    (from * to < 0.0).then_some(place)
 }
 
 /// All of them.
@@ -90,11 +101,11 @@ pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
             [onset, end]
         };
         let all = pair[1].sweep.intervals.iter().flat_map(ends).flatten();
-        let guess = all.filter(|mu| gap.contains(mu)).min_by(|a, b| a.total_cmp(b));
-        let is_open = guess.is_some()
-            || begins_statically(&pair[0], &pair[1])
-            || jumps_between(&pair[0], &pair[1]).next().is_some();
-        is_open.then_some(Undecided { gap, guess })
+        let root = all.filter(|mu| gap.contains(mu)).min_by(|a, b| a.total_cmp(b));
+        let jump = jumps_between(&pair[0], &pair[1]).next();
+        let is_open = root.is_some() || jump.is_some() || begins_statically(&pair[0], &pair[1]);
+        let crossing = jump.and_then(|(_, mode)| crossing_of(name(mode), [&pair[0], &pair[1]]));
+        is_open.then_some(Undecided { gap, guess: crossing.or(root) })
     })
 }
 
@@ -211,10 +222,8 @@ fn relabel(before: &Part, after: &mut Part) {
 mod tests {
     use super::*;
 
-    /// A branch that grows above the list before contact opens, and is listed after, has no onset there.
-    #[test]
-    fn what_grew_above_the_list_has_no_onset_where_contact_opens() {
-        let mode = |growth: f64| ComplexMode {
+    fn mode(growth: f64) -> ComplexMode {
+        ComplexMode {
             eigenvalue: c64::new(growth, 9e3),
             harmonic: 0,
             branch: 5,
@@ -228,12 +237,32 @@ mod tests {
             shape: None,
             left: None,
             wave: None,
-        };
-        let point = |friction_coefficient, [modes, above]: [Vec<ComplexMode>; 2]| FrictionPoint {
-            friction_coefficient,
-            modes,
-            above,
-        };
+        }
+    }
+
+    fn point(friction_coefficient: f64, [modes, above]: [Vec<ComplexMode>; 2]) -> FrictionPoint {
+        FrictionPoint { friction_coefficient, modes, above }
+    }
+
+    /// Growth of -10 1/s where a state ends at 0.3, and of 30 1/s at 0.5 in the next one, crosses zero about 0.35, wherever that one would
+    /// have it between.
+    #[test]
+    fn states_between_are_sought_where_growth_crosses_zero() {
+        let before = vec![point(0.3, [vec![mode(-10.0)], Vec::new()])];
+        let after = [(0.3, 5.0), (0.5, 30.0)];
+        let after = after.map(|(mu, growth)| point(mu, [vec![mode(growth)], Vec::new()]));
+        let parts = [(0.1, before), (0.5, after.into())].map(|(begin, points)| Part {
+            begin,
+            sweep: FrictionSweep { points, ..FrictionSweep::default() },
+        });
+        let found: Vec<Undecided> = undecided(&parts).collect();
+        assert_eq!((found.len(), &found[0].gap), (1, &(0.3..0.5)));
+        assert!((found[0].guess.unwrap() - 0.35).abs() < 1e-12);
+    }
+
+    /// A branch that grows above the list before contact opens, and is listed after, has no onset there.
+    #[test]
+    fn what_grew_above_the_list_has_no_onset_where_contact_opens() {
         for (growth, lost_after) in [(20.0, Some(0.1)), (-20.0, None)] {
             let before = [0.1, 0.3].map(|mu| point(mu, [Vec::new(), vec![mode(growth)]]));
             let after = [0.3, 0.5].map(|mu| point(mu, [vec![mode(30.0)], Vec::new()]));

@@ -5,6 +5,9 @@ use crate::linalg::dense::product;
 use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
 use crate::linalg::{KrylovSchurSettings, RealPairs, krylov_schur};
 
+/// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
+const HARDLY_OSCILLATING: f64 = 0.95;
+
 /// A matrix that is applied to blocks of vectors.
 struct DenseOperator<'a>(MatRef<'a, f64>);
 
@@ -193,7 +196,8 @@ impl ReducedModel {
             })
         };
         let oscillating = order.into_iter().filter_map(mode);
-        let oscillating = oscillating.filter(|mode| !mode.hardly_oscillates());
+        let oscillating =
+            oscillating.filter(|mode| !(mode.damping_factor().abs() > HARDLY_OSCILLATING));
         Ok(self.leading(oscillating, m, count, |mode| !mode.is_nearly_critical()))
     }
 
