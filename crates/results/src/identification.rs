@@ -11,6 +11,9 @@ use frictionsim_signal::{
 /// Name of the `[damping]` section in its folder.
 pub const DAMPING_BLOCK: &str = "damping.toml";
 
+/// Frequency of a line, response, fitted response.
+type FittedLine = (f64, c64, Option<c64>);
+
 columns! {
     /// A mode of the responses; its row has its number before.
     pub(super) MODES: row as (usize, ModeSummary);
@@ -32,9 +35,7 @@ columns! {
         = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[1]);
     used: "whether it enters the coefficients" = row.1.used, Always "used" Plain;
     flag: "what is doubtful about it" = row.1.flag.clone(), IfAny "remark" Plain;
-}
 
-columns! {
     /// Rayleigh coefficients of an estimator.
     COEFFICIENTS: row as (&'static str, RayleighFit);
     estimator = row.0, Always "estimator" Plain;
@@ -44,12 +45,7 @@ columns! {
     stiffness_coefficient_s = row.1.stiffness_coefficient.value, Always "beta_R" Significant(5);
     stiffness_coefficient_low = row.1.stiffness_coefficient.low, Always "from" Significant(5);
     stiffness_coefficient_high = row.1.stiffness_coefficient.high, Always "to" Significant(5);
-}
 
-/// Frequency of a line, response, fitted response.
-type FittedLine = (f64, c64, Option<c64>);
-
-columns! {
     /// A line of a response and its fit.
     pub(super) FITTED: row as FittedLine;
     frequency_hz: "frequency of the line" = row.0;

@@ -56,9 +56,7 @@ columns! {
     harmonic: "its nodal diameters; none without symmetry" = row.1.harmonic, IfAny "n" Count;
     mac: "modal assurance criterion, 0 to 1" = row.2, Always "MAC" Fixed(4);
     paired: "whether the two are a pair" = row.3;
-}
 
-columns! {
     /// How the mode grows, and what is left out of a shape.
     BESIDE: row as Row;
     growth_rate_per_s = TAU * row.1.real_hz, Always "growth rate" Fixed(2);

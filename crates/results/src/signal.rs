@@ -34,9 +34,7 @@ columns! {
         = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
     branch: BRANCH = row.2.nearest_mode.as_ref().map(|mode| mode.branch);
     direction: DIRECTION = row.2.nearest_mode.as_ref().and_then(|mode| mode.direction);
-}
 
-columns! {
     /// A line of a spectrum.
     pub(super) SPECTRUM: line as (f64, f64);
     frequency_hz: "frequency" = line.0;

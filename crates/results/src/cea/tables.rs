@@ -61,17 +61,15 @@ columns! {
         = row.own.mesh_error;
     axial_share: "share of the kinetic energy along the axis, of bodies of revolution"
         = row.own.axial_share;
-}
 
-/// Those of every body.
-const COMMON: &[Column<ModeRow>] = parted(MODES, "axial_share").0;
-
-columns! {
     /// A mode in words.
     MODE_WORDS: row as ModeRow;
     travels = row.own.direction.map(direction_name), IfAny "travels" Plain;
     stability = row.own.unstable.then_some("unstable"), IfAny "stability" Plain;
 }
+
+/// Those of every body.
+const COMMON: &[Column<ModeRow>] = parted(MODES, "axial_share").0;
 
 /// What is to be said of an onset.
 fn remark(onset: &CriticalFriction) -> Option<String> {

@@ -126,16 +126,12 @@ columns! {
         = row.own.extrapolated;
     order: "observed order of convergence" = row.own.order;
     verdict: "what the three finest values say" = row.own.verdict.clone();
-}
 
-columns! {
     /// What a quantity is.
     NAMES: own as Quantity;
     quantity = own.name.clone(), Always "quantity" Plain;
     unit = Some(own.unit.clone()).filter(|unit| !unit.is_empty()), IfAny "unit" Plain;
-}
 
-columns! {
     /// What the levels say of a quantity.
     VERDICTS: own as Quantity;
     extrapolated = own.extrapolated, Always "extrapolated" Significant(7);

@@ -33,9 +33,7 @@ columns! {
     pub(crate) BRANCH: row as BranchRow;
     harmonic: "circumferential harmonic of a wave" = row.harmonic;
     main_frequency_hz: "frequency" = row.motion.main_frequency_hz;
-}
 
-columns! {
     /// What else is known of it, behind its status and its powers.
     pub(crate) ALONG: row as BranchRow;
     amplitude_m: "amplitude along the counterface" = row.motion.amplitude_m;

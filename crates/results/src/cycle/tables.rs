@@ -10,6 +10,9 @@ use crate::common::*;
 use crate::summary::STATUS;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;
 
+/// Number and frequency of a harmonic, and its motion.
+type Harmonic = (usize, f64, MotionHarmonic);
+
 columns! {
     /// What leads to a cycle.
     pub(crate) NAMES: own as SoughtCycle;
@@ -19,18 +22,14 @@ columns! {
         = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
     onset: "onset of that harmonic at which the wave is born, from 1"
         = own.name.wave().map(|own| own.onset), IfAny "onset" Count;
-}
 
-columns! {
     /// What a cycle is.
     pub(crate) MOTION: own as SoughtCycle;
     main_frequency_hz: "frequency"
         = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
     amplitude_m: "amplitude along the counterface"
         = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
-}
 
-columns! {
     /// Where its power goes.
     pub(crate) POWERS: power as MeanPowers;
     external_w: "power of the counterface"
@@ -45,16 +44,12 @@ columns! {
         = power.material_damping, Always "material damping" Fixed(2);
     normal_contact_w: "power of the normal contact forces"
         = power.normal_contact, Always "normal contact" Fixed(2);
-}
 
-columns! {
     /// How well its powers balance.
     pub(crate) BALANCE: own as SoughtCycle;
     balance_residual: "residual of the energy balance, relative to the power of the counterface"
         = own.of(|cycle| Some(cycle.balance_residual)), Always "balance" Scientific(1);
-}
 
-columns! {
     /// What is known of it.
     pub(crate) KNOWN: own as SoughtCycle;
     velocity_level_db: "level of the velocity, root mean square over time and mass, over 5e-8 m/s"
@@ -70,15 +65,11 @@ columns! {
     kick_velocity: "velocity of a kick, m/s, beyond which stable sliding tips into the cycle"
         = own.of(|cycle| cycle.stepped.as_ref()?.kick_velocity),
         IfAny "kick that tips sliding (m/s)" Scientific(3);
-}
 
-columns! {
     /// Why there is no cycle.
     pub(crate) ERRORS: own as SoughtCycle;
     error: "why none was found" = own.error.clone();
-}
 
-columns! {
     /// What leads to a cycle, for people.
     BESIDE: own as SoughtCycle;
     phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0),
@@ -88,18 +79,14 @@ columns! {
     mode_hz = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
     mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s),
         IfAny "its growth rate" Fixed(1);
-}
 
-columns! {
     /// What a transient says, and why there is none, for people.
     SAID: own as SoughtCycle;
     transient_hz = own.run().and_then(|run| run.main_frequency_hz),
         IfAny "transient from it" Fixed(2);
     stays = own.agrees(), IfAny "a transient stays on it" Plain;
     absence = own.absence(), IfAny "why there is none" Plain;
-}
 
-columns! {
     /// A contact node at one instant.
     pub(crate) HISTORY: row as PhasePoint;
     phase_rad: "phase" = row.phase;
@@ -107,30 +94,21 @@ columns! {
     status: "stick, slip or open" = row.status.name();
     pressure_pa: "contact pressure" = row.pressure;
     shear_pa: "friction traction on the body, along the rotation or the node's tangent" = row.shear;
-}
 
-columns! {
     /// Its motion on the disc of a wave.
     pub(crate) WAVE_PATH: row as PhasePoint;
     u_r_m: "radial displacement" = row.displacement[0];
     u_theta_m: "tangential displacement" = row.displacement[1];
     v_r_m_per_s: "radial velocity" = row.velocity[0];
     v_theta_m_per_s: "tangential velocity" = row.velocity[1];
-}
 
-columns! {
     /// Its motion on any other body.
     pub(crate) PATH: row as PhasePoint;
     u_n_m: "displacement along the normal" = row.displacement[0];
     u_t_m: "displacement along the counterface" = row.displacement[1];
     v_n_m_per_s: "velocity along the normal" = row.velocity[0];
     v_t_m_per_s: "velocity along the counterface" = row.velocity[1];
-}
 
-/// Number and frequency of a harmonic, and its motion.
-type Harmonic = (usize, f64, MotionHarmonic);
-
-columns! {
     /// A harmonic in time.
     pub(crate) HARMONICS: row as Harmonic;
     harmonic: "number of the harmonic" = row.0;

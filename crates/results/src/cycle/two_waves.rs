@@ -53,9 +53,7 @@ columns! {
     external_w: "power of the rotor" = row.external_w;
     balance_residual: "residual of the energy balance, relative to it"
         = row.motion.powers.balance_residual();
-}
 
-columns! {
     /// A motion of two waves for people.
     pub(super) SHOWN: own as TwoWaveSummary;
     waves = own.name(), Always "waves" Plain;

@@ -284,9 +284,7 @@ columns! {
     length_m: "its share of the contact" = row.1.weight;
     normal_force_n_per_m: "normal force at the friction coefficient of the case"
         = row.1.normal_force;
-}
 
-columns! {
     /// A contact point of solid bodies: a point of a face.
     pub(super) SOLID_POINT: row as PointRow;
     point: "row of the contact matrices, from 0" = row.0;

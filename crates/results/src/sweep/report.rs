@@ -45,9 +45,7 @@ columns! {
     winner = first(point, "/winner"), IfAny "n that always wins" Count;
     low = first(point, "/boundary/low"), IfAny "ratio below" Fixed(3);
     high = first(point, "/boundary/high"), IfAny "ratio above" Fixed(3);
-}
 
-columns! {
     /// How a point ends.
     ENDS: point as PointRecord;
     end = first(point, "/end_state"), IfAny "ends in" Plain;

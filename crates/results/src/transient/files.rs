@@ -92,6 +92,13 @@ columns! {
     contact_j: "energy in the springs of the contact" = row.contact_energy;
     contact_damping_w: "power lost in the dashpots of the contact" = row.powers.damping;
     pressure_w: "power of the pressures on boundaries" = row.powers.pressure;
+
+    /// The contact at a sample.
+    pub(crate) STATUS: row as SampleRow;
+    time_s: "time" = row.time;
+    stick: "fraction of the contact nodes that stick" = row.counts.fractions()[0];
+    slip: "fraction that slips" = row.counts.fractions()[1];
+    open: "fraction that is open" = row.counts.fractions()[2];
 }
 
 fn write_energy(out: &mut dyn io::Write, run: &RecordedRun<'_>) -> io::Result<()> {
@@ -110,15 +117,6 @@ fn write_energy(out: &mut dyn io::Write, run: &RecordedRun<'_>) -> io::Result<()
         (false, false) => const { parted(ENERGY, "contact_j").0 },
     };
     write_rows(out, columns, record.rows.iter().map(of_whole_thickness))
-}
-
-columns! {
-    /// The contact at a sample.
-    pub(crate) STATUS: row as SampleRow;
-    time_s: "time" = row.time;
-    stick: "fraction of the contact nodes that stick" = row.counts.fractions()[0];
-    slip: "fraction that slips" = row.counts.fractions()[1];
-    open: "fraction that is open" = row.counts.fractions()[2];
 }
 
 /// Complex amplitude of each harmonic of the contact edge's tangential displacement: `n = 0..=8`, and of the higher

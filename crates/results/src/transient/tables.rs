@@ -10,6 +10,8 @@ const COARSE_FRAMES: f64 = 0.25;
 
 /// Node, direction and motion of a probe.
 type ProbeRow = (String, &'static str, ProbeMotion);
+/// A vibration in the linear stage: its harmonic, its growth or why it has none, the rate of the eigenvalue analysis.
+type GrowthRow = (String, Result<GrowthSummary, String>, Option<f64>);
 
 columns! {
     /// A probe in one direction.
@@ -18,12 +20,7 @@ columns! {
     direction = row.1, Always "direction" Plain;
     rms_m_per_s2 = row.2.acceleration_rms_m_per_s2, Always "root mean square" Fixed(0);
     peak_m_per_s2 = row.2.acceleration_peak_m_per_s2, Always "peak" Fixed(0);
-}
 
-/// A vibration in the linear stage: its harmonic, its growth or why it has none, the rate of the eigenvalue analysis.
-type GrowthRow = (String, Result<GrowthSummary, String>, Option<f64>);
-
-columns! {
     /// A vibration in the linear stage.
     GROWTH: row as GrowthRow;
     vibration = row.0.clone(), Always "vibration" Plain;
