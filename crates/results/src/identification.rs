@@ -4,8 +4,7 @@ use crate::common::*;
 use frictionsim_chart::significant;
 use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
-    Estimate, FittedMode, FrequencyResponse, HalfPowerBand, Identification, ModalFit, RayleighFit,
-    ResonanceNote,
+    FittedMode, HalfPowerBand, Identification, ModalFit, RayleighFit, ResonanceNote,
 };
 
 /// Name of the `[damping]` section in its folder.

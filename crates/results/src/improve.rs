@@ -1,7 +1,6 @@
 //! Results of `improve`: where a modification silences unstable modes, what it is predicted to do, and what it does.
 
 use crate::common::*;
-use std::f64::consts::PI;
 
 /// What `improve` finds.
 pub struct Improvement {

@@ -8,7 +8,6 @@ use super::{
 };
 use crate::common::*;
 use frictionsim_output::{Entry, describe_field, entries, keys_of};
-use serde_json::json;
 
 /// What one file of a command holds.
 pub struct FileReference {

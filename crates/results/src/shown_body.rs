@@ -2,9 +2,7 @@
 
 use crate::prelude::*;
 use crate::{EncodedMesh, Field};
-use frictionsim_physics::fem::{
-    NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
-};
+use frictionsim_physics::fem::{revolved_stress, solid_stress};
 use std::borrow::Cow;
 
 /// A body in tables, fields and figures.

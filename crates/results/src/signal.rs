@@ -7,7 +7,6 @@ use crate::charts::{run_axis, signal_panel, spectrogram_panels, spectrum_panel};
 use crate::common::*;
 use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
-use frictionsim_signal::{AmplitudeSpectrum, spectrogram};
 pub use summary::{
     ChannelSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary, SignalSummary,
 };

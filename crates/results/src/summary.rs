@@ -9,9 +9,7 @@ use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
 use crate::prelude::*;
 use crate::{FolderError, OutputFolder};
-use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::transient::ContactPowers;
-use serde::de::DeserializeOwned;
 use std::fmt;
 
 keys! {

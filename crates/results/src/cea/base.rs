@@ -2,7 +2,6 @@
 
 use crate::BodyStress;
 use crate::common::*;
-use std::f64::consts::PI;
 
 keys! {
     /// The steady sliding state at one friction coefficient in a few numbers.

@@ -2,7 +2,7 @@
 
 use super::{CeaReport, direction_name};
 use crate::common::*;
-use frictionsim_physics::cea::{FrictionSweep, UnstableInterval};
+use frictionsim_physics::cea::FrictionSweep;
 
 keys! {
     /// A mode of one friction value, as its table numbers it.

@@ -6,7 +6,6 @@ use super::shape::{Picture, size};
 use crate::BodyStress;
 use crate::charts::contact_surfaces;
 use crate::common::*;
-use frictionsim_physics::fem::NodalStress;
 
 /// Half the length of the arrow of the sliding over the size of its surface.
 const ARROW: f64 = 0.15;

@@ -3,7 +3,7 @@
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
 use crate::common::*;
-use frictionsim_physics::cea::{ModeCount, UnstableInterval};
+use frictionsim_physics::cea::ModeCount;
 
 keys! {
     /// `summary.json` of `frictionsim cea`.

@@ -7,7 +7,6 @@ use super::palette::{
 use super::solid::speeds_of_bodies;
 use crate::common::*;
 use frictionsim_chart::Palette;
-use frictionsim_physics::fem::nodal_stress;
 
 /// Columns of a status map: three for each point of a wide panel.
 const FINEST: usize = 900;

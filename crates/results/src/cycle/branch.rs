@@ -5,7 +5,7 @@ use crate::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STICK_POWER,
 };
 use crate::common::*;
-use frictionsim_physics::cycle::{BranchEnd, Family, Parameter, Verdict};
+use frictionsim_physics::cycle::Verdict;
 
 /// A cycle of a branch.
 #[derive(Clone, Debug, Default, PartialEq)]

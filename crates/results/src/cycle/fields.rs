@@ -4,7 +4,6 @@ use super::found::encode_contact;
 use super::summary::CycleSummary;
 use super::two_waves::TwoWaveSummary;
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::MotionFrame;
 use std::cell::OnceCell;
 
 impl CycleSummary {

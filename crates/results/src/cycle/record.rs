@@ -3,8 +3,8 @@
 
 use super::verdicts::Perturbation;
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
-use frictionsim_physics::cycle::{Family, Onset};
+use frictionsim_physics::cycle::Onset;
+use frictionsim_physics::cycle::periodic::velocity_level;
 use std::fmt;
 
 /// What leads to a cycle.

@@ -5,7 +5,6 @@ use super::record::{CycleMotion, CycleName, Exponent, ModeSummary, OnsetSummary}
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::PeriodicMotion;
 
 keys! {
     /// `summary.json` of `frictionsim cycle`.

@@ -1,8 +1,7 @@
 //! Motions of two frequencies: words, table, summary, curves.
 
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::MotionFrame;
-use frictionsim_physics::cycle::{BranchEnd, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch};
+use frictionsim_physics::cycle::{TwoWaveBranch, TwoWaveSearch};
 
 keys! {
     /// What two waves that may live together come to: a motion of two frequencies, or nothing.

@@ -2,7 +2,7 @@
 
 use super::{Page, script};
 use crate::prelude::*;
-use frictionsim_chart::{ID_PREFIX, escape};
+use frictionsim_chart::ID_PREFIX;
 
 const STYLE: &str = include_str!("style.css");
 

@@ -5,7 +5,6 @@ use super::record::{PointRecord, listed};
 use crate::cea::{SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 use crate::common::*;
 use crate::cycle::{BranchRecord, FamilyRecord};
-use serde::de::DeserializeOwned;
 
 /// Lists longer than this anywhere in a sweep stay in the points' own files.
 const LONGEST_LIST: usize = 16;

@@ -6,7 +6,6 @@ use crate::common::*;
 use crate::npz::NpzArchive;
 use crate::record::write_record;
 use frictionsim_output::csv::{self, format_number};
-use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};
 
 /// Writes all files of the transient and gives the summary, as it is and as an object.
 pub fn write(

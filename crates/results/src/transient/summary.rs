@@ -2,7 +2,7 @@
 
 use super::RecordedRun;
 use crate::common::*;
-use frictionsim_physics::transient::{Drift, Growth, Perturbation, ProbeMotion, TransientAnalysis};
+use frictionsim_physics::transient::{Drift, Growth, Perturbation, TransientAnalysis};
 
 keys! {
     /// `summary.json` of `frictionsim transient`.

@@ -3,7 +3,6 @@
 use super::RecordedRun;
 use super::summary::{GrowthSummary, TransientSummary};
 use crate::common::*;
-use frictionsim_physics::transient::ProbeMotion;
 
 /// Periods of the main vibration between two contact frames beyond which they do not show it.
 const COARSE_FRAMES: f64 = 0.25;

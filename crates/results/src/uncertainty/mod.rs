@@ -5,7 +5,6 @@ mod figures;
 use crate::cea::arrow;
 use crate::common::*;
 use figures::{indices, robust, uncertainty};
-use frictionsim_signal::Estimate;
 
 keys! {
     /// A branch that turns unstable in a sample.
