@@ -1,9 +1,8 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient, or of a superelement that
 //! stands free.
 
-use super::limits::STANDARD_INPUT;
 use super::prelude::*;
-use super::start_threads;
+use super::{limits::STANDARD_INPUT, start_threads};
 use crate::case::{FreeSystem, RawCase};
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::cea::{

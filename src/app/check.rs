@@ -1,9 +1,8 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
-use super::cea::described_system;
-use super::options::CaseChanges;
 use super::prelude::*;
 use super::session::{machine_memory, read_case};
+use super::{cea::described_system, options::CaseChanges};
 use crate::case::{Convergence, Cost, FreeSystem, RunCost, StudyCost};
 use crate::results::plural;
 use crate::study::{Preflight, preflight};

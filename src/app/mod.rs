@@ -45,8 +45,7 @@ use options::{LONGEST_NAME, SIMD_LEVELS, Told, one_of};
 use session::{depend_on, start_threads};
 
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
-use std::ffi::OsString;
-use std::process::ExitCode;
+use std::{ffi::OsString, process::ExitCode};
 
 /// Predicts friction-induced vibration, such as brake squeal, by finite elements.
 ///

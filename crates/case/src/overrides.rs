@@ -1,8 +1,7 @@
 //! `--set KEY=VALUE` and `--unset KEY`: assignments laid over the case, keys taken away.
 
-use super::suggestion::Scope;
 use super::value::{convert, cut};
-use super::{Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys};
+use super::{Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, suggestion::Scope};
 use toml::de::{DeTable, DeValue};
 
 /// A part of the path of an override, with its place.

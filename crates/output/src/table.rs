@@ -3,8 +3,7 @@
 use super::csv;
 use super::number::{Format, unit_of};
 use serde::{Deserialize, Serialize};
-use std::borrow::Borrow;
-use std::io;
+use std::{borrow::Borrow, io};
 
 /// What stands in one place of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,9 +2,9 @@
 
 use crate::common::*;
 use frictionsim_chart::significant;
-use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
     FittedMode, HalfPowerBand, Identification, ModalFit, RayleighFit, ResonanceNote,
+    reader::NamedResponse,
 };
 
 /// Name of the `[damping]` section in its folder.

@@ -3,10 +3,8 @@
 //! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an
 //! `Option` and null in JSON: JSON has neither NaN nor infinity.
 
-use super::framed::write_json;
-use super::keys::keys;
-use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
+use super::{framed::write_json, keys::keys, manifest::Manifest};
 use crate::prelude::*;
 use crate::{FolderError, OutputFolder};
 use frictionsim_physics::transient::ContactPowers;

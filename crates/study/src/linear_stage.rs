@@ -3,8 +3,7 @@
 use super::modes_at_own_friction;
 use super::tangent::{MODES_IN_TIME, options_in_time};
 use crate::*;
-use frictionsim_results::charts::ModeLine;
-use frictionsim_results::transient::LinearStage;
+use frictionsim_results::{charts::ModeLine, transient::LinearStage};
 
 /// Nodes of an imported mesh beyond which its modes would take longer than a figure is worth.
 const MOST_NODES: usize = 30_000;

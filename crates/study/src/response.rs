@@ -19,8 +19,7 @@ use frictionsim_physics::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, Terminal, cyclic_response,
     direct_response, reduced_response,
 };
-use frictionsim_physics::linalg::GaussianNoise;
-use frictionsim_physics::mesh::BoundaryCondition;
+use frictionsim_physics::{linalg::GaussianNoise, mesh::BoundaryCondition};
 use frictionsim_results::ResponseSummary;
 
 /// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are

@@ -2,8 +2,7 @@
 
 use crate::*;
 use frictionsim_case::FreeSystem;
-use frictionsim_physics::cea::quadratic_modes;
-use frictionsim_physics::linalg::MarketMatrix;
+use frictionsim_physics::{cea::quadratic_modes, linalg::MarketMatrix};
 use frictionsim_results::matrices::{FreeSpectrum, FreeSpectrumSummary};
 
 /// The oscillating modes that a case asks for, out of all eigenvalues of its matrices.

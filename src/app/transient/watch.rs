@@ -7,9 +7,8 @@ use crate::results::FolderError;
 use crate::results::transient::write_checkpoint;
 use crate::transient::{Observer, Recorder, Sample, StepPlan};
 use indicatif::ProgressBar;
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::{ops::ControlFlow, time::Duration};
 
 /// Set by Ctrl-C and SIGTERM.
 static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);

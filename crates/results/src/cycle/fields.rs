@@ -1,8 +1,6 @@
 //! Files of limit cycles: their tables, and whole fields for ParaView.
 
-use super::found::encode_contact;
-use super::summary::CycleSummary;
-use super::two_waves::TwoWaveSummary;
+use super::{found::encode_contact, summary::CycleSummary, two_waves::TwoWaveSummary};
 use crate::common::*;
 use std::cell::OnceCell;
 

@@ -1,11 +1,10 @@
 //! Columns of limit cycles, and the document of a search.
 
 use super::branch::{ALONG, BRANCH};
-use super::found::contact_node;
 use super::record::{CONTACT_NODES, ContactNode, CycleMotion};
 use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
-use super::verdicts::EXPONENTS;
+use super::{found::contact_node, verdicts::EXPONENTS};
 use crate::common::*;
 use crate::summary::STATUS;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;

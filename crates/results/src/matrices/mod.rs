@@ -4,10 +4,7 @@ mod spectrum;
 
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
-use super::framed::write_json;
-use super::keys::keys;
-use super::npz::NpzArchive;
-use super::object;
+use super::{framed::write_json, keys::keys, npz::NpzArchive, object};
 use crate::common::*;
 use frictionsim_output::Entry;
 use frictionsim_physics::linalg::MarketMatrix;

@@ -1,8 +1,7 @@
 //! Reopening of a results folder: the run that it holds, if it is whole.
 
-use super::error::FolderError;
 use super::framed::{Defect, read_sealed};
-use super::manifest::Manifest;
+use super::{error::FolderError, manifest::Manifest};
 use crate::prelude::*;
 use frictionsim_bounds::{first_of, read_text};
 use std::io::ErrorKind::{NotADirectory, NotFound};

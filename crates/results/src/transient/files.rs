@@ -1,10 +1,8 @@
 //! Probes, energies, contact, snapshots, summary.
 
 use super::{RecordedRun, TransientSummary, summary};
-use crate::charts::palette::status_of_code;
 use crate::common::*;
-use crate::npz::NpzArchive;
-use crate::record::write_record;
+use crate::{charts::palette::status_of_code, npz::NpzArchive, record::write_record};
 use frictionsim_output::csv::{self, format_number};
 
 /// Writes all files of the transient and gives the summary, as it is and as an object.

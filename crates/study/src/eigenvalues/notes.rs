@@ -1,7 +1,6 @@
 //! What is said beside the results of an eigenvalue analysis.
 
-use super::SlidingModel;
-use super::contact::mean_friction;
+use super::{SlidingModel, contact::mean_friction};
 use crate::*;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};

@@ -2,10 +2,9 @@
 
 use super::free_part::{STEP, free_part, rates};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode, fit};
-use crate::eigenvalues;
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
-use crate::mac::MeasuredShapes;
 use crate::*;
+use crate::{eigenvalues, mac::MeasuredShapes};
 use frictionsim_case::Fit;
 use frictionsim_physics::cea::ModeBranch;
 use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};

@@ -5,8 +5,7 @@
 use super::base::{Base, target_modes};
 use super::fields::Derivatives;
 use crate::*;
-use frictionsim_physics::fem::element::ElementGeometry;
-use frictionsim_physics::mesh::Counterface;
+use frictionsim_physics::{fem::element::ElementGeometry, mesh::Counterface};
 use frictionsim_results::improve::{Sizes, TargetFields, TargetMode};
 use nalgebra::SymmetricEigen;
 

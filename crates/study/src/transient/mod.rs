@@ -24,12 +24,11 @@ mod stepped;
 use crate::cycle::limit_cycle;
 use crate::*;
 use frictionsim_case::Transient;
-use frictionsim_physics::fem::operator::StiffnessOperator;
-use frictionsim_physics::linalg::interruption;
 use frictionsim_physics::transient::{
     Breakdown, CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan,
     TransientAnalysis, TransientError, TransientSettings,
 };
+use frictionsim_physics::{fem::operator::StiffnessOperator, linalg::interruption};
 use frictionsim_results::Head;
 use frictionsim_results::transient::{LinearStage, RecordedRun, SolvedTransient};
 pub use stepped::SteppedMesh;

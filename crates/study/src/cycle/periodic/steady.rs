@@ -4,8 +4,7 @@ use crate::eigenvalues::{Model, Solver};
 use crate::tangent::{MODES_IN_TIME, options_in_time};
 use crate::transient::SteppedMesh;
 use crate::*;
-use frictionsim_physics::cea::sparse;
-use frictionsim_physics::cycle::periodic::GrowingMode;
+use frictionsim_physics::{cea::sparse, cycle::periodic::GrowingMode};
 
 /// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.
 const LARGEST_FRICTION: f64 = 2.0;
