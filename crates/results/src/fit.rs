@@ -101,8 +101,7 @@ keys! {
 
     /// One mode of the model.
     ModeSummary, MODES {
-        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
-            IfAny "n" Count;
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry", IfAny "n" Count;
         branch: usize = "rank within the harmonic, else among all, from 1", Always "branch" Count;
         direction: i8 = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         frequency_hz: f64 = "frequency of the mode", Always "frequency" Fixed(2);
@@ -127,8 +126,7 @@ keys! {
     LineSummary, LINES {
         line: usize = "line of the table of measurements";
         frequency_hz: f64 = "measured frequency", Always "measured" Fixed(2);
-        real_hz: Option<f64> = "measured real part of the eigenvalue over 2 pi",
-            IfAny "real part" Fixed(2);
+        real_hz: Option<f64> = "measured real part of the eigenvalue over 2 pi", IfAny "real part" Fixed(2);
         harmonic: Option<usize> = "measured number of nodal diameters";
         /// Whether it was heard.
         unstable: bool;

@@ -148,8 +148,7 @@ columns! {
     /// A modification and its place.
     pub(crate) CANDIDATES: own as Candidate;
     rank: "place in the list, from 1" = own.rank, Always "rank" Count;
-    kind: "mass, spring, dashpot, removal, damping or offset"
-        = own.kind.clone(), Always "kind" Plain;
+    kind: "mass, spring, dashpot, removal, damping or offset" = own.kind.clone(), Always "kind" Plain;
     node: "number of its node" = own.node;
     x_m: "where it is; the way of the hole for an offset" = own.position_m[0];
     y_m: "where it is; the way of the hole for an offset" = own.position_m[1];

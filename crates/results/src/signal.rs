@@ -20,17 +20,12 @@ columns! {
     channel: "name of the channel" = row.0.clone();
     peak: "number of the peak, the strongest first, from 1" = row.1, Always "peak" Count;
     frequency_hz: "frequency of the peak" = row.2.line.frequency_hz, Always "frequency" Fixed(2);
-    amplitude: "amplitude, in the unit of the signal"
-        = row.2.line.amplitude, Always "amplitude" Scientific(4);
-    superharmonic_of_peak: "peak of which it is a multiple"
-        = row.2.line.superharmonic.map(|own| own.of_peak);
+    amplitude: "amplitude, in the unit of the signal" = row.2.line.amplitude, Always "amplitude" Scientific(4);
+    superharmonic_of_peak: "peak of which it is a multiple" = row.2.line.superharmonic.map(|own| own.of_peak);
     order: "which multiple" = row.2.line.superharmonic.map(|own| own.order);
-    nearest_mode: "number of the mode beside it, from 1"
-        = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
-    mode_frequency_hz: "frequency of that mode"
-        = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
-    harmonic: "its nodal diameters; none without symmetry"
-        = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
+    nearest_mode: "number of the mode beside it, from 1" = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
+    mode_frequency_hz: "frequency of that mode" = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
+    harmonic: "its nodal diameters; none without symmetry" = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
     branch: BRANCH = row.2.nearest_mode.as_ref().map(|mode| mode.branch);
     direction: DIRECTION = row.2.nearest_mode.as_ref().and_then(|mode| mode.direction);
 

@@ -79,8 +79,7 @@ columns! {
     /// A contact node and its angle, rad.
     pub(crate) NODES: row as (usize, Option<f64>);
     node: "number of the contact node" = row.0;
-    angle_degrees: "its angle about the axis; none along a straight edge"
-        = row.1.map(f64::to_degrees);
+    angle_degrees: "its angle about the axis; none along a straight edge" = row.1.map(f64::to_degrees);
 
     /// A ring of contact nodes.
     pub(crate) RINGS: own as ContactState;

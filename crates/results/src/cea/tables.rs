@@ -45,22 +45,18 @@ columns! {
     friction_coefficient: "friction coefficient" = row.friction;
     mode: "number by frequency at that friction, from 1" = row.number, Always "mode" Count;
     real_hz: "real part of the eigenvalue over 2 pi" = row.own.real_hz;
-    frequency_hz: "imaginary part of the eigenvalue over 2 pi"
-        = row.own.frequency_hz, Always "frequency" Fixed(2);
+    frequency_hz: "imaginary part of the eigenvalue over 2 pi" = row.own.frequency_hz, Always "frequency" Fixed(2);
     damping_factor: "damping factor; negative where the mode grows"
         = row.mode.damping_factor(), Always "damping factor" Scientific(3);
-    growth_rate_per_s: "real part of the eigenvalue"
-        = row.mode.growth_rate(), Always "growth rate" Fixed(2);
+    growth_rate_per_s: "real part of the eigenvalue" = row.mode.growth_rate(), Always "growth rate" Fixed(2);
     harmonic: HARMONIC = row.own.harmonic, IfAny "n" Count;
     branch: BRANCH = row.own.branch, Always "branch" Count;
     direction: DIRECTION = row.own.direction;
     unstable: "whether the mode grows" = row.own.unstable;
     residual: "relative residual of the eigenpair" = row.mode.residual;
     contact_share: "share of the kinetic energy at the contact" = row.own.contact_share;
-    mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz"
-        = row.own.mesh_error;
-    axial_share: "share of the kinetic energy along the axis, of bodies of revolution"
-        = row.own.axial_share;
+    mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz" = row.own.mesh_error;
+    axial_share: "share of the kinetic energy along the axis, of bodies of revolution" = row.own.axial_share;
 
     /// A mode in words.
     MODE_WORDS: row as ModeRow;

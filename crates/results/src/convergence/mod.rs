@@ -122,8 +122,7 @@ columns! {
     size: "element size, m, or time step, s" = row.series.3;
     value: "value on the level" = row.own.values[row.level];
     error: "value less the extrapolated one" = row.own.error(row.level);
-    extrapolated: "value extrapolated after Richardson from the three finest levels"
-        = row.own.extrapolated;
+    extrapolated: "value extrapolated after Richardson from the three finest levels" = row.own.extrapolated;
     order: "observed order of convergence" = row.own.order;
     verdict: "what the three finest values say" = row.own.verdict.clone();
 

@@ -17,32 +17,25 @@ columns! {
     pub(crate) NAMES: own as SoughtCycle;
     mode: "number of the mode that leads to it, of a body without rotating waves"
         = own.name.mode().map(|own| own.mode.mode), IfAny "mode" Count;
-    harmonic: "nodal diameters of a wave"
-        = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
+    harmonic: "nodal diameters of a wave" = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
     onset: "onset of that harmonic at which the wave is born, from 1"
         = own.name.wave().map(|own| own.onset), IfAny "onset" Count;
 
     /// What a cycle is.
     pub(crate) MOTION: own as SoughtCycle;
-    main_frequency_hz: "frequency"
-        = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
+    main_frequency_hz: "frequency" = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
     amplitude_m: "amplitude along the counterface"
         = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
 
     /// Where its power goes.
     pub(crate) POWERS: power as MeanPowers;
-    external_w: "power of the counterface"
-        = power.external, Always "power of the counterface" Fixed(2);
-    stick_w: "power given to the body by nodes that stick"
-        = power.stick, Always "while sticking" Fixed(2);
-    slide_w: "power given to the body by nodes that slide"
-        = power.slide, Always "while sliding" Fixed(2);
+    external_w: "power of the counterface" = power.external, Always "power of the counterface" Fixed(2);
+    stick_w: "power given to the body by nodes that stick" = power.stick, Always "while sticking" Fixed(2);
+    slide_w: "power given to the body by nodes that slide" = power.slide, Always "while sliding" Fixed(2);
     contact_dissipated_w: "power lost to friction"
         = power.contact_dissipated, Always "dissipated in the contact" Fixed(2);
-    material_damping_w: "power lost in the body"
-        = power.material_damping, Always "material damping" Fixed(2);
-    normal_contact_w: "power of the normal contact forces"
-        = power.normal_contact, Always "normal contact" Fixed(2);
+    material_damping_w: "power lost in the body" = power.material_damping, Always "material damping" Fixed(2);
+    normal_contact_w: "power of the normal contact forces" = power.normal_contact, Always "normal contact" Fixed(2);
 
     /// How well its powers balance.
     pub(crate) BALANCE: own as SoughtCycle;
@@ -71,18 +64,15 @@ columns! {
 
     /// What leads to a cycle, for people.
     BESIDE: own as SoughtCycle;
-    phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0),
-        IfAny "phases" Count;
+    phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0), IfAny "phases" Count;
     critical = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
     mode_at = own.name.mode().and_then(|own| own.sought_from), IfAny "sought from" Plain;
     mode_hz = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
-    mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s),
-        IfAny "its growth rate" Fixed(1);
+    mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s), IfAny "its growth rate" Fixed(1);
 
     /// What a transient says, and why there is none, for people.
     SAID: own as SoughtCycle;
-    transient_hz = own.run().and_then(|run| run.main_frequency_hz),
-        IfAny "transient from it" Fixed(2);
+    transient_hz = own.run().and_then(|run| run.main_frequency_hz), IfAny "transient from it" Fixed(2);
     stays = own.agrees(), IfAny "a transient stays on it" Plain;
     absence = own.absence(), IfAny "why there is none" Plain;
 
@@ -112,8 +102,7 @@ columns! {
     pub(crate) HARMONICS: row as Harmonic;
     harmonic: "number of the harmonic" = row.0;
     frequency_hz: "its frequency" = row.1;
-    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes"
-        = row.2.amplitude[0];
+    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes" = row.2.amplitude[0];
     amplitude_t_m: "amplitude along the counterface" = row.2.amplitude[1];
     remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
 }

@@ -50,8 +50,7 @@ columns! {
     slip: "fraction that slips" = row.motion.fractions[1];
     open: "fraction that is open" = row.motion.fractions[2];
     external_w: "power of the rotor" = row.external_w;
-    balance_residual: "residual of the energy balance, relative to it"
-        = row.motion.powers.balance_residual();
+    balance_residual: "residual of the energy balance, relative to it" = row.motion.powers.balance_residual();
 
     /// A motion of two waves for people.
     pub(super) SHOWN: own as TwoWaveSummary;

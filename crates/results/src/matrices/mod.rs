@@ -279,8 +279,7 @@ columns! {
     node: "number of the node" = row.1.node;
     status: "slip, or open without contact terms" = status(row);
     length_m: "its share of the contact" = row.1.weight;
-    normal_force_n_per_m: "normal force at the friction coefficient of the case"
-        = row.1.normal_force;
+    normal_force_n_per_m: "normal force at the friction coefficient of the case" = row.1.normal_force;
 
     /// A contact point of solid bodies: a point of a face.
     pub(super) SOLID_POINT: row as PointRow;

@@ -194,8 +194,7 @@ columns! {
     stick: "fraction of the contact that sticks" = at(own, |branch| &branch.status[0]);
     slip: "fraction that slips" = at(own, |branch| &branch.status[1]);
     open: "fraction that is open" = at(own, |branch| &branch.status[2]);
-    stable: "whether it is stable, where that is known"
-        = at(own, |branch| &branch.stable).flatten();
+    stable: "whether it is stable, where that is known" = at(own, |branch| &branch.stable).flatten();
     growth_rate_per_s: "growth rate of its leading perturbation, where it is known"
         = at(own, |branch| &branch.growth_rate).flatten();
 }

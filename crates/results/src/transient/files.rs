@@ -77,8 +77,7 @@ columns! {
     time_s: "time" = row.time;
     kinetic_j: "kinetic energy" = row.kinetic_energy;
     strain_j: "strain energy" = row.strain_energy;
-    external_w: "power of the drive, mean over the sample interval, as the others"
-        = row.powers.external;
+    external_w: "power of the drive, mean over the sample interval, as the others" = row.powers.external;
     stick_w: "power given to the body by nodes that stick" = row.powers.stick;
     slide_w: "power given to the body by nodes that slide" = row.powers.slide;
     contact_dissipated_w: "power lost to friction" = row.powers.contact_dissipated;

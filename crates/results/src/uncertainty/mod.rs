@@ -185,10 +185,8 @@ columns! {
     FAMILIES: family as FamilySummary;
     mode = family.name(), Always "mode" Plain;
     probability = family.probability, Always "unstable at that friction" Fixed(4);
-    probability_in_range = family.probability_in_range,
-        Always "turns unstable in the range" Fixed(4);
-    critical_friction_median = family.critical_friction_median,
-        Always "median onset there" Fixed(4);
+    probability_in_range = family.probability_in_range, Always "turns unstable in the range" Fixed(4);
+    critical_friction_median = family.critical_friction_median, Always "median onset there" Fixed(4);
     frequency_hz = family.frequency_hz, Always "frequency" Fixed(2);
     beyond_limit = (family.beyond_limit > 0.0).then_some(family.beyond_limit),
         IfAny "beyond the frequency limit" Fixed(4);
