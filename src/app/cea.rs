@@ -9,7 +9,7 @@ use crate::results::cea::{
     KeptSteps, View, document, figures, page, summary, write_fields, write_universal,
 };
 use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
-use crate::study::superelement::free_spectrum;
+use crate::study::matrices::free_spectrum;
 use frictionsim_bounds::CASE;
 
 /// What an interrupted run leaves.
