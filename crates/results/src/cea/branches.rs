@@ -107,11 +107,8 @@ pub(super) fn pieces<'p, 'm>(
 
 /// Unstable intervals by branch, lowest frequency first, as the frequency axis has it.
 pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&UnstableInterval>)> {
-    let mut rows: BTreeMap<Branch, Vec<&UnstableInterval>> = BTreeMap::new();
-    for interval in &sweep.intervals {
-        rows.entry(branch_of(interval)).or_default().push(interval);
-    }
-    sorted(rows, |own| own.1[0].frequency_hz)
+    let rows = grouped(sweep.intervals.iter().map(|own| (branch_of(own), own)));
+    sorted(BTreeMap::from_iter(rows), |own| own.1[0].frequency_hz)
 }
 
 /// Largest distance of two frequencies that couple, relative to their mean.

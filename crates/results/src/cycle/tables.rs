@@ -194,10 +194,8 @@ impl SoughtCycle {
         let Some(cycle) = &self.cycle else {
             return (self.name.to_string(), self.absence().unwrap_or_default());
         };
-        let mut text = format!("{} Hz", fixed(cycle.main_frequency_hz, 2));
-        if let Some(known) = self.known() {
-            text += &format!(", {}", known.verdict);
-        }
+        let verdict = self.known().map_or(String::new(), |known| format!(", {}", known.verdict));
+        let text = format!("{} Hz{verdict}", fixed(cycle.main_frequency_hz, 2));
         (self.name.to_string(), text)
     }
 }
