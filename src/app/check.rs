@@ -48,10 +48,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         false => terminal::print(&text)?,
     }
     let all = plural(asked.cases.len(), ["case", "cases"]);
-    match bad {
-        0 => Ok(()),
-        _ => Err(Failure::usage(format!("{bad} of {all} cannot run"))),
-    }
+    if bad == 0 { Ok(()) } else { Err(Failure::usage(format!("{bad} of {all} cannot run"))) }
 }
 
 /// Whether a case is valid and what it would cost: the entry of `frictionsim check --json`.

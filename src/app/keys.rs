@@ -51,10 +51,7 @@ fn describe(keys: &[&CaseKey]) -> String {
             section = key.section();
             let _ = writeln!(out, "[{section}]");
         }
-        let unit = match key.unit {
-            "" => String::new(),
-            unit => format!(" {unit}"),
-        };
+        let unit = if key.unit.is_empty() { String::new() } else { format!(" {}", key.unit) };
         let _ = writeln!(
             out,
             "{}: {}{unit}; {}\n    {}",

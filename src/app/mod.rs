@@ -279,10 +279,7 @@ pub fn run_arguments(given: Vec<OsString>) -> u8 {
         Err(error) => return terminal::report_usage(&error),
     };
     limits::refuse_writes_beyond_limit();
-    match parsed.command.run() {
-        Ok(()) => 0,
-        Err(failure) => terminal::report(&failure),
-    }
+    parsed.command.run().map_or_else(|failure| terminal::report(&failure), |()| 0)
 }
 
 #[cfg(test)]

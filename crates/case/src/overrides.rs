@@ -20,10 +20,7 @@ pub fn unset(key: &str) -> String {
 
 /// The text that errors of an override point into.
 pub(super) fn source(text: &str) -> Source {
-    let (name, text) = match text.strip_prefix(UNSET) {
-        Some(key) => ("--unset", key),
-        None => ("--set", text),
-    };
+    let (name, text) = text.strip_prefix(UNSET).map_or(("--set", text), |key| ("--unset", key));
     Source { name: name.to_owned(), text: text.to_owned() }
 }
 
@@ -116,10 +113,8 @@ fn key_path(table: &DeTable<'_>, source: usize) -> Vec<Part> {
     let mut table = table;
     while let Some((key, value)) = table.iter().next() {
         path.push((key.get_ref().to_string(), Location::new(source, key.span())));
-        match value.get_ref() {
-            DeValue::Table(inner) => table = inner,
-            _ => break,
-        }
+        let DeValue::Table(inner) = value.get_ref() else { break };
+        table = inner;
     }
     path
 }

@@ -50,10 +50,7 @@ impl<'a> ShownBody<'a> {
 
     /// Its nodes and elements.
     pub fn whole(&self) -> Cow<'a, Mesh> {
-        match self.sector {
-            Some(sector) => Cow::Owned(sector.whole()),
-            None => Cow::Borrowed(self.mesh),
-        }
+        self.sector.map_or(Cow::Borrowed(self.mesh), |sector| Cow::Owned(sector.whole()))
     }
 
     /// The same for ParaView.

@@ -116,10 +116,7 @@ fn sweep_in_time(
     frictions: &[f64],
     shapes_at: &[f64],
 ) -> Result<(Model, FrictionSweep), StudyError> {
-    let solver = match case.body.revolution() {
-        Some(_) => Solver::Waves,
-        None => Solver::WholeMesh,
-    };
+    let solver = case.body.revolution().map_or(Solver::WholeMesh, |_| Solver::Waves);
     let request = SweepRequest {
         shapes_at,
         ..SweepRequest::new(frictions, asked_modes(case, MODES_IN_TIME))
