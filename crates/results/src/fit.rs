@@ -31,16 +31,14 @@ impl Finding for FitSummary {
         let modes = Table::new("modes.csv", "Modes of the fitted model")
             .columns(MODES, &self.modes)
             .column(GROWS.0, None, self.modes.iter().map(ModeSummary::is_unstable));
+        let Self { residuals: measured, measurement, friction_coefficient, worst_percent, .. } =
+            self;
+        let SearchSummary { starts, searches, arrived } = self.search;
         let fitted = format!(
-            "Fitted to {} lines of {} at friction coefficient {}; the worst frequency differs by {:.3} %. {} of {} \
-             searches, from the best of {} points, ended here.",
-            self.residuals.len(),
-            self.measurement,
-            self.friction_coefficient,
-            self.worst_percent,
-            self.search.arrived,
-            self.search.searches,
-            self.search.starts,
+            "Fitted to {} lines of {measurement} at friction coefficient {friction_coefficient}; the worst frequency \
+             differs by {worst_percent:.3} %. {arrived} of {searches} searches, from the best of {starts} points, \
+             ended here.",
+            measured.len(),
         );
         let pairs = self.correlations.iter().flat_map(|(a, row)| {
             let later = row.iter().filter(move |(b, _)| a < *b);

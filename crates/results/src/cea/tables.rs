@@ -3,8 +3,8 @@
 use super::branches::{branch_of, sentences};
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, onsets};
 use super::{
-    BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution, direction_name,
-    feed,
+    BRANCH, BaseField, BaseState, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution,
+    direction_name, feed,
 };
 use crate::common::*;
 
@@ -201,13 +201,11 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
     let (fewest, most) = report.mode_counts();
     let count = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
     let base = &report.base;
+    let (selection, residual) = (&report.selection, report.largest_residual());
+    let Solution { dofs, method, .. } = report.solution;
+    let values = plural(report.tabulated().count(), ["friction value", "friction values"]);
     let solved = format!(
-        "{count} modes ({}) at {}, {} unknowns, {} method; largest residual {:.1e}.",
-        report.selection,
-        plural(report.tabulated().count(), ["friction value", "friction values"]),
-        report.solution.dofs,
-        report.solution.method,
-        report.largest_residual(),
+        "{count} modes ({selection}) at {values}, {dofs} unknowns, {method} method; largest residual {residual:.1e}."
     );
     let free = report.body.is_assembly() && base.is_without_pressure();
     let [low, high] = base.pressure_pa.map(|pressure| fixed(1e-6 * pressure, 4));
@@ -215,14 +213,12 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         true => "no contact pressure".to_owned(),
         false => format!("pressure {low} to {high} MPa; {}, {}", base.drive(), base.power()),
     };
+    // Solid bodies touch at points between their nodes.
+    let nodes = if report.body.is_assembly() { "points" } else { "nodes" };
+    let BaseState { friction_coefficient: friction, slipping, sticking, open, .. } = base;
     let steady = format!(
-        "Steady sliding at friction {}: {} contact {} slipping, {} sticking, {} open; {state}.",
-        base.friction_coefficient,
-        base.slipping,
-        // Solid bodies touch at points between their nodes.
-        if report.body.is_assembly() { "points" } else { "nodes" },
-        base.sticking,
-        base.open,
+        "Steady sliding at friction {friction}: {slipping} contact {nodes} slipping, {sticking} sticking, {open} open; \
+         {state}."
     );
     let none = report.solution.sweep.intervals.is_empty().then(|| {
         let values = report.tabulated().map(|point| point.friction_coefficient);

@@ -1,7 +1,7 @@
 //! Limit cycles in words.
 
 use super::branch::{BranchSummary, StabilityChangeSummary};
-use super::record::{ModeSummary, OnsetSummary};
+use super::record::{ModeSummary, OnsetSummary, SteppedMotion};
 use super::summary::{CycleSummary, Origin, SoughtCycle};
 use super::verdicts::{ConfirmationSummary, StabilitySummary};
 use crate::{Extent, plural};
@@ -146,17 +146,13 @@ impl SoughtCycle {
 
     fn motion_sentence(&self) -> Option<String> {
         let cycle = self.cycle.as_ref()?;
-        let own = cycle.stepped.as_ref()?;
+        let SteppedMotion { residual, periods, steps, harmonic_count, harmonic_remainder, .. } =
+            cycle.stepped.as_ref()?;
+        let (balance, amplitude) = (cycle.balance_residual, cycle.amplitude_m?);
         Some(format!(
-            "repeats itself to {:.1e} after {} periods of {} steps, energy balance {:.1e}. {} \
-             harmonics leave {:.1e} of the motion of the contact, whose amplitude is {:.3e} m",
-            own.residual,
-            own.periods,
-            own.steps,
-            cycle.balance_residual,
-            own.harmonic_count,
-            own.harmonic_remainder,
-            cycle.amplitude_m?,
+            "repeats itself to {residual:.1e} after {periods} periods of {steps} steps, energy balance {balance:.1e}. \
+             {harmonic_count} harmonics leave {harmonic_remainder:.1e} of the motion of the contact, whose amplitude \
+             is {amplitude:.3e} m",
         ))
     }
 
@@ -262,14 +258,10 @@ impl SoughtCycle {
             true => format!("at both ends because {first}"),
             false => format!("at one end because {first}, at the other because {last}"),
         };
-        Some(format!(
-            "{name}: {} cycles over {key} from {} to {} (it stops {ends}){}{}",
-            branch.cycles,
-            significant(low, 5),
-            significant(high, 5),
-            branch.events(),
-            kick.unwrap_or_default(),
-        ))
+        let [low, high] = [low, high].map(|value| significant(value, 5));
+        let (cycles, events, kick) = (branch.cycles, branch.events(), kick.unwrap_or_default());
+        let over = format!("{cycles} cycles over {key} from {low} to {high}");
+        Some(format!("{name}: {over} (it stops {ends}){events}{kick}"))
     }
 }
 

@@ -311,15 +311,10 @@ fn compressed_rows(matrix: &MarketMatrix) -> io::Result<Vec<u8>> {
 pub fn print(summary: &MatricesSummary) -> String {
     let mut text = format!("{} unknowns; {}\n\n", summary.dofs, summary.units);
     for entry in &summary.matrices {
+        let MatrixEntry { name, entries, unit, .. } = entry;
         let size = format!("{} x {}", entry.rows, entry.columns);
-        let _ = writeln!(
-            text,
-            "  {:<16} {size:>15} {:>9} entries  {} ({})",
-            entry.name,
-            entry.entries,
-            entry.role.meaning(summary.friction_coefficient),
-            entry.unit,
-        );
+        let means = entry.role.meaning(summary.friction_coefficient);
+        let _ = writeln!(text, "  {name:<16} {size:>15} {entries:>9} entries  {means} ({unit})");
     }
     let _ = writeln!(text, "\n{}", summary.equation);
     let [from, to] = summary.friction_range;

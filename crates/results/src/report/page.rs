@@ -1,7 +1,7 @@
 //! The report as an HTML document.
 
 use super::{Page, script};
-use crate::prelude::*;
+use crate::{Manifest, prelude::*};
 use frictionsim_chart::ID_PREFIX;
 
 const STYLE: &str = include_str!("style.css");
@@ -19,10 +19,9 @@ impl Page {
     /// It needs no network and no other file: drawings are inline, and so are the scripts that let a reader zoom, sort,
     /// animate and listen. Every number and every drawing is there without them.
     pub fn to_html(&self, drawings: &[String]) -> String {
-        let title = match self.document.title.as_str() {
-            "" => self.manifest.case_file.as_str(),
-            title => title,
-        };
+        let Manifest { program, version, command, case_file, .. } = &self.manifest;
+        let title = &self.document.title;
+        let title = if title.is_empty() { case_file } else { title };
         let parts = self.parts(drawings);
         let mut out = String::new();
         let _ = write!(
@@ -33,14 +32,7 @@ impl Page {
              <title>{0}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n\
              <p>{1}</p>\n</header>\n",
             escape(title),
-            escape(&format!(
-                "{} {} {}, {} {}",
-                self.manifest.program,
-                self.manifest.version,
-                self.manifest.command,
-                self.source()[0],
-                self.manifest.case_file
-            ))
+            escape(&format!("{program} {version} {command}, {} {case_file}", self.source()[0]))
         );
         self.write_contents(&mut out, &parts);
         out.push_str("<main>\n");

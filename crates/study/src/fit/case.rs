@@ -215,12 +215,8 @@ pub fn notes(case: &Case, wanted: &Fit, found: &FitSummary) -> Vec<String> {
             let beside = found.residuals.iter().find(is_beside).map_or(String::new(), |line| {
                 format!(", beside the line at {:.0} Hz", line.frequency_hz)
             });
-            format!(
-                "unstable but not measured: {} at {:.0} Hz, growth {:+.1} Hz{beside}",
-                mode.name(),
-                mode.frequency_hz,
-                mode.real_hz
-            )
+            let (name, frequency, growth) = (mode.name(), mode.frequency_hz, mode.real_hz);
+            format!("unstable but not measured: {name} at {frequency:.0} Hz, growth {growth:+.1} Hz{beside}")
         }));
     }
     notes

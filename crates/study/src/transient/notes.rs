@@ -40,15 +40,13 @@ impl TransientStudy<'_> {
                 Some(name) => format!("region {name}"),
                 None => "the body".to_owned(),
             };
-            let [low, high] = chain.band_hz;
+            let ([low, high], count) = (chain.band_hz, chain.elements.len());
+            let (error, at_rest) = (100.0 * chain.largest_error, chain.at_rest);
+            let at_once = at_rest * chain.glassy();
             format!(
-                "{name}: a Maxwell chain of {} elements has its modulus and loss factor from \
-                 {low:.4} to {high:.4} Hz, within {:.2} % of the complex modulus. At rest it has \
-                 {:.4} times the modulus that the case gives, at once {:.4} times",
-                chain.elements.len(),
-                100.0 * chain.largest_error,
-                chain.at_rest,
-                chain.at_rest * chain.glassy()
+                "{name}: a Maxwell chain of {count} elements has its modulus and loss factor from \
+                 {low:.4} to {high:.4} Hz, within {error:.2} % of the complex modulus. At rest it has \
+                 {at_rest:.4} times the modulus that the case gives, at once {at_once:.4} times"
             )
         });
         said.collect()
