@@ -43,12 +43,10 @@ fn rows(channel: &ChannelSummary) -> impl Iterator<Item = Row> {
 /// Tables and sentences.
 pub fn document(summary: &SignalSummary) -> Document {
     let of_channel = |channel: &ChannelSummary| {
-        let [from, to] = channel.interval_s;
+        let ChannelSummary { name, interval_s: [from, to], resolution_hz, .. } = channel;
+        let blocks = plural(channel.averages, ["block", "blocks"]);
         let caption = format!(
-            "{}: peaks between {from:.4} and {to:.4} s, resolution {:.4} Hz (mean of {})",
-            channel.name,
-            channel.resolution_hz,
-            plural(channel.averages, ["block", "blocks"])
+            "{name}: peaks between {from:.4} and {to:.4} s, resolution {resolution_hz:.4} Hz (mean of {blocks})"
         );
         let words = channel.peaks.iter().map(|peak| channel.peak_text(peak));
         Table::new("", caption).columns(PEAKS, rows(channel)).shown_column("what it is", words)
@@ -61,14 +59,11 @@ pub fn document(summary: &SignalSummary) -> Document {
             [none, Some(channel.growth_text()), channel.mode_text(summary.friction_coefficient)];
         texts.into_iter().flatten().map(move |text| format!("{name}: {text}."))
     };
-    let sampled = format!(
-        "{}: {} samples at {} Hz ({} s).",
-        summary.source,
-        summary.samples,
-        // A rate from the rounded times of a table has a few true digits.
-        significant(summary.sampling_rate_hz, 9),
-        fixed(summary.samples as f64 / summary.sampling_rate_hz, 4)
-    );
+    let SignalSummary { source, samples, sampling_rate_hz: rate, .. } = summary;
+    let seconds = fixed(*samples as f64 / rate, 4);
+    // A rate from the rounded times of a table has a few true digits.
+    let rate = significant(*rate, 9);
+    let sampled = format!("{source}: {samples} samples at {rate} Hz ({seconds} s).");
     Document::new("Lines of a signal")
         .section(
             Section::new("Signal")

@@ -161,12 +161,10 @@ fn sentence(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
              what the one {other} it loses."
         ));
     }
+    let [one, other] = [branch, branch_of_mode(partner)].map(|own| report.branch_name(own));
+    let (friction, hz) = (point.friction_coefficient, fixed(partner.frequency_hz(), 1));
     Some(format!(
-        "{}: at friction {} it lies beside {} ({} Hz), which loses what it gains: these two couple.",
-        report.branch_name(branch),
-        point.friction_coefficient,
-        report.branch_name(branch_of_mode(partner)),
-        fixed(partner.frequency_hz(), 1)
+        "{one}: at friction {friction} it lies beside {other} ({hz} Hz), which loses what it gains: these two couple."
     ))
 }
 

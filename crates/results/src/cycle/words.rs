@@ -199,12 +199,11 @@ impl SoughtCycle {
         };
         let [stick, slip, open] =
             [run.status.stick, run.status.slip, run.status.open].map(|own| own.unwrap_or(0.0));
+        let (periods, hz) = (run.periods, run.main_frequency_hz.unwrap_or(0.0));
+        let (power, unit) = (run.power_w.external.unwrap_or(0.0), extent.unit("W"));
+        let contact = format!("stick {stick:.3}, slip {slip:.3}, open {open:.3}");
         Some(format!(
-            "{verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, power {:.2} {}",
-            run.periods,
-            run.main_frequency_hz.unwrap_or(0.0),
-            run.power_w.external.unwrap_or(0.0),
-            extent.unit("W"),
+            "{verdict}: after {periods} periods {hz:.2} Hz, {contact}, power {power:.2} {unit}"
         ))
     }
 

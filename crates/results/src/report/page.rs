@@ -180,15 +180,13 @@ fn write_section(out: &mut String, index: usize, (section, drawn): &Part<'_>, fi
 
 fn write_figure(out: &mut String, number: usize, figure: &Figure, drawing: &str) {
     // Two drawings of one kind carry the same ids; on one page each needs its own.
-    let own = format!("{ID_PREFIX}{number}-");
+    let drawing = drawing.replace(ID_PREFIX, &format!("{ID_PREFIX}{number}-"));
+    let [name, caption] = [&figure.name, &figure.caption].map(|text| escape(text));
     let _ = write!(
         out,
-        "<figure id=\"{}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure \
-        {number}\" tabindex=\"0\">\n{}</div>\n\
-         <figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
-        escape(&figure.name),
-        drawing.replace(ID_PREFIX, &own),
-        escape(&figure.caption)
+        "<figure id=\"{name}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure \
+        {number}\" tabindex=\"0\">\n{drawing}</div>\n\
+         <figcaption><b>Figure {number}.</b> {caption}</figcaption>\n</figure>\n"
     );
 }
 

@@ -129,13 +129,11 @@ fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) 
     let [low, high] =
         shares.fold([1.0_f64, 0.0_f64], |[low, high], share| [low.min(share), high.max(share)]);
     let error = (high - low) * frequency * time_step;
+    let [from, to, percent] = [low, high, error].map(|share| 100.0 * share);
     (error > STEP_ERROR).then(|| {
         format!(
-            "between {:.0} and {:.0} % of the contact nodes stick, so the time step may shorten the \
-             period by up to {:.2} %. A smaller transient.time_step is more accurate",
-            100.0 * low,
-            100.0 * high,
-            100.0 * error
+            "between {from:.0} and {to:.0} % of the contact nodes stick, so the time step may shorten the \
+             period by up to {percent:.2} %. A smaller transient.time_step is more accurate"
         )
     })
 }
