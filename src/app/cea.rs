@@ -1,16 +1,15 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient, or of a superelement that
 //! stands free.
 
-use super::limits::STANDARD_INPUT;
 use super::prelude::*;
-use super::start_threads;
+use super::{limits::STANDARD_INPUT, start_threads};
 use crate::case::{FreeSystem, RawCase};
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::cea::{
     KeptSteps, View, document, figures, page, summary, write_fields, write_universal,
 };
 use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
-use crate::study::superelement::free_spectrum;
+use crate::study::matrices::free_spectrum;
 use frictionsim_bounds::CASE;
 
 /// What an interrupted run leaves.

@@ -1,9 +1,8 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
-use super::cea::described_system;
-use super::options::CaseChanges;
 use super::prelude::*;
 use super::session::{machine_memory, read_case};
+use super::{cea::described_system, options::CaseChanges};
 use crate::case::{Convergence, Cost, FreeSystem, RunCost, StudyCost};
 use crate::results::plural;
 use crate::study::{Preflight, preflight};
@@ -49,10 +48,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         false => terminal::print(&text)?,
     }
     let all = plural(asked.cases.len(), ["case", "cases"]);
-    match bad {
-        0 => Ok(()),
-        _ => Err(Failure::usage(format!("{bad} of {all} cannot run"))),
-    }
+    if bad == 0 { Ok(()) } else { Err(Failure::usage(format!("{bad} of {all} cannot run"))) }
 }
 
 /// Whether a case is valid and what it would cost: the entry of `frictionsim check --json`.

@@ -2,18 +2,15 @@
 //!
 //! The threads of a run are its own and carry it with them, so that several runs go on side by side.
 
-use super::log::warnings_into;
-use super::{CommandLine, Failure, command_line};
+use super::{CommandLine, Failure, command_line, log::warnings_into};
 use crate::linalg::interruption::{Stop, Stopped, is_asked};
 use clap::FromArgMatches;
 use indicatif::ProgressBar;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
-use std::any::Any;
-use std::cell::RefCell;
-use std::ffi::OsString;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::{any::Any, cell::RefCell, ffi::OsString};
 use tracing::Dispatch;
 
 /// Advice for a run that keeps nothing before its end.

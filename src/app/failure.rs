@@ -1,8 +1,7 @@
 //! Failures of a command and their exit codes.
 
-use crate::case::CaseErrors;
 use crate::results::{DrawingError, FolderError};
-use crate::study::StudyError;
+use crate::{case::CaseErrors, study::StudyError};
 use std::io;
 
 /// Why a command did not do what it was asked.

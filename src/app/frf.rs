@@ -1,10 +1,8 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
 use super::prelude::*;
-use crate::frf::Terminal;
 use crate::results::{response_figure, write_response};
-use crate::signal::FrequencyResponse;
-use crate::study::response::FrequencyStudy;
+use crate::{frf::Terminal, signal::FrequencyResponse, study::response::FrequencyStudy};
 
 pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     let session = Session::start("frf", options)?;

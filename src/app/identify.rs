@@ -1,9 +1,8 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::measurement::{Measurement, SideFile, chosen};
-use super::one_of;
-use super::options::Choice;
 use super::prelude::*;
+use super::{one_of, options::Choice};
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
 };

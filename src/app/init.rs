@@ -4,8 +4,7 @@ use super::prelude::*;
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
 use crate::case::{case_from, reference};
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::Write;
+use std::{fs::File, io::Write};
 
 /// Short names of shipped cases.
 const SHORT_NAMES: &[(&str, &str)] = &[

@@ -51,21 +51,13 @@ fn describe(keys: &[&CaseKey]) -> String {
             section = key.section();
             let _ = writeln!(out, "[{section}]");
         }
-        let unit = match key.unit {
-            "" => String::new(),
-            unit => format!(" {unit}"),
+        let unit = if key.unit.is_empty() { String::new() } else { format!(" {}", key.unit) };
+        let (name, values, meaning) = (key.short(), key.values(), key.meaning);
+        let default = match key.default_text() {
+            needed if needed.starts_with("required") => needed.to_owned(),
+            default => format!("default {default}"),
         };
-        let _ = writeln!(
-            out,
-            "{}: {}{unit}; {}\n    {}",
-            key.short(),
-            key.values(),
-            match key.default_text() {
-                needed if needed.starts_with("required") => needed.to_owned(),
-                default => format!("default {default}"),
-            },
-            key.meaning
-        );
+        let _ = writeln!(out, "{name}: {values}{unit}; {default}\n    {meaning}");
         if !key.of_waves.is_empty() {
             let _ = writeln!(
                 out,

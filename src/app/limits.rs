@@ -3,10 +3,7 @@
 use super::{Failure, shipped};
 use crate::case::nearest;
 use frictionsim_bounds::{Budget, Limits, Refusal};
-use std::collections::BTreeSet;
-use std::fs::File;
-use std::io;
-use std::path::Path;
+use std::{collections::BTreeSet, fs::File, io, path::Path};
 
 /// Makes a write beyond the file size limit of the shell (`ulimit -f`) an error, as on a full disk, where the signal of
 /// it would end the process without a word.

@@ -3,9 +3,8 @@
 use crate::case::shown;
 use std::io::Write;
 use tracing::{Dispatch, Event, Level, Subscriber};
-use tracing_subscriber::fmt::format::Writer;
 use tracing_subscriber::fmt::{FmtContext, FormatEvent, FormatFields};
-use tracing_subscriber::registry::LookupSpan;
+use tracing_subscriber::{fmt::format::Writer, registry::LookupSpan};
 
 /// A log that keeps warnings, each line written to what `writer` gives.
 pub fn warnings_into<W: Write + 'static>(

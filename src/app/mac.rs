@@ -2,8 +2,7 @@
 
 use super::fit::measured_shapes;
 use super::prelude::*;
-use crate::results::mac::MacSummary;
-use crate::study::mac::assurance;
+use crate::{results::mac::MacSummary, study::mac::assurance};
 
 /// Compare measured shapes with the modes of a case
 ///

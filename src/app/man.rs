@@ -5,8 +5,7 @@ use super::prelude::*;
 use crate::case::{KEYS, reference};
 use clap_mangen::Man;
 use std::fmt::Write as _;
-use std::fs;
-use std::io;
+use std::{fs, io};
 
 /// Print the manual page, or write those of all subcommands
 #[derive(Args)]

@@ -1,8 +1,7 @@
 //! Options, input and output folder that the commands on measured tables share.
 
 use super::prelude::*;
-use crate::case::hash_of;
-use crate::signal::reader::ReadError;
+use crate::{case::hash_of, signal::reader::ReadError};
 use frictionsim_bounds::MEASUREMENT;
 use std::fmt::Display;
 use std::io::Write as _;

@@ -45,8 +45,7 @@ use options::{LONGEST_NAME, SIMD_LEVELS, Told, one_of};
 use session::{depend_on, start_threads};
 
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
-use std::ffi::OsString;
-use std::process::ExitCode;
+use std::{ffi::OsString, process::ExitCode};
 
 /// Predicts friction-induced vibration, such as brake squeal, by finite elements.
 ///
@@ -280,10 +279,7 @@ pub fn run_arguments(given: Vec<OsString>) -> u8 {
         Err(error) => return terminal::report_usage(&error),
     };
     limits::refuse_writes_beyond_limit();
-    match parsed.command.run() {
-        Ok(()) => 0,
-        Err(failure) => terminal::report(&failure),
-    }
+    parsed.command.run().map_or_else(|failure| terminal::report(&failure), |()| 0)
 }
 
 #[cfg(test)]

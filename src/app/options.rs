@@ -1,15 +1,12 @@
 //! Options that subcommands share, and the folder that results go to by default.
 
-use super::limits::STANDARD_INPUT;
-use super::{Failure, terminal};
-use crate::case::unset;
+use super::{Failure, limits::STANDARD_INPUT, terminal};
 use crate::chart::{Figure, WIDEST};
-use crate::fem::operator::SimdLevel;
-use crate::output::Document;
 use crate::results::{
     DOTS_PER_INCH, DrawingOptions, Format, Head, Manifest, OutputFolder, Replace, is_result,
     read_manifest, write_page, write_summary, write_tables,
 };
+use crate::{case::unset, fem::operator::SimdLevel, output::Document};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, ValueHint};
 use serde::Serialize;

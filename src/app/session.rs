@@ -2,15 +2,11 @@
 
 use super::{Failure, RunOptions, Told, embedded, input_name, read_input, terminal};
 use crate::case::{Case, RawCase, hash_of};
-use crate::chart::Figure;
-use crate::fem::operator::SimdLevel;
-use crate::output::Document;
 use crate::results::{Finding, Head, MESH, Manifest, OutputFolder, declared};
-use crate::study::refuse_memory;
+use crate::{chart::Figure, fem::operator::SimdLevel, output::Document, study::refuse_memory};
 use frictionsim_bounds::CASE;
 use serde::Serialize;
-use std::path::Path;
-use std::time::Instant;
+use std::{path::Path, time::Instant};
 
 /// A validated case on its way through one subcommand.
 #[derive(Debug)]

@@ -3,9 +3,6 @@
 use super::measurement::{Measurement, SideFile, chosen};
 use super::prelude::*;
 use super::session::read_case;
-use crate::cea::ModeLimit;
-use crate::fem::MassKind;
-use crate::results::charts::ModeLine;
 use crate::results::signal::{
     ChannelSummary, MODE_TOLERANCE, ModeSummary, SignalDrawing, SignalSummary, document,
     draw as draw_figures, write_spectra,
@@ -18,6 +15,7 @@ use crate::signal::{
     averaged_spectrum, exponential_stage, spectral_lines,
 };
 use crate::study::{modes_at_own_friction, tangent_options};
+use crate::{cea::ModeLimit, fem::MassKind, results::charts::ModeLine};
 
 /// Lines reported for each channel.
 const MOST_LINES: usize = 12;

@@ -6,9 +6,7 @@ pub use crate::study::{Shard, SweepPlan};
 pub use workers::{PointRunner, SweepProgress, SweepRun, keep_piece, kept_pieces};
 
 use super::prelude::*;
-use super::session::machine_memory;
-use super::share::ShareOptions;
-use super::transient::linear_stage;
+use super::{session::machine_memory, share::ShareOptions, transient::linear_stage};
 use crate::case::{Analysis, Choice};
 use crate::results::summary_of;
 use crate::results::sweep::{

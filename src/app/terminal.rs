@@ -1,7 +1,6 @@
 //! Terminal output: results on stdout, log and progress on stderr.
 
-use super::log::Line;
-use super::{Failure, PANICKED, embedded};
+use super::{Failure, PANICKED, embedded, log::Line};
 use crate::case::{find_key, shown, shown_json};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};

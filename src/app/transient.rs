@@ -4,8 +4,6 @@ mod continuation;
 mod watch;
 
 use super::prelude::*;
-use crate::fem::operator::StiffnessOperator;
-use crate::linalg::interruption;
 use crate::results::transient::{
     CHECKPOINT, Checkpoint, LinearStage, RecordedRun, SolvedTransient, document, draw_run, write,
     write_checkpoint,
@@ -14,6 +12,7 @@ use crate::results::{read_record, write_page};
 use crate::study;
 use crate::study::transient::TransientStudy;
 use crate::transient::{CentralDifference, Recorder, RunEnd};
+use crate::{fem::operator::StiffnessOperator, linalg::interruption};
 use watch::Watch;
 
 /// How the vibration grows and saturates, step by step in time

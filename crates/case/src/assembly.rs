@@ -1,10 +1,8 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
-use super::Contact;
 use super::contacts::{NamedContact, contact, short_form, unit};
-use super::description::Description;
 use super::imported::{FileParts, Made, near_name};
-use super::value::quote;
+use super::{Contact, description::Description, value::quote};
 use crate::*;
 use frictionsim_physics::prestress::{Assembly, PrestressError, TiedSurfaces};
 

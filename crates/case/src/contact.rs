@@ -1,9 +1,7 @@
 //! The section `[contact]`: what presses, the springs and how they stiffen with pressure, friction.
 
-use super::elastic::loss_factor;
-use super::value::quote;
 use super::words::{BaseContact, NormalLawWord};
-use super::{imported, solid};
+use super::{elastic::loss_factor, imported, solid, value::quote};
 use crate::*;
 use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 

@@ -1,7 +1,6 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
-use super::body::node_count;
-use super::{Analysis, Contact};
+use super::{Analysis, Contact, body::node_count};
 use crate::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 

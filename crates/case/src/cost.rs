@@ -5,8 +5,7 @@
 
 mod estimate;
 
-use super::sweep::evenly;
-use super::{Analysis, CaseErrors};
+use super::{Analysis, CaseErrors, sweep::evenly};
 use crate::*;
 use estimate::Size;
 use serde::{Serialize, Serializer};

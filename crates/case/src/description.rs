@@ -2,9 +2,8 @@
 
 use super::boundaries::NamedCondition;
 use super::modifications::Modification;
-use super::tables::TableFiles;
-use super::words::FilePart;
 use super::{UnitsWord, boundaries, elastic, modifications};
+use super::{tables::TableFiles, words::FilePart};
 use crate::*;
 
 /// `[damping]`.

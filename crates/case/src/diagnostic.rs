@@ -71,10 +71,7 @@ impl std::fmt::Display for Diagnostic {
     /// Message and remedy on one line.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.message)?;
-        match &self.help {
-            Some(help) => write!(f, " ({help})"),
-            None => Ok(()),
-        }
+        self.help.iter().try_for_each(|help| write!(f, " ({help})"))
     }
 }
 
@@ -165,10 +162,7 @@ fn clamp(span: &Range<usize>, text: &str) -> Range<usize> {
     };
     let start = floor(span.start);
     let end = floor(span.end.max(start)).max(start);
-    match text[start..end].find('\n') {
-        Some(newline) => start..start + newline,
-        None => start..end,
-    }
+    text[start..end].find('\n').map_or(start..end, |newline| start..start + newline)
 }
 
 /// A text cut at [`LONGEST_MESSAGE`].

@@ -1,7 +1,6 @@
 //! What a mesh file holds beside the mesh, as the sections that a case would have for it, in SI units.
 
-use super::UnitsWord;
-use super::value::quote;
+use super::{UnitsWord, value::quote};
 use crate::*;
 use frictionsim_physics::mesh::{
     FileConditionKind, FileContact, FileMaterial, MaterialAxes, ModelData,

@@ -1,14 +1,12 @@
 //! Bodies that the case's own numbers make: `[geometry]` and the element counts of `[mesh]`, with a deformable shaft in
 //! the annulus (`[materials.shaft]`, `[boundaries.bore]`).
 
-use super::attachments::reshaped_annulus;
-use super::body::node_count;
-use super::contact::contact;
-use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
-use super::modifications::Misfit;
-use super::whole_revolution::whole_revolution;
-use super::{Contact, assembly, boundaries, imported, solid};
+use super::{
+    Contact, assembly, attachments::reshaped_annulus, body::node_count, boundaries,
+    contact::contact, description::Description, imported, modifications::Misfit, solid,
+    whole_revolution::whole_revolution,
+};
 use crate::*;
 use frictionsim_physics::mesh::ShaftSpecification;
 

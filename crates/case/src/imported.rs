@@ -2,9 +2,7 @@
 
 use super::description::{Description, has_common_constants};
 use super::modifications::{Misfit, reshaped};
-use super::value::quote;
-use super::words::CounterfaceWord;
-use super::{MeshBytes, elastic, inclusion, suggestion};
+use super::{MeshBytes, elastic, inclusion, suggestion, value::quote, words::CounterfaceWord};
 use crate::*;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::mesh::{BodyPart, CyclicSymmetry, refined_file, repeated_file};

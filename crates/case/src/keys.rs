@@ -177,10 +177,7 @@ impl CaseKey {
 
     /// Where the value of a continuous parameter may lie; none of what is no such parameter.
     pub(super) fn continuous(&self) -> Option<Bound> {
-        match self.kind {
-            Kind::Number(bound) | Kind::NumberOr(bound, _) => Some(bound),
-            _ => None,
-        }
+        if let Kind::Number(own) | Kind::NumberOr(own, _) = self.kind { Some(own) } else { None }
     }
 
     /// Whether it may have a value of this kind: a number, or anything else but a section.

@@ -1,12 +1,11 @@
 //! The body of a case: generated, or from a mesh file.
 
 use super::assembly::AssemblyParts;
-use super::contact::contact;
 use super::description::{Description, has_common_constants};
 use super::elastic::{Surroundings, place_axes};
-use super::generated::generated;
 use super::imported::{FileParts, Made};
 use super::{Contact, assembly, attachments, imported};
+use super::{contact::contact, generated::generated};
 use crate::*;
 
 /// The body with its modifications, and its contact; no body where a mesh file makes none, which is an error already.

@@ -1,7 +1,6 @@
 //! Nodes of the mesh as a case names them: by number, or by a place whose nearest node is meant.
 
-use super::body::solid_node_count;
-use super::reader::NodePlace;
+use super::{body::solid_node_count, reader::NodePlace};
 use crate::*;
 use frictionsim_physics::mesh::Strip;
 

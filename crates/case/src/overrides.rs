@@ -1,8 +1,7 @@
 //! `--set KEY=VALUE` and `--unset KEY`: assignments laid over the case, keys taken away.
 
-use super::suggestion::Scope;
 use super::value::{convert, cut};
-use super::{Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys};
+use super::{Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, suggestion::Scope};
 use toml::de::{DeTable, DeValue};
 
 /// A part of the path of an override, with its place.
@@ -21,10 +20,7 @@ pub fn unset(key: &str) -> String {
 
 /// The text that errors of an override point into.
 pub(super) fn source(text: &str) -> Source {
-    let (name, text) = match text.strip_prefix(UNSET) {
-        Some(key) => ("--unset", key),
-        None => ("--set", text),
-    };
+    let (name, text) = text.strip_prefix(UNSET).map_or(("--set", text), |key| ("--unset", key));
     Source { name: name.to_owned(), text: text.to_owned() }
 }
 
@@ -117,10 +113,8 @@ fn key_path(table: &DeTable<'_>, source: usize) -> Vec<Part> {
     let mut table = table;
     while let Some((key, value)) = table.iter().next() {
         path.push((key.get_ref().to_string(), Location::new(source, key.span())));
-        match value.get_ref() {
-            DeValue::Table(inner) => table = inner,
-            _ => break,
-        }
+        let DeValue::Table(inner) = value.get_ref() else { break };
+        table = inner;
     }
     path
 }

@@ -1,7 +1,6 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
-use super::value::leaves;
-use super::{Bound, keys};
+use super::{Bound, keys, value::leaves};
 use crate::*;
 
 /// Sections that make the model.

@@ -1,14 +1,11 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
-use super::diagnostic::BACKSLASH;
 use super::value::{convert_table, leaves, quote, table_of, with_point};
-use super::{Source, keys, overrides};
+use super::{Source, diagnostic::BACKSLASH, keys, overrides};
 use crate::*;
 use frictionsim_physics::mesh::MeshFileError;
 use sha2::{Digest, Sha256};
-use std::collections::HashSet;
-use std::path::PathBuf;
-use std::sync::OnceLock;
+use std::{collections::HashSet, path::PathBuf, sync::OnceLock};
 use toml::de::DeTable;
 
 /// A parsed, not yet validated case: the file's TOML with the overrides laid over it.

@@ -39,14 +39,9 @@ pub fn markdown() -> String {
         for key in keys_of(section) {
             let default = key.default_toml().map(|value| format!("`{value}`"));
             let default = default.unwrap_or_else(|| plain(key.default_text()));
-            let _ = writeln!(
-                out,
-                "| `{}` | {} | {} | {default} | {} |",
-                key.short(),
-                plain(&key.values()),
-                key.unit,
-                plain(key.meaning)
-            );
+            let (name, unit) = (key.short(), key.unit);
+            let [values, meaning] = [&*key.values(), key.meaning].map(plain);
+            let _ = writeln!(out, "| `{name}` | {values} | {unit} | {default} | {meaning} |");
         }
     }
     out

@@ -40,10 +40,7 @@ pub(super) fn relaxed(case: &Case) -> Option<Vec<RegionMaterial>> {
 impl Case {
     /// The material of each region of the mesh in time.
     pub fn materials_in_time(&self) -> &dyn MaterialField {
-        match &self.relaxed {
-            Some(relaxed) => relaxed,
-            None => self.materials(),
-        }
+        self.relaxed.as_ref().map_or(self.materials(), |own| own)
     }
 
     /// Refuses losses that have no equivalent in time.

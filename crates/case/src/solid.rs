@@ -1,7 +1,6 @@
 //! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
 
-use super::description::Description;
-use super::{imported, suggestion};
+use super::{description::Description, imported, suggestion};
 use crate::*;
 use frictionsim_physics::mesh::SolidPart;
 

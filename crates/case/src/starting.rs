@@ -2,9 +2,7 @@
 //! file.
 
 use super::file_sections::{sections, text};
-use super::taken::drop_key;
-use super::value::quote;
-use super::{FileSection, UnitsWord, inclusion};
+use super::{FileSection, UnitsWord, inclusion, taken::drop_key, value::quote};
 use crate::*;
 use frictionsim_physics::mesh::{FileElement, SurfaceFace};
 

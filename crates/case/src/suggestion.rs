@@ -1,8 +1,6 @@
 //! Suggestions for unknown keys: near misses, synonyms, the meaning of a key.
 
-use super::KEYS;
-use super::keys::find;
-use super::value::table_of;
+use super::{KEYS, keys::find, value::table_of};
 use crate::*;
 
 /// A hint for an unknown part of a range or of a place, which have these parts.

@@ -1,7 +1,6 @@
 //! `[superelements.*]`: systems that other programs have reduced to matrices.
 
-use super::cea::mode_selection;
-use super::{Findings, ModeLimit};
+use super::{Findings, ModeLimit, cea::mode_selection};
 use crate::*;
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;

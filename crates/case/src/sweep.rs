@@ -1,7 +1,6 @@
 //! `[sweep]`: any case key over several values.
 
-use super::value::range_count;
-use super::{Analysis, Bound, Combination, VariedKey, parameters};
+use super::{Analysis, Bound, Combination, VariedKey, parameters, value::range_count};
 use crate::*;
 
 /// A swept key and its values.

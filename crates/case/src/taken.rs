@@ -5,10 +5,8 @@
 //! one there. The same holds for a contact or a tie whose surfaces it names, and for a motion whose axis it gives.
 //! Elastic constants are taken together, and so are the two coefficients of Rayleigh's damping.
 
-use super::elastic::ORTHOTROPIC;
 use super::file_sections::{list, sections, text};
-use super::value::table_of;
-use super::{FileSection, MeshBytes, UnitsWord, imported};
+use super::{FileSection, MeshBytes, UnitsWord, elastic::ORTHOTROPIC, imported, value::table_of};
 use crate::*;
 
 /// Entries that a warning names.

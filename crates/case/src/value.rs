@@ -35,10 +35,7 @@ impl RawItem {
 
     /// The items of a list; anything else is a list of itself alone.
     pub(super) fn listed(&self) -> &[Self] {
-        match &self.value {
-            RawValue::Array(items) => items,
-            _ => std::slice::from_ref(self),
-        }
+        if let RawValue::Array(items) = &self.value { items } else { std::slice::from_ref(self) }
     }
 }
 

@@ -1,9 +1,7 @@
 //! The choices that a case names by a word, and their words.
 
 use crate::*;
-use frictionsim_physics::frf::Direction;
-use frictionsim_physics::mesh::ElementKind;
-use frictionsim_physics::transient::InitialState;
+use frictionsim_physics::{frf::Direction, mesh::ElementKind, transient::InitialState};
 
 /// A choice that a case names by a word.
 pub trait Choice: Copy + PartialEq + 'static {

@@ -76,10 +76,7 @@ impl Axis {
 
     /// The ends, where they are given.
     pub(super) fn given(&self) -> Option<(f64, f64)> {
-        match self.ends {
-            Ends::At(low, high) => Some((low, high)),
-            _ => None,
-        }
+        if let Ends::At(low, high) = self.ends { Some((low, high)) } else { None }
     }
 
     /// The axis once the range of the data is known (in their unit; of the positive ones on a logarithmic axis).

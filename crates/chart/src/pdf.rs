@@ -1,15 +1,12 @@
 //! Whole drawings as PDF: paths, clips and images as they are, letters as their outlines.
 
 use super::{ChartError, Drawing};
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+use flate2::{Compression, write::ZlibEncoder};
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 use resvg::tiny_skia::{PathSegment, Transform};
 use resvg::usvg::{Color, Group, Image, ImageKind, LineCap, Node, Paint, Path};
-use std::collections::BTreeMap;
-use std::io::Write;
-use std::sync::Arc;
+use std::{collections::BTreeMap, io::Write, sync::Arc};
 
 impl Drawing {
     /// The drawing as a PDF of one page of its own size.

@@ -225,10 +225,7 @@ impl Layer for Surface {
     }
 
     fn colours(&self) -> Option<&Colours> {
-        match &self.paint {
-            Paint::Values(_, colours) => Some(colours),
-            Paint::Parts(..) => None,
-        }
+        if let Paint::Values(_, colours) = &self.paint { Some(colours) } else { None }
     }
 
     fn keys(&self) -> Vec<(Key, String)> {

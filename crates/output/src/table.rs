@@ -3,8 +3,7 @@
 use super::csv;
 use super::number::{Format, unit_of};
 use serde::{Deserialize, Serialize};
-use std::borrow::Borrow;
-use std::io;
+use std::{borrow::Borrow, io};
 
 /// What stands in one place of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,13 +108,13 @@ impl<T> Column<T> {
     }
 }
 
-/// Declares columns: `NAME: row as Type; key: "meaning" = cell, Always "label" Fixed(2); ...`; a constant may stand for
-/// a meaning, and columns that no file has need none.
+/// Declares tables of columns, each behind its comment: `NAME: row as Type; key: "meaning" = cell, Always "label"
+/// Fixed(2); ...`; a constant may stand for a meaning, and columns that no file has need none.
 #[macro_export]
 macro_rules! columns {
-    ($(#[$meta:meta])* $vis:vis $name:ident: $row:ident as $type:ty;
-     $($key:ident $(: $meaning:tt)? = $cell:expr $(, $when:ident $label:literal $format:expr)?;)+) => {
-        $(#[$meta])*
+    ($($(#[$meta:meta])+ $vis:vis $name:ident: $row:ident as $type:ty;
+     $($key:ident $(: $meaning:tt)? = $cell:expr $(, $when:ident $label:literal $format:expr)?;)+)+) => {$(
+        $(#[$meta])+
         $vis const $name: &[$crate::Column<$type>] = {
             #[allow(unused_imports)]
             use $crate::Format::*;
@@ -126,7 +125,7 @@ macro_rules! columns {
                 cell: |#[allow(unused_variables)] $row: &$type| $crate::Cell::from($cell),
             }),+]
         };
-    };
+    )+};
 }
 
 /// The columns before the one of this name, and those from it on: two tables of one row share a part of its columns.

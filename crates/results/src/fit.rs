@@ -31,16 +31,14 @@ impl Finding for FitSummary {
         let modes = Table::new("modes.csv", "Modes of the fitted model")
             .columns(MODES, &self.modes)
             .column(GROWS.0, None, self.modes.iter().map(ModeSummary::is_unstable));
+        let Self { residuals: measured, measurement, friction_coefficient, worst_percent, .. } =
+            self;
+        let SearchSummary { starts, searches, arrived } = self.search;
         let fitted = format!(
-            "Fitted to {} lines of {} at friction coefficient {}; the worst frequency differs by {:.3} %. {} of {} \
-             searches, from the best of {} points, ended here.",
-            self.residuals.len(),
-            self.measurement,
-            self.friction_coefficient,
-            self.worst_percent,
-            self.search.arrived,
-            self.search.searches,
-            self.search.starts,
+            "Fitted to {} lines of {measurement} at friction coefficient {friction_coefficient}; the worst frequency \
+             differs by {worst_percent:.3} %. {arrived} of {searches} searches, from the best of {starts} points, \
+             ended here.",
+            measured.len(),
         );
         let pairs = self.correlations.iter().flat_map(|(a, row)| {
             let later = row.iter().filter(move |(b, _)| a < *b);
@@ -101,8 +99,7 @@ keys! {
 
     /// One mode of the model.
     ModeSummary, MODES {
-        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
-            IfAny "n" Count;
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry", IfAny "n" Count;
         branch: usize = "rank within the harmonic, else among all, from 1", Always "branch" Count;
         direction: i8 = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         frequency_hz: f64 = "frequency of the mode", Always "frequency" Fixed(2);
@@ -127,8 +124,7 @@ keys! {
     LineSummary, LINES {
         line: usize = "line of the table of measurements";
         frequency_hz: f64 = "measured frequency", Always "measured" Fixed(2);
-        real_hz: Option<f64> = "measured real part of the eigenvalue over 2 pi",
-            IfAny "real part" Fixed(2);
+        real_hz: Option<f64> = "measured real part of the eigenvalue over 2 pi", IfAny "real part" Fixed(2);
         harmonic: Option<usize> = "measured number of nodal diameters";
         /// Whether it was heard.
         unstable: bool;

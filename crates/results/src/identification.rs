@@ -2,14 +2,16 @@
 
 use crate::common::*;
 use frictionsim_chart::significant;
-use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
-    Estimate, FittedMode, FrequencyResponse, HalfPowerBand, Identification, ModalFit, RayleighFit,
-    ResonanceNote,
+    FittedMode, HalfPowerBand, Identification, ModalFit, RayleighFit, ResonanceNote,
+    reader::NamedResponse,
 };
 
 /// Name of the `[damping]` section in its folder.
 pub const DAMPING_BLOCK: &str = "damping.toml";
+
+/// Frequency of a line, response, fitted response.
+type FittedLine = (f64, c64, Option<c64>);
 
 columns! {
     /// A mode of the responses; its row has its number before.
@@ -18,23 +20,17 @@ columns! {
     frequency_hz: "undamped natural frequency" = row.1.frequency_hz, Always "frequency" Fixed(2);
     frequency_low_hz: "lower end of its 95 % interval" = row.1.frequency_interval_hz[0];
     frequency_high_hz: "upper end" = row.1.frequency_interval_hz[1];
-    damping_factor: "damping factor of the fit"
-        = row.1.damping_factor, Always "damping factor" Percent(4);
-    damping_factor_low: "lower end of its 95 % interval"
-        = row.1.damping_factor_interval[0], Always "from" Percent(4);
+    damping_factor: "damping factor of the fit" = row.1.damping_factor, Always "damping factor" Percent(4);
+    damping_factor_low: "lower end of its 95 % interval" = row.1.damping_factor_interval[0], Always "from" Percent(4);
     damping_factor_high: "upper end" = row.1.damping_factor_interval[1], Always "to" Percent(4);
     half_power_damping_factor: "damping factor of the half-power band, where that can be trusted"
         = row.1.half_power.as_ref().and_then(|b| b.damping_factor),
         IfAny "by half-power" Percent(4);
-    half_power_low_hz: "lower half-power frequency"
-        = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[0]);
-    half_power_high_hz: "upper half-power frequency"
-        = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[1]);
+    half_power_low_hz: "lower half-power frequency" = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[0]);
+    half_power_high_hz: "upper half-power frequency" = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[1]);
     used: "whether it enters the coefficients" = row.1.used, Always "used" Plain;
     flag: "what is doubtful about it" = row.1.flag.clone(), IfAny "remark" Plain;
-}
 
-columns! {
     /// Rayleigh coefficients of an estimator.
     COEFFICIENTS: row as (&'static str, RayleighFit);
     estimator = row.0, Always "estimator" Plain;
@@ -44,19 +40,13 @@ columns! {
     stiffness_coefficient_s = row.1.stiffness_coefficient.value, Always "beta_R" Significant(5);
     stiffness_coefficient_low = row.1.stiffness_coefficient.low, Always "from" Significant(5);
     stiffness_coefficient_high = row.1.stiffness_coefficient.high, Always "to" Significant(5);
-}
 
-/// Frequency of a line, response, fitted response.
-type FittedLine = (f64, c64, Option<c64>);
-
-columns! {
     /// A line of a response and its fit.
     pub(super) FITTED: row as FittedLine;
     frequency_hz: "frequency of the line" = row.0;
     real: "real part of the response, in its unit" = row.1.re;
     imaginary: "imaginary part" = row.1.im;
-    fit_real: "real part of the fitted response; empty outside the range of the fit"
-        = row.2.map(|fit| fit.re);
+    fit_real: "real part of the fitted response; empty outside the range of the fit" = row.2.map(|fit| fit.re);
     fit_imaginary: "imaginary part" = row.2.map(|fit| fit.im);
 }
 

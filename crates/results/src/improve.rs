@@ -1,7 +1,6 @@
 //! Results of `improve`: where a modification silences unstable modes, what it is predicted to do, and what it does.
 
 use crate::common::*;
-use std::f64::consts::PI;
 
 /// What `improve` finds.
 pub struct Improvement {
@@ -149,15 +148,12 @@ columns! {
     /// A modification and its place.
     pub(crate) CANDIDATES: own as Candidate;
     rank: "place in the list, from 1" = own.rank, Always "rank" Count;
-    kind: "mass, spring, dashpot, removal, damping or offset"
-        = own.kind.clone(), Always "kind" Plain;
+    kind: "mass, spring, dashpot, removal, damping or offset" = own.kind.clone(), Always "kind" Plain;
     node: "number of its node" = own.node;
     x_m: "where it is; the way of the hole for an offset" = own.position_m[0];
     y_m: "where it is; the way of the hole for an offset" = own.position_m[1];
     z_m: "where it is; the way of the hole for an offset" = own.position_m[2];
-}
 
-columns! {
     /// The direction of a spring or dashpot, and what a modification weighs.
     pub(crate) EFFECTS: own as Candidate;
     direction_x: "direction of a spring or dashpot" = own.direction.map(|d| d[0]);
@@ -167,9 +163,7 @@ columns! {
         = own.added_mass_kg, Always "mass" Significant(4);
     first_order_growth_rate_per_s: "largest growth rate of the targets to first order"
         = own.first_order_growth_rate_per_s, IfAny "growth, first order" Significant(4);
-}
 
-columns! {
     /// What a run comes to, and how to make it.
     pub(crate) VERDICTS: own as Candidate;
     verdict: "what the run with it comes to" = own.verdict.clone(), Always "verdict" Plain;

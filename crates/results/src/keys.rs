@@ -27,6 +27,7 @@ macro_rules! keys {
         }}
 
         frictionsim_output::columns! {
+            #[doc = "Its keys as columns."]
             pub(crate) $columns: own as $name;
             $($($key: $meaning = own.$key.to_owned() $(, $when $label $format)?;)?)+
         }

@@ -9,7 +9,6 @@ pub mod convergence;
 pub mod cycle;
 mod distinct;
 mod drawing;
-mod extent;
 pub mod fit;
 pub mod identification;
 pub mod improve;
@@ -38,7 +37,6 @@ use store::{folder, framed, manifest, record, reopening};
 
 pub use distinct::{grouped, number_ranges, plural, sorted};
 pub use drawing::{DOTS_PER_INCH, Declaration, DrawingError, DrawingOptions, Format, declared};
-pub use extent::Extent;
 pub use report::{Finding, Page, write_page, write_table, write_tables};
 pub use response::{ResponseSummary, response_figure, write_response};
 pub use shown_body::{BodyStress, ShownBody};
@@ -46,6 +44,6 @@ pub use store::{
     FolderError, MESH, Manifest, OutputFolder, Record, Replace, is_result, read_manifest,
     read_record,
 };
-pub use summary::{Head, object, read_summary, summary_of, write_summary};
+pub use summary::{Extent, Head, object, read_summary, summary_of, write_summary};
 pub use universal::{write_universal_mesh, write_universal_mode};
 pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};

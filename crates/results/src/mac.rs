@@ -48,17 +48,14 @@ columns! {
     /// A shape beside a mode.
     pub(super) ROWS: row as Row;
     shape: "name of the measured shape" = row.0.name.clone(), Always "shape" Plain;
-    measured_frequency_hz: "its frequency, where the file says it"
-        = row.0.frequency_hz, IfAny "measured" Fixed(2);
+    measured_frequency_hz: "its frequency, where the file says it" = row.0.frequency_hz, IfAny "measured" Fixed(2);
     mode: "number of the mode by frequency, from 1" = row.1.mode, Always "mode" Count;
     frequency_hz: "its frequency" = row.1.frequency_hz, Always "frequency" Fixed(2);
     real_hz: "real part of its eigenvalue over 2 pi" = row.1.real_hz;
     harmonic: "its nodal diameters; none without symmetry" = row.1.harmonic, IfAny "n" Count;
     mac: "modal assurance criterion, 0 to 1" = row.2, Always "MAC" Fixed(4);
     paired: "whether the two are a pair" = row.3;
-}
 
-columns! {
     /// How the mode grows, and what is left out of a shape.
     BESIDE: row as Row;
     growth_rate_per_s = TAU * row.1.real_hz, Always "growth rate" Fixed(2);

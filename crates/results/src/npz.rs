@@ -2,8 +2,7 @@
 
 use frictionsim_physics::contact::ContactStatus;
 use std::io::{self, Cursor, Write};
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
+use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
 /// A number that an array of NumPy can hold.
 pub trait NpyNumber: Copy {

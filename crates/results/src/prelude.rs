@@ -1,32 +1,39 @@
 //! What most tables and figures are made of, from other crates; [`common`](crate::common) has what is of this one too.
 
 pub(crate) use crate::{keys::keys, plural};
+pub(crate) use flate2::Compression;
+pub(crate) use frictionsim_bounds::{RESULT, read_file};
 pub(crate) use frictionsim_chart::{
-    Axis, Bars, ColourMap, Figure, Fill, Heat, INK, Label, Line, MUTED, Marker, Motion, MotionKind,
-    MotionState, Panel, Points, Rule, SERIES, Scale, Shapes, Side, Stroke, TextStyle, extremes,
-    literal, look, plain, prefixed, signed,
+    Axis, Bars, ColourMap, Figure, Fill, Heat, INK, Label, Line, MUTED, Mark, Marker, Motion,
+    MotionKind, MotionState, Panel, PanelData, Points, Rule, SERIES, Scale, SeriesKind, Shapes,
+    Side, Stroke, Surface, TextStyle, escape, extremes, literal, look, plain, prefixed, signed,
 };
 pub(crate) use frictionsim_output::{
     Cell, Column, Described, Document, Format, Section, Table, columns, fixed, parted, rounded,
     significant, unit_of, write_rows,
 };
 pub(crate) use frictionsim_physics::{
-    cea::{ComplexMode, FrictionPoint},
+    cea::{ComplexMode, FrictionPoint, UnstableInterval},
     contact::{ContactInterface, ContactStatus},
-    cycle::PhasePoint,
-    fem::MaterialField,
+    cycle::{
+        BranchEnd, Confirmation, Family, FloquetMultipliers, Parameter, PhasePoint, TwoWaveMotion,
+        periodic::{MotionFrame, PeriodicMotion, Sound},
+    },
+    fem::{MaterialField, NodalStress, SolidStress, nodal_stress},
     linalg::c64,
-    mesh::{BoundaryFace, Counterface, Mesh, SolidFace, SolidSector},
-    transient::EndState,
+    mesh::{BoundaryCondition, BoundaryFace, Counterface, Mesh, SolidFace, SolidSector},
+    transient::{EndState, ProbeMotion, Recorder, SampleRow, Snapshot},
 };
+pub(crate) use frictionsim_signal::{AmplitudeSpectrum, Estimate, FrequencyResponse, spectrogram};
 pub(crate) use nalgebra::Vector3;
-pub(crate) use serde::{Deserialize, Serialize};
-pub(crate) use serde_json::{Map, Value};
+pub(crate) use serde::{Deserialize, Serialize, de::DeserializeOwned};
+pub(crate) use serde_json::{Map, Value, json};
 pub(crate) use std::{
     collections::{BTreeMap, BTreeSet},
-    f64::consts::TAU,
+    f64::consts::{PI, TAU},
     fmt::Write as _,
+    fs,
     io::{self, Write as _},
-    path::Path,
+    path::{Path, PathBuf},
     sync::Arc,
 };

@@ -1,14 +1,12 @@
 //! Every declared column of the tables and every key of `summary.json`, with unit and meaning.
 
-use super::manifest::Manifest;
 use super::summary::STATUS as FRACTIONS;
 use super::{
     ResponseSummary, basin, cea, compare, convergence, cycle, fit, identification, improve, mac,
-    matrices, mesh, signal, sweep, transient, uncertainty,
+    manifest::Manifest, matrices, mesh, signal, sweep, transient, uncertainty,
 };
 use crate::common::*;
 use frictionsim_output::{Entry, describe_field, entries, keys_of};
-use serde_json::json;
 
 /// What one file of a command holds.
 pub struct FileReference {

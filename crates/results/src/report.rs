@@ -4,9 +4,8 @@ mod page;
 mod script;
 
 use super::drawing::{Declaration, File, REPORT, files_of};
-use super::manifest::Manifest;
 use super::record::{Record, read_record, write_record};
-use super::{DrawingError, DrawingOptions};
+use super::{DrawingError, DrawingOptions, manifest::Manifest};
 use crate::prelude::*;
 use crate::{FolderError, OutputFolder};
 use frictionsim_chart::ChartError;

@@ -3,7 +3,7 @@
 use super::identification::response_unit;
 use crate::common::*;
 use frictionsim_signal::reader::{self, Place};
-use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
+use frictionsim_signal::{ResponseQuantity, prominence};
 
 keys! {
     /// `summary.json` of `frictionsim frf`.

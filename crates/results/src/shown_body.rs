@@ -2,9 +2,7 @@
 
 use crate::prelude::*;
 use crate::{EncodedMesh, Field};
-use frictionsim_physics::fem::{
-    NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
-};
+use frictionsim_physics::fem::{revolved_stress, solid_stress};
 use std::borrow::Cow;
 
 /// A body in tables, fields and figures.
@@ -52,10 +50,7 @@ impl<'a> ShownBody<'a> {
 
     /// Its nodes and elements.
     pub fn whole(&self) -> Cow<'a, Mesh> {
-        match self.sector {
-            Some(sector) => Cow::Owned(sector.whole()),
-            None => Cow::Borrowed(self.mesh),
-        }
+        self.sector.map_or(Cow::Borrowed(self.mesh), |sector| Cow::Owned(sector.whole()))
     }
 
     /// The same for ParaView.

@@ -7,7 +7,6 @@ use crate::charts::{run_axis, signal_panel, spectrogram_panels, spectrum_panel};
 use crate::common::*;
 use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
-use frictionsim_signal::{AmplitudeSpectrum, spectrogram};
 pub use summary::{
     ChannelSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary, SignalSummary,
 };
@@ -21,22 +20,15 @@ columns! {
     channel: "name of the channel" = row.0.clone();
     peak: "number of the peak, the strongest first, from 1" = row.1, Always "peak" Count;
     frequency_hz: "frequency of the peak" = row.2.line.frequency_hz, Always "frequency" Fixed(2);
-    amplitude: "amplitude, in the unit of the signal"
-        = row.2.line.amplitude, Always "amplitude" Scientific(4);
-    superharmonic_of_peak: "peak of which it is a multiple"
-        = row.2.line.superharmonic.map(|own| own.of_peak);
+    amplitude: "amplitude, in the unit of the signal" = row.2.line.amplitude, Always "amplitude" Scientific(4);
+    superharmonic_of_peak: "peak of which it is a multiple" = row.2.line.superharmonic.map(|own| own.of_peak);
     order: "which multiple" = row.2.line.superharmonic.map(|own| own.order);
-    nearest_mode: "number of the mode beside it, from 1"
-        = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
-    mode_frequency_hz: "frequency of that mode"
-        = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
-    harmonic: "its nodal diameters; none without symmetry"
-        = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
+    nearest_mode: "number of the mode beside it, from 1" = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
+    mode_frequency_hz: "frequency of that mode" = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
+    harmonic: "its nodal diameters; none without symmetry" = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
     branch: BRANCH = row.2.nearest_mode.as_ref().map(|mode| mode.branch);
     direction: DIRECTION = row.2.nearest_mode.as_ref().and_then(|mode| mode.direction);
-}
 
-columns! {
     /// A line of a spectrum.
     pub(super) SPECTRUM: line as (f64, f64);
     frequency_hz: "frequency" = line.0;
@@ -51,12 +43,10 @@ fn rows(channel: &ChannelSummary) -> impl Iterator<Item = Row> {
 /// Tables and sentences.
 pub fn document(summary: &SignalSummary) -> Document {
     let of_channel = |channel: &ChannelSummary| {
-        let [from, to] = channel.interval_s;
+        let ChannelSummary { name, interval_s: [from, to], resolution_hz, .. } = channel;
+        let blocks = plural(channel.averages, ["block", "blocks"]);
         let caption = format!(
-            "{}: peaks between {from:.4} and {to:.4} s, resolution {:.4} Hz (mean of {})",
-            channel.name,
-            channel.resolution_hz,
-            plural(channel.averages, ["block", "blocks"])
+            "{name}: peaks between {from:.4} and {to:.4} s, resolution {resolution_hz:.4} Hz (mean of {blocks})"
         );
         let words = channel.peaks.iter().map(|peak| channel.peak_text(peak));
         Table::new("", caption).columns(PEAKS, rows(channel)).shown_column("what it is", words)
@@ -69,14 +59,11 @@ pub fn document(summary: &SignalSummary) -> Document {
             [none, Some(channel.growth_text()), channel.mode_text(summary.friction_coefficient)];
         texts.into_iter().flatten().map(move |text| format!("{name}: {text}."))
     };
-    let sampled = format!(
-        "{}: {} samples at {} Hz ({} s).",
-        summary.source,
-        summary.samples,
-        // A rate from the rounded times of a table has a few true digits.
-        significant(summary.sampling_rate_hz, 9),
-        fixed(summary.samples as f64 / summary.sampling_rate_hz, 4)
-    );
+    let SignalSummary { source, samples, sampling_rate_hz: rate, .. } = summary;
+    let seconds = fixed(*samples as f64 / rate, 4);
+    // A rate from the rounded times of a table has a few true digits.
+    let rate = significant(*rate, 9);
+    let sampled = format!("{source}: {samples} samples at {rate} Hz ({seconds} s).");
     Document::new("Lines of a signal")
         .section(
             Section::new("Signal")

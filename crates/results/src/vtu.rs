@@ -2,10 +2,7 @@
 //! by time.
 
 use crate::prelude::*;
-use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use frictionsim_chart::escape;
-use frictionsim_physics::fem::{NodalStress, SolidStress};
 use std::slice;
 
 /// Bytes of one compressed block.

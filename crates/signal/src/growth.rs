@@ -6,11 +6,9 @@ mod harmonic;
 
 pub use harmonic::{harmonic_growth, strongest_vibration};
 
-use super::error::SignalError;
 use super::lines::{largest, loudest_parts};
-use super::modal::Estimate;
 use super::spectrum::{centred, check_signal};
-use super::{Window, main_frequency};
+use super::{Window, error::SignalError, main_frequency, modal::Estimate};
 use demodulation::{Demodulated, demodulate, line, prefix_sums};
 use frictionsim_output::Described;
 use serde::Serialize;

@@ -1,14 +1,11 @@
 //! Spectral lines that stand out of the noise, and the superharmonics among them.
 
-use super::Window;
-use super::error::SignalError;
 use super::spectrum::{AmplitudeSpectrum, averaged_spectrum, check_signal, top_of};
 use super::statistics::{mean_power_exceeded, median, normal_exceeded};
-use super::window::HALF_LOBE;
+use super::{Window, error::SignalError, window::HALF_LOBE};
 use frictionsim_output::Described;
 use serde::Serialize;
-use std::iter::successors;
-use std::ops::Range;
+use std::{iter::successors, ops::Range};
 
 /// Weakest line reported, relative to the strongest (-46 dB).
 const WEAKEST: f64 = 5e-3;

@@ -1,8 +1,7 @@
 //! Lines of a complex series, each with the sense in which it turns.
 
-use super::Window;
 use super::spectrum::{signed_bin, top_of};
-use super::window::HALF_LOBE;
+use super::{Window, window::HALF_LOBE};
 use crate::forward_transform;
 use faer::c64;
 

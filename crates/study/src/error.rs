@@ -54,10 +54,7 @@ impl From<PrestressError> for StudyError {
 impl StudyError {
     /// What went wrong, one line for each error.
     pub fn messages(&self) -> Vec<String> {
-        match self {
-            Self::Case(errors) => errors.messages(),
-            _ => vec![self.to_string()],
-        }
+        if let Self::Case(errors) = self { errors.messages() } else { vec![self.to_string()] }
     }
 
     /// The same in one line.

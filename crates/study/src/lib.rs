@@ -4,7 +4,7 @@
 //! sweeps over friction; [`response`] excites the model at one node; [`transient`] steps through time. [`cycle`] finds
 //! limit cycles directly and [`basin`] which of two wins; [`convergence`] compares the levels of a refinement.
 //! [`improve`] finds what silences unstable modes; [`mac`] compares measured shapes with modes. [`matrices`] exports
-//! what the eigenvalue analysis solves and [`superelement`] solves matrices from elsewhere. [`fit`] finds parameters
+//! what the eigenvalue analysis solves, and solves matrices from elsewhere. [`fit`] finds parameters
 //! from measured modes; [`uncertainty`] draws samples of rough ones. [`tangent_options`] is how a case takes the
 //! tangent of steady sliding. Nothing here touches a file or the terminal.
 
@@ -15,7 +15,6 @@ pub mod eigenvalues;
 mod error;
 pub mod fit;
 pub mod improve;
-mod linear_stage;
 pub mod mac;
 pub mod matrices;
 mod plan;
@@ -24,7 +23,6 @@ mod prelude;
 pub mod response;
 mod sobol;
 mod summary;
-pub mod superelement;
 mod tangent;
 pub mod transient;
 pub mod uncertainty;
@@ -35,9 +33,9 @@ use prelude::*;
 
 pub use eigenvalues::modes_at_own_friction;
 pub use error::StudyError;
-pub use linear_stage::linear_stage;
 pub use plan::{Shard, SweepPlan, one_line};
 pub use preflight::{Preflight, preflight, refuse_memory};
 pub use sobol::ScrambledSobol;
 pub use summary::summarize;
 pub use tangent::{extent_of, tangent_options};
+pub use transient::linear_stage;

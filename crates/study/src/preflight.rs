@@ -1,9 +1,8 @@
 //! Checks of a case without running it, through the code paths of the run.
 
 use super::eigenvalues::Solver;
-use super::response::FrequencyStudy;
-use super::transient::TransientStudy;
 use super::{SweepPlan, eigenvalues, improve};
+use super::{response::FrequencyStudy, transient::TransientStudy};
 use crate::*;
 use frictionsim_case::{Cost, Diagnostic, Location};
 

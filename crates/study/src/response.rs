@@ -19,8 +19,7 @@ use frictionsim_physics::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, Terminal, cyclic_response,
     direct_response, reduced_response,
 };
-use frictionsim_physics::linalg::GaussianNoise;
-use frictionsim_physics::mesh::BoundaryCondition;
+use frictionsim_physics::{linalg::GaussianNoise, mesh::BoundaryCondition};
 use frictionsim_results::ResponseSummary;
 
 /// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
@@ -156,15 +155,9 @@ fn described(case: &Case, frf: &Frf, found: &ResponseSummary) -> String {
         (_, _, Some(error)) => format!(" (largest backward error {error:.1e})"),
         _ => String::new(),
     };
-    format!(
-        "{} from {} to {}: {} lines, {} unknowns, {}{error}",
-        found.quantity,
-        place(frf.force),
-        place(frf.response),
-        found.lines,
-        found.dofs,
-        found.method,
-    )
+    let ResponseSummary { quantity, lines, dofs, method, .. } = found;
+    let [from, to] = [frf.force, frf.response].map(place);
+    format!("{quantity} from {from} to {to}: {lines} lines, {dofs} unknowns, {method}{error}")
 }
 
 impl Response {

@@ -1,10 +1,9 @@
 //! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep
 //! holds.
 
-use super::basin;
 use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use super::eigenvalues::{self, Solved};
-use super::transient::TransientStudy;
+use super::{basin, transient::TransientStudy};
 use crate::*;
 use frictionsim_results::cycle::CycleSummary;
 use frictionsim_results::{self, Head, object};

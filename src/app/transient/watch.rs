@@ -7,9 +7,8 @@ use crate::results::FolderError;
 use crate::results::transient::write_checkpoint;
 use crate::transient::{Observer, Recorder, Sample, StepPlan};
 use indicatif::ProgressBar;
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::{ops::ControlFlow, time::Duration};
 
 /// Set by Ctrl-C and SIGTERM.
 static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -78,16 +77,12 @@ impl<'a> Watch<'a> {
         let counts = sample.row.counts;
         let steps = (counts.stick + counts.slip + counts.open).max(1) as f64;
         let nodes = sample.contact().status.len() as f64;
-        let share = |count: u64| (nodes * count as f64 / steps).round();
+        let [stick, slip, open] = [counts.stick, counts.slip, counts.open]
+            .map(|count| (nodes * count as f64 / steps).round());
+        let [now, end] = [sample.row.time, self.end_time].map(|time| 1e3 * time);
         self.bar.set_position(sample.index + 1);
-        self.bar.set_message(format!(
-            "{:.3} of {:.3} ms, stick {} slip {} open {}",
-            1e3 * sample.row.time,
-            1e3 * self.end_time,
-            share(counts.stick),
-            share(counts.slip),
-            share(counts.open),
-        ));
+        let shares = format!("stick {stick} slip {slip} open {open}");
+        self.bar.set_message(format!("{now:.3} of {end:.3} ms, {shares}"));
     }
 
     fn save(&mut self, sample: &Sample<'_>) -> Result<(), FolderError> {

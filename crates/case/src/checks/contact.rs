@@ -1,8 +1,6 @@
 //! Contacts that hardly any pair of bodies has.
 
-use super::Limit;
-use super::material::modulus_key;
-use super::mesh::lengths;
+use super::{Limit, material::modulus_key, mesh::lengths};
 use crate::contact::{Springs, section_of};
 use crate::*;
 

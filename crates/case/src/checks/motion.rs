@@ -1,8 +1,6 @@
 //! Transients that cannot run, or hardly show what they are meant to.
 
-use super::Limit;
-use super::contact::lame_pressure;
-use super::material::bar_wave_speed;
+use super::{Limit, contact::lame_pressure, material::bar_wave_speed};
 use crate::*;
 use crate::{InitialState, TimeStep};
 

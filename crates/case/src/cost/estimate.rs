@@ -220,10 +220,8 @@ fn solid_frf_cost(frf: &Frf, solid: &SolidSpecification, dofs: f64) -> (f64, f64
     let sectors = solid.annulus.circumferential_elements.max(1) as f64;
     let unknowns = dofs / sectors;
     let half_bandwidth = solid_half_bandwidth(solid);
-    let waves = match frf.boundary {
-        FrfBoundary::Sliding => sectors,
-        FrfBoundary::Free | FrfBoundary::Clamped => 0.5 * sectors + 1.0,
-    };
+    let is_sliding = frf.boundary == FrfBoundary::Sliding;
+    let waves = if is_sliding { sectors } else { 0.5 * sectors + 1.0 };
     let entries = unknowns * (2.0 * half_bandwidth + 1.0);
     // Sixteen harmonics of three bands or 2^21 entries of each, and eight lines at a time.
     let held = (16.0 * entries).min(entries.max(f64::from(1 << 21)));

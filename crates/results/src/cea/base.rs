@@ -2,7 +2,6 @@
 
 use crate::BodyStress;
 use crate::common::*;
-use std::f64::consts::PI;
 
 keys! {
     /// The steady sliding state at one friction coefficient in a few numbers.
@@ -80,18 +79,13 @@ columns! {
     /// A contact node and its angle, rad.
     pub(crate) NODES: row as (usize, Option<f64>);
     node: "number of the contact node" = row.0;
-    angle_degrees: "its angle about the axis; none along a straight edge"
-        = row.1.map(f64::to_degrees);
-}
+    angle_degrees: "its angle about the axis; none along a straight edge" = row.1.map(f64::to_degrees);
 
-columns! {
     /// A ring of contact nodes.
     pub(crate) RINGS: own as ContactState;
     radius_m: "radius of the ring of contact nodes, of bodies of revolution" = own.place.position[0];
     height_m: "its height" = own.place.position[2];
-}
 
-columns! {
     /// A contact point of solid bodies.
     pub(crate) POINTS: own as ContactState;
     contact: "name of the contact" = own.place.contact.clone();
@@ -99,9 +93,7 @@ columns! {
     y_m: "place of the contact node or point" = own.place.position[1];
     z_m: "place of the contact point" = own.place.position[2];
     area_m2: "area that belongs to it" = own.place.area;
-}
 
-columns! {
     /// Pressure and traction, and whether it presses.
     pub(crate) TRACTIONS: own as ContactState;
     pressure_pa: "contact pressure" = own.pressure;

@@ -2,7 +2,7 @@
 
 use super::{CeaReport, direction_name};
 use crate::common::*;
-use frictionsim_physics::cea::{FrictionSweep, UnstableInterval};
+use frictionsim_physics::cea::FrictionSweep;
 
 keys! {
     /// A mode of one friction value, as its table numbers it.
@@ -107,11 +107,8 @@ pub(super) fn pieces<'p, 'm>(
 
 /// Unstable intervals by branch, lowest frequency first, as the frequency axis has it.
 pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&UnstableInterval>)> {
-    let mut rows: BTreeMap<Branch, Vec<&UnstableInterval>> = BTreeMap::new();
-    for interval in &sweep.intervals {
-        rows.entry(branch_of(interval)).or_default().push(interval);
-    }
-    sorted(rows, |own| own.1[0].frequency_hz)
+    let rows = grouped(sweep.intervals.iter().map(|own| (branch_of(own), own)));
+    sorted(BTreeMap::from_iter(rows), |own| own.1[0].frequency_hz)
 }
 
 /// Largest distance of two frequencies that couple, relative to their mean.
@@ -164,12 +161,10 @@ fn sentence(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
              what the one {other} it loses."
         ));
     }
+    let [one, other] = [branch, branch_of_mode(partner)].map(|own| report.branch_name(own));
+    let (friction, hz) = (point.friction_coefficient, fixed(partner.frequency_hz(), 1));
     Some(format!(
-        "{}: at friction {} it lies beside {} ({} Hz), which loses what it gains: these two couple.",
-        report.branch_name(branch),
-        point.friction_coefficient,
-        report.branch_name(branch_of_mode(partner)),
-        fixed(partner.frequency_hz(), 1)
+        "{one}: at friction {friction} it lies beside {other} ({hz} Hz), which loses what it gains: these two couple."
     ))
 }
 

@@ -2,9 +2,8 @@
 
 use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::locus::{NamedDamping, locus};
-use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
-use super::{BaseField, CeaReport, direction_name, feed, prestress};
+use super::{BaseField, CeaReport, direction_name, feed, prestress, reading::budget};
 use crate::common::*;
 
 /// Branches whose shape is followed over friction, at most.

@@ -2,9 +2,7 @@
 
 use crate::common::*;
 use crate::store::framed;
-use frictionsim_bounds::{RESULT, read_file};
 use frictionsim_physics::cea::{SweepProgress, SweepWatch};
-use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Where they are in the folder while the run goes on.

@@ -3,7 +3,7 @@
 use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::{CeaReport, direction_name};
 use crate::common::*;
-use frictionsim_chart::{Mark, Steps, significant};
+use frictionsim_chart::{Steps, significant};
 use frictionsim_physics::fem::RayleighDamping;
 
 /// Damping that regions of a body have, with the mark-up that names it.

@@ -3,10 +3,8 @@
 use super::CeaReport;
 use super::base::{BaseField, ContactState, closed_share};
 use super::shape::{Picture, size};
-use crate::BodyStress;
-use crate::charts::contact_surfaces;
 use crate::common::*;
-use frictionsim_physics::fem::NodalStress;
+use crate::{BodyStress, charts::contact_surfaces};
 
 /// Half the length of the arrow of the sliding over the size of its surface.
 const ARROW: f64 = 0.15;

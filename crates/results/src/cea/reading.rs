@@ -157,10 +157,8 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Option<Figure
         return None;
     }
     // Each branch by itself: its rows are found once.
-    let mut rows: BTreeMap<Branch, Vec<&Contribution>> = BTreeMap::new();
-    for row in &reading.contributions {
-        rows.entry(branch_of_mode(&row.mode)).or_default().push(row);
-    }
+    let rows = grouped(reading.contributions.iter().map(|row| (branch_of_mode(&row.mode), row)));
+    let rows = BTreeMap::from_iter(rows);
     let panels = reading.fastest().into_iter().take(PANELS).map(|branch| {
         // As tables and other figures name it.
         budget_panel(report.branch_name(branch), &rows[&branch], &frictions)

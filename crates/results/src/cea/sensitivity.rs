@@ -95,15 +95,13 @@ impl SensitivityReport {
     fn changes(&self, own: &SensitivityRow) -> Table {
         let mut changes = self.per_cent(own);
         changes.retain(|(_, change)| change.norm() > 0.0);
-        let (rate, frequency) = (own.eigenvalue.re, own.eigenvalue.im / TAU);
-        let travels = own.direction.map_or("", travels);
+        let (rate, frequency) = (own.eigenvalue.re, fixed(own.eigenvalue.im / TAU, 2));
+        let (name, travels) = (self.name(own), own.direction.map_or("", travels));
+        let does = if rate > 0.0 { "grows" } else { "decays" };
+        let (rate, friction) = (fixed(rate.abs(), 2), own.friction_coefficient);
         let caption = format!(
-            "One per cent more of each parameter changes {}{travels} ({} Hz, {} at {} 1/s at friction {}) by",
-            self.name(own),
-            fixed(frequency, 2),
-            if rate > 0.0 { "grows" } else { "decays" },
-            fixed(rate.abs(), 2),
-            own.friction_coefficient,
+            "One per cent more of each parameter changes {name}{travels} ({frequency} Hz, {does} at {rate} 1/s at \
+             friction {friction}) by"
         );
         let look = |label, digits| Some((label, Format::Signed(digits)));
         Table::new("", caption)

@@ -3,7 +3,7 @@
 use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport, Solution};
 use crate::common::*;
-use frictionsim_physics::cea::{ModeCount, UnstableInterval};
+use frictionsim_physics::cea::ModeCount;
 
 keys! {
     /// `summary.json` of `frictionsim cea`.
@@ -70,8 +70,7 @@ keys! {
     /// Where a branch turns unstable, and where it is stable again.
     #[derive(Copy, Deserialize)]
     CriticalFriction, ONSETS {
-        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
-            IfAny "n" Count;
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry", IfAny "n" Count;
         branch: usize = "0 of a motion that grows without oscillating; rank within the harmonic, \
             else among all, from 1", Always "branch" Count;
         direction: Option<i8> = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
@@ -80,8 +79,7 @@ keys! {
         frequency_hz: Option<f64> = "frequency there", Always "frequency" Fixed(2);
         restabilized_friction: Option<f64> = "friction coefficient above which it is stable again",
             IfAny "stable again above" Fixed(6);
-        restabilized_frequency_hz: Option<f64> = "frequency there",
-            IfAny "frequency there" Fixed(2);
+        restabilized_frequency_hz: Option<f64> = "frequency there", IfAny "frequency there" Fixed(2);
         unstable_from_start: bool = "whether it is unstable at the lowest friction solved already";
         lost_after?: f64 = "friction coefficient between which and critical_friction it \
             turns unstable, where it was lost";
@@ -135,8 +133,7 @@ keys! {
     UnstableMode, UNSTABLE {
         friction_coefficient: f64 = "friction coefficient", Always "friction" Plain;
         mode: usize = "number by frequency at that friction, from 1", Always "mode" Count;
-        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
-            IfAny "n" Count;
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry", IfAny "n" Count;
         branch: usize = "rank within the harmonic, else among all, from 1";
         direction: Option<i8> = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
         frequency_hz: f64 = "frequency", Always "frequency" Fixed(2);

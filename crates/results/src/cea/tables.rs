@@ -3,8 +3,8 @@
 use super::branches::{branch_of, sentences};
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, onsets};
 use super::{
-    BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution, direction_name,
-    feed,
+    BRANCH, BaseField, BaseState, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution,
+    direction_name, feed,
 };
 use crate::common::*;
 
@@ -45,33 +45,27 @@ columns! {
     friction_coefficient: "friction coefficient" = row.friction;
     mode: "number by frequency at that friction, from 1" = row.number, Always "mode" Count;
     real_hz: "real part of the eigenvalue over 2 pi" = row.own.real_hz;
-    frequency_hz: "imaginary part of the eigenvalue over 2 pi"
-        = row.own.frequency_hz, Always "frequency" Fixed(2);
+    frequency_hz: "imaginary part of the eigenvalue over 2 pi" = row.own.frequency_hz, Always "frequency" Fixed(2);
     damping_factor: "damping factor; negative where the mode grows"
         = row.mode.damping_factor(), Always "damping factor" Scientific(3);
-    growth_rate_per_s: "real part of the eigenvalue"
-        = row.mode.growth_rate(), Always "growth rate" Fixed(2);
+    growth_rate_per_s: "real part of the eigenvalue" = row.mode.growth_rate(), Always "growth rate" Fixed(2);
     harmonic: HARMONIC = row.own.harmonic, IfAny "n" Count;
     branch: BRANCH = row.own.branch, Always "branch" Count;
     direction: DIRECTION = row.own.direction;
     unstable: "whether the mode grows" = row.own.unstable;
     residual: "relative residual of the eigenpair" = row.mode.residual;
     contact_share: "share of the kinetic energy at the contact" = row.own.contact_share;
-    mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz"
-        = row.own.mesh_error;
-    axial_share: "share of the kinetic energy along the axis, of bodies of revolution"
-        = row.own.axial_share;
-}
+    mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz" = row.own.mesh_error;
+    axial_share: "share of the kinetic energy along the axis, of bodies of revolution" = row.own.axial_share;
 
-/// Those of every body.
-const COMMON: &[Column<ModeRow>] = parted(MODES, "axial_share").0;
-
-columns! {
     /// A mode in words.
     MODE_WORDS: row as ModeRow;
     travels = row.own.direction.map(direction_name), IfAny "travels" Plain;
     stability = row.own.unstable.then_some("unstable"), IfAny "stability" Plain;
 }
+
+/// Those of every body.
+const COMMON: &[Column<ModeRow>] = parted(MODES, "axial_share").0;
 
 /// What is to be said of an onset.
 fn remark(onset: &CriticalFriction) -> Option<String> {
@@ -207,13 +201,11 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
     let (fewest, most) = report.mode_counts();
     let count = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
     let base = &report.base;
+    let (selection, residual) = (&report.selection, report.largest_residual());
+    let Solution { dofs, method, .. } = report.solution;
+    let values = plural(report.tabulated().count(), ["friction value", "friction values"]);
     let solved = format!(
-        "{count} modes ({}) at {}, {} unknowns, {} method; largest residual {:.1e}.",
-        report.selection,
-        plural(report.tabulated().count(), ["friction value", "friction values"]),
-        report.solution.dofs,
-        report.solution.method,
-        report.largest_residual(),
+        "{count} modes ({selection}) at {values}, {dofs} unknowns, {method} method; largest residual {residual:.1e}."
     );
     let free = report.body.is_assembly() && base.is_without_pressure();
     let [low, high] = base.pressure_pa.map(|pressure| fixed(1e-6 * pressure, 4));
@@ -221,14 +213,12 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         true => "no contact pressure".to_owned(),
         false => format!("pressure {low} to {high} MPa; {}, {}", base.drive(), base.power()),
     };
+    // Solid bodies touch at points between their nodes.
+    let nodes = if report.body.is_assembly() { "points" } else { "nodes" };
+    let BaseState { friction_coefficient: friction, slipping, sticking, open, .. } = base;
     let steady = format!(
-        "Steady sliding at friction {}: {} contact {} slipping, {} sticking, {} open; {state}.",
-        base.friction_coefficient,
-        base.slipping,
-        // Solid bodies touch at points between their nodes.
-        if report.body.is_assembly() { "points" } else { "nodes" },
-        base.sticking,
-        base.open,
+        "Steady sliding at friction {friction}: {slipping} contact {nodes} slipping, {sticking} sticking, {open} open; \
+         {state}."
     );
     let none = report.solution.sweep.intervals.is_empty().then(|| {
         let values = report.tabulated().map(|point| point.friction_coefficient);

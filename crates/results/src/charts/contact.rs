@@ -1,13 +1,11 @@
 //! The contact over time and around the circle.
 
-use super::Disc;
 use super::palette::{
     OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring, status_runs,
 };
-use super::solid::speeds_of_bodies;
+use super::{Disc, solid::speeds_of_bodies};
 use crate::common::*;
 use frictionsim_chart::Palette;
-use frictionsim_physics::fem::nodal_stress;
 
 /// Columns of a status map: three for each point of a wide panel.
 const FINEST: usize = 900;

@@ -3,7 +3,7 @@
 use super::palette::{UNSTABLE, centred};
 use crate::prelude::*;
 use frictionsim_chart::GRID;
-use frictionsim_signal::{AmplitudeSpectrum, Spectrogram, top_of};
+use frictionsim_signal::{Spectrogram, top_of};
 
 /// A mode of the eigenvalue analysis, drawn as a line over what a signal contains.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Solid bodies of a mesh file as pictures: their outer surface from one point of view.
 
 use crate::prelude::*;
-use frictionsim_chart::{Surface, SurfaceMesh};
+use frictionsim_chart::SurfaceMesh;
 
 /// Cosine of the angle between two faces below which their common edge is drawn.
 const SHARP: f64 = 0.75;

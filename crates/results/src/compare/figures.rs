@@ -2,7 +2,7 @@
 
 use super::ComparedRun;
 use crate::common::*;
-use frictionsim_chart::{PanelData, Series, SeriesKind};
+use frictionsim_chart::Series;
 
 /// Most curves of one panel that are told apart.
 const MOST_CURVES: usize = 24;

@@ -6,8 +6,7 @@ pub use figures::overlaid;
 
 use super::sweep::{cell, join};
 use crate::common::*;
-use crate::identification::response_unit;
-use crate::{Manifest, Page};
+use crate::{Manifest, Page, identification::response_unit};
 
 /// A finished run.
 pub struct ComparedRun {

@@ -122,20 +122,15 @@ columns! {
     size: "element size, m, or time step, s" = row.series.3;
     value: "value on the level" = row.own.values[row.level];
     error: "value less the extrapolated one" = row.own.error(row.level);
-    extrapolated: "value extrapolated after Richardson from the three finest levels"
-        = row.own.extrapolated;
+    extrapolated: "value extrapolated after Richardson from the three finest levels" = row.own.extrapolated;
     order: "observed order of convergence" = row.own.order;
     verdict: "what the three finest values say" = row.own.verdict.clone();
-}
 
-columns! {
     /// What a quantity is.
     NAMES: own as Quantity;
     quantity = own.name.clone(), Always "quantity" Plain;
     unit = Some(own.unit.clone()).filter(|unit| !unit.is_empty()), IfAny "unit" Plain;
-}
 
-columns! {
     /// What the levels say of a quantity.
     VERDICTS: own as Quantity;
     extrapolated = own.extrapolated, Always "extrapolated" Significant(7);

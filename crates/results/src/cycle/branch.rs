@@ -5,7 +5,7 @@ use crate::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STICK_POWER,
 };
 use crate::common::*;
-use frictionsim_physics::cycle::{BranchEnd, Family, Parameter, Verdict};
+use frictionsim_physics::cycle::Verdict;
 
 /// A cycle of a branch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,20 +33,15 @@ columns! {
     pub(crate) BRANCH: row as BranchRow;
     harmonic: "circumferential harmonic of a wave" = row.harmonic;
     main_frequency_hz: "frequency" = row.motion.main_frequency_hz;
-}
 
-columns! {
     /// What else is known of it, behind its status and its powers.
     pub(crate) ALONG: row as BranchRow;
     amplitude_m: "amplitude along the counterface" = row.motion.amplitude_m;
     velocity_level_db: "level of the velocity over 5e-8 m/s, of motions of the whole mesh"
         = row.motion.velocity_level_db;
-    balance_residual: "residual of the energy balance, relative to the external power"
-        = row.motion.balance_residual;
-    growth_rate_per_s: "growth rate of the leading perturbation, where it was asked for"
-        = row.growth_rate;
-    stability: "stable, unstable or undecided, where it was asked for"
-        = row.verdict.map(Verdict::word);
+    balance_residual: "residual of the energy balance, relative to the external power" = row.motion.balance_residual;
+    growth_rate_per_s: "growth rate of the leading perturbation, where it was asked for" = row.growth_rate;
+    stability: "stable, unstable or undecided, where it was asked for" = row.verdict.map(Verdict::word);
     residual: "what the motion misses its start by, of motions of the whole mesh" = row.residual;
     periods: "periods stepped to find it, of motions of the whole mesh" = row.periods;
     fold: "whether the branch turns back here, of motions of the whole mesh" = row.is_fold;

@@ -4,7 +4,6 @@ use super::branch::{BranchRecord, FamilyRecord, SHARES};
 use super::two_waves::TwoWaveSummary;
 use crate::charts::palette::STATUSES;
 use crate::common::*;
-use frictionsim_physics::cycle::TwoWaveMotion;
 
 /// Draws frequency, amplitude, statuses and powers along the branches of several families, each with what its name says
 /// besides the harmonic.

@@ -1,10 +1,7 @@
 //! Files of limit cycles: their tables, and whole fields for ParaView.
 
-use super::found::encode_contact;
-use super::summary::CycleSummary;
-use super::two_waves::TwoWaveSummary;
+use super::{found::encode_contact, summary::CycleSummary, two_waves::TwoWaveSummary};
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::MotionFrame;
 use std::cell::OnceCell;
 
 impl CycleSummary {

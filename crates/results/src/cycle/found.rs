@@ -10,12 +10,8 @@ use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
 use crate::common::*;
 use crate::npz::NpzArchive;
-use frictionsim_physics::cycle::periodic::{
-    MotionFrame, PeriodicBranch, PeriodicMotion, REMAINDER, Sound,
-};
-use frictionsim_physics::cycle::{
-    Confirmation, CycleBranch, FloquetMultipliers, LimitCycle, StabilityChange,
-};
+use frictionsim_physics::cycle::periodic::{PeriodicBranch, REMAINDER};
+use frictionsim_physics::cycle::{CycleBranch, LimitCycle, StabilityChange};
 
 /// A limit cycle and what is known of it.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 
 use super::verdicts::Perturbation;
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
-use frictionsim_physics::cycle::{Family, Onset};
+use frictionsim_physics::cycle::Onset;
+use frictionsim_physics::cycle::periodic::velocity_level;
 use std::fmt;
 
 /// What leads to a cycle.
@@ -70,18 +70,12 @@ impl CycleName {
 
     /// The wave, if it is one.
     pub fn wave(&self) -> Option<&WaveOfCycle> {
-        match self {
-            Self::Wave(wave) => Some(wave),
-            Self::Mode(_) => None,
-        }
+        if let Self::Wave(wave) = self { Some(wave) } else { None }
     }
 
     /// The mode, if it is one.
     pub fn mode(&self) -> Option<&ModeOfCycle> {
-        match self {
-            Self::Mode(mode) => Some(mode),
-            Self::Wave(_) => None,
-        }
+        if let Self::Mode(mode) = self { Some(mode) } else { None }
     }
 }
 

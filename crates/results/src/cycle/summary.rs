@@ -5,7 +5,6 @@ use super::record::{CycleMotion, CycleName, Exponent, ModeSummary, OnsetSummary}
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::PeriodicMotion;
 
 keys! {
     /// `summary.json` of `frictionsim cycle`.
@@ -67,10 +66,7 @@ impl CycleSummary {
 
     /// The contact of motions of the whole mesh.
     pub(super) fn interface(&self) -> Option<&ContactInterface> {
-        match &self.origin {
-            Origin::Modes { interface, .. } => Some(interface),
-            Origin::Waves { .. } => None,
-        }
+        if let Origin::Modes { interface, .. } = &self.origin { Some(interface) } else { None }
     }
 }
 
@@ -180,18 +176,12 @@ impl SoughtCycle {
 
     /// Its stability, where it is known.
     pub(super) fn known(&self) -> Option<&KnownStability> {
-        match self.stability.as_ref()? {
-            StabilitySummary::Known(known) => Some(known),
-            StabilitySummary::Failed { .. } => None,
-        }
+        if let Some(StabilitySummary::Known(known)) = &self.stability { Some(known) } else { None }
     }
 
     /// The transient that started on it, if one ran.
     pub(super) fn run(&self) -> Option<&ConfirmationRun> {
-        match self.confirmation.as_ref()? {
-            ConfirmationSummary::Ran(run) => Some(run),
-            ConfirmationSummary::Failed { .. } => None,
-        }
+        if let Some(ConfirmationSummary::Ran(run)) = &self.confirmation { Some(run) } else { None }
     }
 
     /// Whether a transient that started on it has stayed there.

@@ -1,60 +1,47 @@
 //! Columns of limit cycles, and the document of a search.
 
 use super::branch::{ALONG, BRANCH};
-use super::found::contact_node;
 use super::record::{CONTACT_NODES, ContactNode, CycleMotion};
 use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
-use super::verdicts::EXPONENTS;
+use super::{found::contact_node, verdicts::EXPONENTS};
 use crate::common::*;
 use crate::summary::STATUS;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;
+
+/// Number and frequency of a harmonic, and its motion.
+type Harmonic = (usize, f64, MotionHarmonic);
 
 columns! {
     /// What leads to a cycle.
     pub(crate) NAMES: own as SoughtCycle;
     mode: "number of the mode that leads to it, of a body without rotating waves"
         = own.name.mode().map(|own| own.mode.mode), IfAny "mode" Count;
-    harmonic: "nodal diameters of a wave"
-        = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
+    harmonic: "nodal diameters of a wave" = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
     onset: "onset of that harmonic at which the wave is born, from 1"
         = own.name.wave().map(|own| own.onset), IfAny "onset" Count;
-}
 
-columns! {
     /// What a cycle is.
     pub(crate) MOTION: own as SoughtCycle;
-    main_frequency_hz: "frequency"
-        = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
+    main_frequency_hz: "frequency" = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
     amplitude_m: "amplitude along the counterface"
         = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
-}
 
-columns! {
     /// Where its power goes.
     pub(crate) POWERS: power as MeanPowers;
-    external_w: "power of the counterface"
-        = power.external, Always "power of the counterface" Fixed(2);
-    stick_w: "power given to the body by nodes that stick"
-        = power.stick, Always "while sticking" Fixed(2);
-    slide_w: "power given to the body by nodes that slide"
-        = power.slide, Always "while sliding" Fixed(2);
+    external_w: "power of the counterface" = power.external, Always "power of the counterface" Fixed(2);
+    stick_w: "power given to the body by nodes that stick" = power.stick, Always "while sticking" Fixed(2);
+    slide_w: "power given to the body by nodes that slide" = power.slide, Always "while sliding" Fixed(2);
     contact_dissipated_w: "power lost to friction"
         = power.contact_dissipated, Always "dissipated in the contact" Fixed(2);
-    material_damping_w: "power lost in the body"
-        = power.material_damping, Always "material damping" Fixed(2);
-    normal_contact_w: "power of the normal contact forces"
-        = power.normal_contact, Always "normal contact" Fixed(2);
-}
+    material_damping_w: "power lost in the body" = power.material_damping, Always "material damping" Fixed(2);
+    normal_contact_w: "power of the normal contact forces" = power.normal_contact, Always "normal contact" Fixed(2);
 
-columns! {
     /// How well its powers balance.
     pub(crate) BALANCE: own as SoughtCycle;
     balance_residual: "residual of the energy balance, relative to the power of the counterface"
         = own.of(|cycle| Some(cycle.balance_residual)), Always "balance" Scientific(1);
-}
 
-columns! {
     /// What is known of it.
     pub(crate) KNOWN: own as SoughtCycle;
     velocity_level_db: "level of the velocity, root mean square over time and mass, over 5e-8 m/s"
@@ -70,36 +57,25 @@ columns! {
     kick_velocity: "velocity of a kick, m/s, beyond which stable sliding tips into the cycle"
         = own.of(|cycle| cycle.stepped.as_ref()?.kick_velocity),
         IfAny "kick that tips sliding (m/s)" Scientific(3);
-}
 
-columns! {
     /// Why there is no cycle.
     pub(crate) ERRORS: own as SoughtCycle;
     error: "why none was found" = own.error.clone();
-}
 
-columns! {
     /// What leads to a cycle, for people.
     BESIDE: own as SoughtCycle;
-    phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0),
-        IfAny "phases" Count;
+    phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0), IfAny "phases" Count;
     critical = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
     mode_at = own.name.mode().and_then(|own| own.sought_from), IfAny "sought from" Plain;
     mode_hz = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
-    mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s),
-        IfAny "its growth rate" Fixed(1);
-}
+    mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s), IfAny "its growth rate" Fixed(1);
 
-columns! {
     /// What a transient says, and why there is none, for people.
     SAID: own as SoughtCycle;
-    transient_hz = own.run().and_then(|run| run.main_frequency_hz),
-        IfAny "transient from it" Fixed(2);
+    transient_hz = own.run().and_then(|run| run.main_frequency_hz), IfAny "transient from it" Fixed(2);
     stays = own.agrees(), IfAny "a transient stays on it" Plain;
     absence = own.absence(), IfAny "why there is none" Plain;
-}
 
-columns! {
     /// A contact node at one instant.
     pub(crate) HISTORY: row as PhasePoint;
     phase_rad: "phase" = row.phase;
@@ -107,36 +83,26 @@ columns! {
     status: "stick, slip or open" = row.status.name();
     pressure_pa: "contact pressure" = row.pressure;
     shear_pa: "friction traction on the body, along the rotation or the node's tangent" = row.shear;
-}
 
-columns! {
     /// Its motion on the disc of a wave.
     pub(crate) WAVE_PATH: row as PhasePoint;
     u_r_m: "radial displacement" = row.displacement[0];
     u_theta_m: "tangential displacement" = row.displacement[1];
     v_r_m_per_s: "radial velocity" = row.velocity[0];
     v_theta_m_per_s: "tangential velocity" = row.velocity[1];
-}
 
-columns! {
     /// Its motion on any other body.
     pub(crate) PATH: row as PhasePoint;
     u_n_m: "displacement along the normal" = row.displacement[0];
     u_t_m: "displacement along the counterface" = row.displacement[1];
     v_n_m_per_s: "velocity along the normal" = row.velocity[0];
     v_t_m_per_s: "velocity along the counterface" = row.velocity[1];
-}
 
-/// Number and frequency of a harmonic, and its motion.
-type Harmonic = (usize, f64, MotionHarmonic);
-
-columns! {
     /// A harmonic in time.
     pub(crate) HARMONICS: row as Harmonic;
     harmonic: "number of the harmonic" = row.0;
     frequency_hz: "its frequency" = row.1;
-    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes"
-        = row.2.amplitude[0];
+    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes" = row.2.amplitude[0];
     amplitude_t_m: "amplitude along the counterface" = row.2.amplitude[1];
     remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
 }
@@ -228,10 +194,8 @@ impl SoughtCycle {
         let Some(cycle) = &self.cycle else {
             return (self.name.to_string(), self.absence().unwrap_or_default());
         };
-        let mut text = format!("{} Hz", fixed(cycle.main_frequency_hz, 2));
-        if let Some(known) = self.known() {
-            text += &format!(", {}", known.verdict);
-        }
+        let verdict = self.known().map_or(String::new(), |known| format!(", {}", known.verdict));
+        let text = format!("{} Hz{verdict}", fixed(cycle.main_frequency_hz, 2));
         (self.name.to_string(), text)
     }
 }

@@ -1,8 +1,7 @@
 //! Motions of two frequencies: words, table, summary, curves.
 
 use crate::common::*;
-use frictionsim_physics::cycle::periodic::MotionFrame;
-use frictionsim_physics::cycle::{BranchEnd, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch};
+use frictionsim_physics::cycle::{TwoWaveBranch, TwoWaveSearch};
 
 keys! {
     /// What two waves that may live together come to: a motion of two frequencies, or nothing.
@@ -51,11 +50,8 @@ columns! {
     slip: "fraction that slips" = row.motion.fractions[1];
     open: "fraction that is open" = row.motion.fractions[2];
     external_w: "power of the rotor" = row.external_w;
-    balance_residual: "residual of the energy balance, relative to it"
-        = row.motion.powers.balance_residual();
-}
+    balance_residual: "residual of the energy balance, relative to it" = row.motion.powers.balance_residual();
 
-columns! {
     /// A motion of two waves for people.
     pub(super) SHOWN: own as TwoWaveSummary;
     waves = own.name(), Always "waves" Plain;

@@ -1,7 +1,7 @@
 //! What a transient and small perturbations say of a limit cycle.
 
 use crate::common::*;
-use frictionsim_physics::cycle::{Confirmation, FloquetMultiplier, FloquetMultipliers, Verdict};
+use frictionsim_physics::cycle::{FloquetMultiplier, Verdict};
 
 /// What is known of the stability of a cycle, where it was asked for, or why there is nothing.
 pub type Finding = Option<Result<FloquetMultipliers, String>>;

@@ -1,7 +1,7 @@
 //! Limit cycles in words.
 
 use super::branch::{BranchSummary, StabilityChangeSummary};
-use super::record::{ModeSummary, OnsetSummary};
+use super::record::{ModeSummary, OnsetSummary, SteppedMotion};
 use super::summary::{CycleSummary, Origin, SoughtCycle};
 use super::verdicts::{ConfirmationSummary, StabilitySummary};
 use crate::{Extent, plural};
@@ -146,17 +146,13 @@ impl SoughtCycle {
 
     fn motion_sentence(&self) -> Option<String> {
         let cycle = self.cycle.as_ref()?;
-        let own = cycle.stepped.as_ref()?;
+        let SteppedMotion { residual, periods, steps, harmonic_count, harmonic_remainder, .. } =
+            cycle.stepped.as_ref()?;
+        let (balance, amplitude) = (cycle.balance_residual, cycle.amplitude_m?);
         Some(format!(
-            "repeats itself to {:.1e} after {} periods of {} steps, energy balance {:.1e}. {} \
-             harmonics leave {:.1e} of the motion of the contact, whose amplitude is {:.3e} m",
-            own.residual,
-            own.periods,
-            own.steps,
-            cycle.balance_residual,
-            own.harmonic_count,
-            own.harmonic_remainder,
-            cycle.amplitude_m?,
+            "repeats itself to {residual:.1e} after {periods} periods of {steps} steps, energy balance {balance:.1e}. \
+             {harmonic_count} harmonics leave {harmonic_remainder:.1e} of the motion of the contact, whose amplitude \
+             is {amplitude:.3e} m",
         ))
     }
 
@@ -203,12 +199,11 @@ impl SoughtCycle {
         };
         let [stick, slip, open] =
             [run.status.stick, run.status.slip, run.status.open].map(|own| own.unwrap_or(0.0));
+        let (periods, hz) = (run.periods, run.main_frequency_hz.unwrap_or(0.0));
+        let (power, unit) = (run.power_w.external.unwrap_or(0.0), extent.unit("W"));
+        let contact = format!("stick {stick:.3}, slip {slip:.3}, open {open:.3}");
         Some(format!(
-            "{verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, power {:.2} {}",
-            run.periods,
-            run.main_frequency_hz.unwrap_or(0.0),
-            run.power_w.external.unwrap_or(0.0),
-            extent.unit("W"),
+            "{verdict}: after {periods} periods {hz:.2} Hz, {contact}, power {power:.2} {unit}"
         ))
     }
 
@@ -262,14 +257,10 @@ impl SoughtCycle {
             true => format!("at both ends because {first}"),
             false => format!("at one end because {first}, at the other because {last}"),
         };
-        Some(format!(
-            "{name}: {} cycles over {key} from {} to {} (it stops {ends}){}{}",
-            branch.cycles,
-            significant(low, 5),
-            significant(high, 5),
-            branch.events(),
-            kick.unwrap_or_default(),
-        ))
+        let [low, high] = [low, high].map(|value| significant(value, 5));
+        let (cycles, events, kick) = (branch.cycles, branch.events(), kick.unwrap_or_default());
+        let over = format!("{cycles} cycles over {key} from {low} to {high}");
+        Some(format!("{name}: {over} (it stops {ends}){events}{kick}"))
     }
 }
 

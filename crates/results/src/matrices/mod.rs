@@ -4,10 +4,7 @@ mod spectrum;
 
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
-use super::framed::write_json;
-use super::keys::keys;
-use super::npz::NpzArchive;
-use super::object;
+use super::{framed::write_json, keys::keys, npz::NpzArchive, object};
 use crate::common::*;
 use frictionsim_output::Entry;
 use frictionsim_physics::linalg::MarketMatrix;
@@ -282,11 +279,8 @@ columns! {
     node: "number of the node" = row.1.node;
     status: "slip, or open without contact terms" = status(row);
     length_m: "its share of the contact" = row.1.weight;
-    normal_force_n_per_m: "normal force at the friction coefficient of the case"
-        = row.1.normal_force;
-}
+    normal_force_n_per_m: "normal force at the friction coefficient of the case" = row.1.normal_force;
 
-columns! {
     /// A contact point of solid bodies: a point of a face.
     pub(super) SOLID_POINT: row as PointRow;
     point: "row of the contact matrices, from 0" = row.0;
@@ -317,15 +311,10 @@ fn compressed_rows(matrix: &MarketMatrix) -> io::Result<Vec<u8>> {
 pub fn print(summary: &MatricesSummary) -> String {
     let mut text = format!("{} unknowns; {}\n\n", summary.dofs, summary.units);
     for entry in &summary.matrices {
+        let MatrixEntry { name, entries, unit, .. } = entry;
         let size = format!("{} x {}", entry.rows, entry.columns);
-        let _ = writeln!(
-            text,
-            "  {:<16} {size:>15} {:>9} entries  {} ({})",
-            entry.name,
-            entry.entries,
-            entry.role.meaning(summary.friction_coefficient),
-            entry.unit,
-        );
+        let means = entry.role.meaning(summary.friction_coefficient);
+        let _ = writeln!(text, "  {name:<16} {size:>15} {entries:>9} entries  {means} ({unit})");
     }
     let _ = writeln!(text, "\n{}", summary.equation);
     let [from, to] = summary.friction_range;

@@ -37,10 +37,8 @@ columns! {
     friction_coefficient: "none" = None::<f64>;
     mode: "number by frequency, from 1" = row.0 + 1, Always "mode" Count;
     real_hz: "real part of the eigenvalue over 2 pi" = row.1.eigenvalue.re / TAU;
-    frequency_hz: "imaginary part over 2 pi"
-        = row.1.eigenvalue.im / TAU, Always "frequency" Scientific(6);
-    damping_factor: "damping factor"
-        = -row.1.eigenvalue.re / row.1.eigenvalue.norm(), Always "damping factor" Fixed(6);
+    frequency_hz: "imaginary part over 2 pi" = row.1.eigenvalue.im / TAU, Always "frequency" Scientific(6);
+    damping_factor: "damping factor" = -row.1.eigenvalue.re / row.1.eigenvalue.norm(), Always "damping factor" Fixed(6);
     growth_rate_per_s: "real part" = row.1.eigenvalue.re, Always "growth" Scientific(5);
     harmonic: "none" = None::<usize>;
     branch: BRANCH = row.0 + 1;

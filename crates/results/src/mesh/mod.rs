@@ -9,7 +9,6 @@ pub use solid::figure as solid_figure;
 pub use statistics::{BoundaryStatistics, MeshStatistics, RegionStatistics};
 
 use crate::common::*;
-use frictionsim_physics::mesh::BoundaryCondition;
 
 keys! {
     /// `summary.json` of `frictionsim mesh`.

@@ -3,7 +3,7 @@
 use super::{REGION_COLOURS, write_nodes};
 use crate::common::*;
 use frictionsim_chart::Field as Window;
-use frictionsim_physics::mesh::{Boundary, BoundaryCondition};
+use frictionsim_physics::mesh::Boundary;
 
 /// Writes the bricks of a body of revolution.
 pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(), FolderError> {

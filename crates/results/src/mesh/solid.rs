@@ -2,7 +2,6 @@
 
 use super::{REGION_COLOURS, Roles, role_of};
 use crate::common::*;
-use frictionsim_chart::Surface;
 
 /// Colour of the boundaries of each kind, in the order of the legend; the last one of faces that nothing is said of.
 const CONDITION_COLOURS: [(&str, &str); 9] = [

@@ -49,8 +49,7 @@ keys! {
         name: String = "its name", Always "boundary" Plain;
         nodes: usize = "its nodes", Always "nodes" Count;
         faces?: usize = "its faces, of solid bodies", IfAny "faces" Count;
-        length_m?: Option<f64> = "its length, around a face of a body of revolution",
-            IfAny "length" Scientific(6);
+        length_m?: Option<f64> = "its length, around a face of a body of revolution", IfAny "length" Scientific(6);
         area_m2?: f64 = "area of its faces, or of a face of a body of revolution", IfAny "area" Scientific(6);
         condition: String = "what holds or loads it, or what it slides on, in a word", Always "condition" Plain;
     }

@@ -1,8 +1,8 @@
 //! The report as an HTML document.
 
 use super::{Page, script};
-use crate::prelude::*;
-use frictionsim_chart::{ID_PREFIX, escape};
+use crate::{Manifest, prelude::*};
+use frictionsim_chart::ID_PREFIX;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -19,10 +19,9 @@ impl Page {
     /// It needs no network and no other file: drawings are inline, and so are the scripts that let a reader zoom, sort,
     /// animate and listen. Every number and every drawing is there without them.
     pub fn to_html(&self, drawings: &[String]) -> String {
-        let title = match self.document.title.as_str() {
-            "" => self.manifest.case_file.as_str(),
-            title => title,
-        };
+        let Manifest { program, version, command, case_file, .. } = &self.manifest;
+        let title = &self.document.title;
+        let title = if title.is_empty() { case_file } else { title };
         let parts = self.parts(drawings);
         let mut out = String::new();
         let _ = write!(
@@ -33,14 +32,7 @@ impl Page {
              <title>{0}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n\
              <p>{1}</p>\n</header>\n",
             escape(title),
-            escape(&format!(
-                "{} {} {}, {} {}",
-                self.manifest.program,
-                self.manifest.version,
-                self.manifest.command,
-                self.source()[0],
-                self.manifest.case_file
-            ))
+            escape(&format!("{program} {version} {command}, {} {case_file}", self.source()[0]))
         );
         self.write_contents(&mut out, &parts);
         out.push_str("<main>\n");
@@ -188,15 +180,13 @@ fn write_section(out: &mut String, index: usize, (section, drawn): &Part<'_>, fi
 
 fn write_figure(out: &mut String, number: usize, figure: &Figure, drawing: &str) {
     // Two drawings of one kind carry the same ids; on one page each needs its own.
-    let own = format!("{ID_PREFIX}{number}-");
+    let drawing = drawing.replace(ID_PREFIX, &format!("{ID_PREFIX}{number}-"));
+    let [name, caption] = [&figure.name, &figure.caption].map(|text| escape(text));
     let _ = write!(
         out,
-        "<figure id=\"{}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure \
-        {number}\" tabindex=\"0\">\n{}</div>\n\
-         <figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
-        escape(&figure.name),
-        drawing.replace(ID_PREFIX, &own),
-        escape(&figure.caption)
+        "<figure id=\"{name}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure \
+        {number}\" tabindex=\"0\">\n{drawing}</div>\n\
+         <figcaption><b>Figure {number}.</b> {caption}</figcaption>\n</figure>\n"
     );
 }
 

@@ -3,12 +3,8 @@
 
 use crate::prelude::*;
 use base64::prelude::{BASE64_STANDARD, Engine};
-use flate2::Compression;
 use flate2::write::DeflateEncoder;
-use frictionsim_chart::{
-    Mark, PanelData, Ruler, Series, SeriesKind, Steps, common_length, keep_extremes, levels, steps,
-};
-use serde_json::json;
+use frictionsim_chart::{Ruler, Series, Steps, common_length, keep_extremes, levels, steps};
 use std::collections::HashMap;
 
 /// Charts with axes and zoom, under the MIT licence.

@@ -107,14 +107,10 @@ impl ModeSummary {
 
     /// The mode in words.
     pub fn described(&self) -> String {
-        format!(
-            "mode {} ({}branch {}, {:.1} Hz{})",
-            self.mode,
-            self.harmonic.map_or(String::new(), |n| format!("n = {n}, ")),
-            self.branch,
-            self.frequency_hz,
-            if self.unstable { ", unstable" } else { "" }
-        )
+        let Self { mode, branch, frequency_hz, .. } = self;
+        let harmonic = self.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
+        let unstable = if self.unstable { ", unstable" } else { "" };
+        format!("mode {mode} ({harmonic}branch {branch}, {frequency_hz:.1} Hz{unstable})")
     }
 }
 
@@ -169,19 +165,13 @@ impl ChannelSummary {
             let reason = self.no_growth.as_deref().unwrap_or("not looked for");
             return format!("no growth rate: {reason}");
         };
-        let (rate, f) = (stage.rate_per_s, stage.frequency_hz);
-        format!(
-            "{} from {:.4} to {:.4} s: rate {:.2} 1/s [{:.2}, {:.2}] at {:.2} Hz [{:.2}, {:.2}]",
-            if rate.value > 0.0 { "grows" } else { "decays" },
-            stage.start_s,
-            stage.end_s,
-            rate.value,
-            rate.low,
-            rate.high,
-            f.value,
-            f.low,
-            f.high
-        )
+        let does = if stage.rate_per_s.value > 0.0 { "grows" } else { "decays" };
+        let [rate, frequency] =
+            [(stage.rate_per_s, "1/s"), (stage.frequency_hz, "Hz")].map(|(own, unit)| {
+                format!("{:.2} {unit} [{:.2}, {:.2}]", own.value, own.low, own.high)
+            });
+        let (start, end) = (stage.start_s, stage.end_s);
+        format!("{does} from {start:.4} to {end:.4} s: rate {rate} at {frequency}")
     }
 
     /// The mode that it vibrates in, or that there is none; `None` where no case was given.

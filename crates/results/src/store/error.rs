@@ -1,8 +1,7 @@
 //! Why a results folder cannot be used.
 
-use std::fmt::Display;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fmt::Display, io};
 
 /// A folder that cannot be used or written.
 #[derive(Debug, thiserror::Error)]

@@ -3,7 +3,6 @@
 
 use super::error::FolderError;
 use crate::prelude::*;
-use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 

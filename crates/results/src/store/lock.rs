@@ -2,8 +2,7 @@
 
 use super::error::FolderError;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
-use std::path::Path;
+use std::{io, path::Path};
 
 pub(crate) const LOCK: &str = ".lock";
 /// Held for a moment by each of several processes that enter a folder.

@@ -1,12 +1,9 @@
 //! Data that a command keeps bit by bit: what goes on from there, and what is drawn again.
 
-use super::error::FolderError;
-use super::folder::OutputFolder;
 use super::framed::{self, Defect};
-use super::reopening::read_existing;
+use super::{error::FolderError, folder::OutputFolder, reopening::read_existing};
 use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use serde::{Serialize, de::DeserializeOwned};
 use std::io::{self, Read, Write};
 use std::path::Path;
 

@@ -1,13 +1,11 @@
 //! Reopening of a results folder: the run that it holds, if it is whole.
 
-use super::error::FolderError;
 use super::framed::{Defect, read_sealed};
-use super::manifest::Manifest;
+use super::{error::FolderError, manifest::Manifest};
 use crate::prelude::*;
-use frictionsim_bounds::{RESULT, first_of, read_file, read_text};
-use std::fs;
+use frictionsim_bounds::{first_of, read_text};
 use std::io::ErrorKind::{NotADirectory, NotFound};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub(crate) const MANIFEST: &str = "manifest.json";
 

@@ -9,9 +9,8 @@ use super::super::reopening::{Contents, MANIFEST, read_contents, read_existing};
 use super::super::store::lock::{Company, Lock, remove_remnants, share, try_lock};
 use super::{PointClock, PointRecord, tables};
 use frictionsim_bounds::{RESULT, read_file};
-use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{collections::BTreeMap, fs};
 
 /// Files over all points, beside the tables of a sweep.
 const OVER_ALL: [&str; 4] = ["samples.csv", "summary.json", "report.html", "figures.bin"];

@@ -201,14 +201,11 @@ fn tip(condition: &Condition<'_>, mode: &crate::cea::UnstableMode) -> String {
     let critical = mode.critical_friction.map_or_else(String::new, |friction| {
         format!(", unstable from friction {}", fixed(friction, 4))
     });
+    let Condition { point, friction_coefficient: friction, swept, .. } = condition;
+    let (swept, number) = (swept_text(swept), mode.mode);
+    let [hz, rate] = [mode.frequency_hz, mode.growth_rate_per_s].map(|own| fixed(own, 1));
     format!(
-        "point {}: {}, friction {}: mode {}, {} Hz, {} 1/s{critical}",
-        condition.point,
-        swept_text(condition.swept),
-        condition.friction_coefficient,
-        mode.mode,
-        fixed(mode.frequency_hz, 1),
-        fixed(mode.growth_rate_per_s, 1),
+        "point {point}: {swept}, friction {friction}: mode {number}, {hz} Hz, {rate} 1/s{critical}"
     )
 }
 

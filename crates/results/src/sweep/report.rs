@@ -45,9 +45,7 @@ columns! {
     winner = first(point, "/winner"), IfAny "n that always wins" Count;
     low = first(point, "/boundary/low"), IfAny "ratio below" Fixed(3);
     high = first(point, "/boundary/high"), IfAny "ratio above" Fixed(3);
-}
 
-columns! {
     /// How a point ends.
     ENDS: point as PointRecord;
     end = first(point, "/end_state"), IfAny "ends in" Plain;
@@ -281,13 +279,12 @@ fn squeal_sentence(conditions: &[Condition<'_>]) -> Option<String> {
     let rate = |own: &(&Condition<'_>, &UnstableMode)| own.1.growth_rate_per_s;
     let fastest = unstable(conditions).max_by(|a, b| rate(a).total_cmp(&rate(b)));
     if let Some((condition, mode)) = fastest {
+        let Condition { point, friction_coefficient: friction, swept, .. } = condition;
+        let [hz, rate] = [mode.frequency_hz, mode.growth_rate_per_s].map(|own| fixed(own, 1));
         text += &format!(
-            "; the fastest, {} Hz, grows by {} 1/s at friction {} of the eigenvalue analysis, point {} ({})",
-            fixed(mode.frequency_hz, 1),
-            fixed(mode.growth_rate_per_s, 1),
-            condition.friction_coefficient,
-            condition.point,
-            swept_text(condition.swept),
+            "; the fastest, {hz} Hz, grows by {rate} 1/s at friction {friction} of the eigenvalue analysis, point \
+             {point} ({})",
+            swept_text(swept),
         );
     }
     (!conditions.is_empty()).then_some(text)

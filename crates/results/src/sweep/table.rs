@@ -5,7 +5,6 @@ use super::record::{PointRecord, listed};
 use crate::cea::{SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 use crate::common::*;
 use crate::cycle::{BranchRecord, FamilyRecord};
-use serde::de::DeserializeOwned;
 
 /// Lists longer than this anywhere in a sweep stay in the points' own files.
 const LONGEST_LIST: usize = 16;
@@ -195,8 +194,7 @@ columns! {
     stick: "fraction of the contact that sticks" = at(own, |branch| &branch.status[0]);
     slip: "fraction that slips" = at(own, |branch| &branch.status[1]);
     open: "fraction that is open" = at(own, |branch| &branch.status[2]);
-    stable: "whether it is stable, where that is known"
-        = at(own, |branch| &branch.stable).flatten();
+    stable: "whether it is stable, where that is known" = at(own, |branch| &branch.stable).flatten();
     growth_rate_per_s: "growth rate of its leading perturbation, where it is known"
         = at(own, |branch| &branch.growth_rate).flatten();
 }

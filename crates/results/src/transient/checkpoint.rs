@@ -4,7 +4,7 @@ use crate::common::*;
 use crate::framed::{self, Defect};
 use crate::record::{Record, decoded};
 use crate::reopening::read_existing;
-use frictionsim_physics::transient::{Recorder, TransientState};
+use frictionsim_physics::transient::TransientState;
 
 /// Name of the checkpoint in its folder.
 pub const CHECKPOINT: &str = "checkpoint.bin";

@@ -8,7 +8,6 @@ use crate::charts::palette::{
 use crate::charts::run_axis;
 use crate::common::*;
 use frictionsim_chart::significant;
-use frictionsim_physics::transient::SampleRow;
 
 /// Time over which powers are averaged for the strong lines, s.
 const AVERAGING_TIME: f64 = 5e-4;

@@ -7,7 +7,6 @@ use crate::charts::{
     velocity_figure,
 };
 use crate::common::*;
-use frictionsim_physics::transient::Snapshot;
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;

@@ -1,12 +1,9 @@
 //! Probes, energies, contact, snapshots, summary.
 
 use super::{RecordedRun, TransientSummary, summary};
-use crate::charts::palette::status_of_code;
 use crate::common::*;
-use crate::npz::NpzArchive;
-use crate::record::write_record;
+use crate::{charts::palette::status_of_code, npz::NpzArchive, record::write_record};
 use frictionsim_output::csv::{self, format_number};
-use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};
 
 /// Writes all files of the transient and gives the summary, as it is and as an object.
 pub fn write(
@@ -80,8 +77,7 @@ columns! {
     time_s: "time" = row.time;
     kinetic_j: "kinetic energy" = row.kinetic_energy;
     strain_j: "strain energy" = row.strain_energy;
-    external_w: "power of the drive, mean over the sample interval, as the others"
-        = row.powers.external;
+    external_w: "power of the drive, mean over the sample interval, as the others" = row.powers.external;
     stick_w: "power given to the body by nodes that stick" = row.powers.stick;
     slide_w: "power given to the body by nodes that slide" = row.powers.slide;
     contact_dissipated_w: "power lost to friction" = row.powers.contact_dissipated;
@@ -92,6 +88,13 @@ columns! {
     contact_j: "energy in the springs of the contact" = row.contact_energy;
     contact_damping_w: "power lost in the dashpots of the contact" = row.powers.damping;
     pressure_w: "power of the pressures on boundaries" = row.powers.pressure;
+
+    /// The contact at a sample.
+    pub(crate) STATUS: row as SampleRow;
+    time_s: "time" = row.time;
+    stick: "fraction of the contact nodes that stick" = row.counts.fractions()[0];
+    slip: "fraction that slips" = row.counts.fractions()[1];
+    open: "fraction that is open" = row.counts.fractions()[2];
 }
 
 fn write_energy(out: &mut dyn io::Write, run: &RecordedRun<'_>) -> io::Result<()> {
@@ -110,15 +113,6 @@ fn write_energy(out: &mut dyn io::Write, run: &RecordedRun<'_>) -> io::Result<()
         (false, false) => const { parted(ENERGY, "contact_j").0 },
     };
     write_rows(out, columns, record.rows.iter().map(of_whole_thickness))
-}
-
-columns! {
-    /// The contact at a sample.
-    pub(crate) STATUS: row as SampleRow;
-    time_s: "time" = row.time;
-    stick: "fraction of the contact nodes that stick" = row.counts.fractions()[0];
-    slip: "fraction that slips" = row.counts.fractions()[1];
-    open: "fraction that is open" = row.counts.fractions()[2];
 }
 
 /// Complex amplitude of each harmonic of the contact edge's tangential displacement: `n = 0..=8`, and of the higher

@@ -3,7 +3,7 @@
 use super::SolvedTransient;
 use crate::charts::Stage;
 use crate::common::*;
-use frictionsim_physics::transient::{SampleRow, TransientSettings};
+use frictionsim_physics::transient::TransientSettings;
 
 /// What came of a run, the body that it is of, and what its figures show besides. Forces, powers and energies of the
 /// record are for one metre of thickness; tables and summary scale them by the thickness.

@@ -7,7 +7,7 @@ use crate::charts::{
 };
 use crate::common::*;
 use frictionsim_chart::significant;
-use frictionsim_signal::{USUAL_WINDOW, Window, averaged_spectrum, spectrogram};
+use frictionsim_signal::{USUAL_WINDOW, Window, averaged_spectrum};
 
 /// Decades of amplitudes below the largest that show growth.
 const GROWTH_DECADES: f64 = 7.0;

@@ -2,7 +2,7 @@
 
 use super::RecordedRun;
 use crate::common::*;
-use frictionsim_physics::transient::{Drift, Growth, Perturbation, ProbeMotion, TransientAnalysis};
+use frictionsim_physics::transient::{Drift, Growth, Perturbation, TransientAnalysis};
 
 keys! {
     /// `summary.json` of `frictionsim transient`.
@@ -109,10 +109,7 @@ pub fn summary(run: &RecordedRun<'_>) -> TransientSummary {
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
     let body = end.material_damping * run.thickness;
     let damping = Some(run.thickness * end.powers.damping);
-    let two = match settling.state {
-        EndState::TwoFrequency(two) => Some(two),
-        _ => None,
-    };
+    let two = if let EndState::TwoFrequency(two) = settling.state { Some(two) } else { None };
     let significant = end.significant.iter().map(|(n, size)| (format!("n{n}"), *size));
     TransientSummary {
         finished: solved.is_finished,

@@ -3,13 +3,14 @@
 use super::RecordedRun;
 use super::summary::{GrowthSummary, TransientSummary};
 use crate::common::*;
-use frictionsim_physics::transient::ProbeMotion;
 
 /// Periods of the main vibration between two contact frames beyond which they do not show it.
 const COARSE_FRAMES: f64 = 0.25;
 
 /// Node, direction and motion of a probe.
 type ProbeRow = (String, &'static str, ProbeMotion);
+/// A vibration in the linear stage: its harmonic, its growth or why it has none, the rate of the eigenvalue analysis.
+type GrowthRow = (String, Result<GrowthSummary, String>, Option<f64>);
 
 columns! {
     /// A probe in one direction.
@@ -18,12 +19,7 @@ columns! {
     direction = row.1, Always "direction" Plain;
     rms_m_per_s2 = row.2.acceleration_rms_m_per_s2, Always "root mean square" Fixed(0);
     peak_m_per_s2 = row.2.acceleration_peak_m_per_s2, Always "peak" Fixed(0);
-}
 
-/// A vibration in the linear stage: its harmonic, its growth or why it has none, the rate of the eigenvalue analysis.
-type GrowthRow = (String, Result<GrowthSummary, String>, Option<f64>);
-
-columns! {
     /// A vibration in the linear stage.
     GROWTH: row as GrowthRow;
     vibration = row.0.clone(), Always "vibration" Plain;
@@ -68,12 +64,10 @@ pub fn document(run: &RecordedRun<'_>, summary: &TransientSummary) -> Document {
 fn ending(summary: &TransientSummary, state: EndState) -> String {
     let end = format!("The run ends {}", state.phrase());
     let end = match (summary.frequencies_hz, summary.envelope_ratio) {
-        (Some([first, second]), Some(ratio)) => format!(
-            "{end}: {} and {} Hz, its envelope swings by a factor of {}",
-            fixed(first, 1),
-            fixed(second, 1),
-            fixed(ratio, 2)
-        ),
+        (Some(pair), Some(ratio)) => {
+            let ([first, second], factor) = (pair.map(|hz| fixed(hz, 1)), fixed(ratio, 2));
+            format!("{end}: {first} and {second} Hz, its envelope swings by a factor of {factor}")
+        }
         _ => end,
     };
     match (summary.settled_from_s, &summary.unsettled_because) {
@@ -91,14 +85,11 @@ fn course(summary: &TransientSummary) -> String {
         }
         None => "no contact node sticks or opens".into(),
     };
+    let TransientSummary { steps, initial, operator, max_balance_residual, .. } = summary;
+    let (ms, step) = (fixed(1e3 * summary.end_time_s, 3), fixed(1e6 * summary.time_step_s, 4));
     format!(
-        "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy balance closes to {:.1e}.",
-        fixed(1e3 * summary.end_time_s, 3),
-        summary.steps,
-        fixed(1e6 * summary.time_step_s, 4),
-        summary.initial,
-        summary.operator,
-        summary.max_balance_residual,
+        "{ms} ms in {steps} steps of {step} µs ({end}), from {initial}, {operator} operator; {first}; the energy \
+         balance closes to {max_balance_residual:.1e}."
     )
 }
 

@@ -5,7 +5,6 @@ mod figures;
 use crate::cea::arrow;
 use crate::common::*;
 use figures::{indices, robust, uncertainty};
-use frictionsim_signal::Estimate;
 
 keys! {
     /// A branch that turns unstable in a sample.
@@ -177,29 +176,21 @@ columns! {
     own_friction_coefficient: "friction coefficient of the sample" = sample.friction_coefficient;
     unstable: "whether some mode is unstable there; empty where the sample could not be solved"
         = sample.error.is_none().then(|| sample.is_unstable(sample.friction_coefficient));
-}
 
-columns! {
     /// Why a sample has nothing.
     pub(crate) ERRORS: sample as Sample;
     error: "why the sample could not be solved" = sample.error.clone();
-}
 
-columns! {
     /// A family of modes.
     FAMILIES: family as FamilySummary;
     mode = family.name(), Always "mode" Plain;
     probability = family.probability, Always "unstable at that friction" Fixed(4);
-    probability_in_range = family.probability_in_range,
-        Always "turns unstable in the range" Fixed(4);
-    critical_friction_median = family.critical_friction_median,
-        Always "median onset there" Fixed(4);
+    probability_in_range = family.probability_in_range, Always "turns unstable in the range" Fixed(4);
+    critical_friction_median = family.critical_friction_median, Always "median onset there" Fixed(4);
     frequency_hz = family.frequency_hz, Always "frequency" Fixed(2);
     beyond_limit = (family.beyond_limit > 0.0).then_some(family.beyond_limit),
         IfAny "beyond the frequency limit" Fixed(4);
-}
 
-columns! {
     /// Sobol's indices of a parameter.
     INDICES: row as (String, Index);
     parameter = row.0.clone(), Always "parameter" Plain;
@@ -209,9 +200,7 @@ columns! {
     total = row.1.total, Always "total" Fixed(3);
     total_low = row.1.total_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
     total_high = row.1.total_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
-}
 
-columns! {
     /// The change of a design by one parameter.
     DESIGNS: curve as DesignCurve;
     parameter = curve.key.clone(), Always "parameter" Plain;

@@ -1,7 +1,6 @@
 //! Steady vibrations beside each other, whose beat looks like growth.
 
-use super::ExponentialStage;
-use super::demodulation::Demodulated;
+use super::{ExponentialStage, demodulation::Demodulated};
 use faer::c64;
 
 /// Rate of either vibration, over that of the stage, up to which both are steady beside it.

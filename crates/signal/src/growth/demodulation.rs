@@ -1,11 +1,9 @@
 //! Envelope and phase of a vibration around one frequency, and the exponential through them.
 
 use super::{ExponentialStage, NoGrowth};
-use crate::Estimate;
-use crate::statistics::student_95;
+use crate::{Estimate, statistics::student_95};
 use faer::c64;
-use std::f64::consts::TAU;
-use std::ops::Mul;
+use std::{f64::consts::TAU, ops::Mul};
 
 /// Envelope and phase around one frequency, one value for each position of the window.
 pub(super) struct Demodulated {

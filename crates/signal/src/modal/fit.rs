@@ -3,9 +3,8 @@
 use super::basis::{ModalModel, Pole};
 use super::least_squares::{Fitted, Problem};
 use super::{Estimate, HalfPowerBand, NoiseModel};
-use crate::error::too_short;
 use crate::statistics::{NORMAL_95, median};
-use crate::{FrequencyResponse, SignalError};
+use crate::{FrequencyResponse, SignalError, error::too_short};
 use faer::{Mat, c64};
 
 /// Remainder terms to begin with: `s^-3 .. s^0`.

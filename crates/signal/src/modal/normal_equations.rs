@@ -1,7 +1,6 @@
 //! Normal equations of weighted least squares, equilibrated and damped.
 
-use crate::SignalError;
-use crate::error::failed_fit;
+use crate::{SignalError, error::failed_fit};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, Par};
 use nalgebra::{DMatrix, DVector};

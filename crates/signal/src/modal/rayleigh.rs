@@ -1,9 +1,8 @@
 //! Rayleigh coefficients from modal damping factors (equation (3)).
 
 use super::Pole;
-use crate::SignalError;
-use crate::error::failed_fit;
 use crate::statistics::{NORMAL_95, student_95};
+use crate::{SignalError, error::failed_fit};
 use faer::Mat;
 use frictionsim_output::Described;
 use nalgebra::{DMatrix, DVector};

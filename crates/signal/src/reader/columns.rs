@@ -1,8 +1,7 @@
 //! The columns of a table that make a frequency response.
 
-use super::error::ReadError;
-use super::table::Table;
 use super::units::{level_reference, words};
+use super::{error::ReadError, table::Table};
 use faer::c64;
 
 /// What a column of a response table holds.

@@ -2,13 +2,12 @@
 
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::columns::{self, Found, Part, part};
-use super::error::ReadError;
-use super::table::Table;
 use super::text::{first_of, shortened};
 use super::uff::ORDINATES;
 use super::uff_writing::{Place, write_response};
 use super::units::{hertz, response_unit};
 use super::{Format, selected, uff};
+use super::{error::ReadError, table::Table};
 
 /// A response and its name.
 #[derive(Clone, Debug, PartialEq)]

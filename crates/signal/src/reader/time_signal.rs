@@ -2,9 +2,8 @@
 
 use super::super::error::check_finite;
 use super::error::{NO_RATE, ReadError};
-use super::table::Table;
 use super::units::{sampling_rate, seconds};
-use super::{Format, selected, uff, wav};
+use super::{Format, selected, table::Table, uff, wav};
 
 /// Largest deviation of a time from the regular grid, in steps: rounding in the export.
 const JITTER: f64 = 0.3;

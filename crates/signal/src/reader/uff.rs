@@ -5,11 +5,9 @@
 
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::error::{NO_RATE, ReadError};
-use super::mat::whole;
 use super::response::{NamedResponse, ResponseFile};
-use super::text::first_of;
 use super::time_signal::{Channel, SignalFile};
-use super::units::response_unit;
+use super::{mat::whole, text::first_of, units::response_unit};
 use faer::c64;
 use frictionsim_formats::universal_fields;
 use std::collections::BTreeSet;

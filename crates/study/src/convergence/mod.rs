@@ -16,8 +16,7 @@
 
 mod quantities;
 
-use super::transient::TransientStudy;
-use super::{eigenvalues, summarize, summary};
+use super::{eigenvalues, summarize, summary, transient::TransientStudy};
 use crate::*;
 use frictionsim_case::TimeStep;
 use frictionsim_results::convergence::{Quantity, Refinement, Series};

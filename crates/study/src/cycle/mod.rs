@@ -12,12 +12,11 @@ pub(crate) use periodic::{Steady, longest_step};
 use crate::*;
 use families::{Sought, critical_value, next_onset, solvers};
 use frictionsim_case::Cycle;
-use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
     CycleSolver, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint, StabilityChange,
     SteppedCycle, Verdict, differing,
 };
-use frictionsim_physics::fem::lumped_masses;
+use frictionsim_physics::{cycle::periodic::MotionFrame, fem::lumped_masses};
 use frictionsim_results::cycle::{
     Absence, CycleResult, CycleSummary, FoundWave, OnsetSummary, Origin, SoughtCycle,
     TwoWaveSummary, WaveOfCycle, known,

@@ -38,9 +38,8 @@ pub use whole::WholeMesh;
 
 use crate::*;
 use frictionsim_case::Diagnostic;
-use frictionsim_physics::cea::sparse::FrictionlessModes;
-use frictionsim_physics::linalg::banded::BandedFactor;
 use frictionsim_physics::linalg::{LuAnalysis, SparseLu};
+use frictionsim_physics::{cea::sparse::FrictionlessModes, linalg::banded::BandedFactor};
 use frictionsim_results::cea::CeaReport;
 pub use frictionsim_results::cea::Solution;
 use solve::at_key;

@@ -1,7 +1,6 @@
 //! What is said beside the results of an eigenvalue analysis.
 
-use super::SlidingModel;
-use super::contact::mean_friction;
+use super::{SlidingModel, contact::mean_friction};
 use crate::*;
 use frictionsim_physics::cea::ModeCount;
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
@@ -292,33 +291,23 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
 
 /// Which harmonics were solved, and why no other can hold a mode of the range.
 pub(super) fn coverage_note(coverage: &Coverage) -> String {
-    match coverage.is_verified {
-        false => format!(
-            "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed \
-            from {:.0} Hz downwards",
-            number_ranges(&coverage.followed),
-            coverage.counted_empty.last().unwrap_or(&coverage.largest_harmonic),
-            coverage.largest_harmonic,
-            coverage.margin_hz,
-        ),
-        true => proof_note(coverage),
+    let followed = number_ranges(&coverage.followed);
+    let Coverage { largest_harmonic: largest, margin_hz, limit_hz, .. } = coverage;
+    if !coverage.is_verified {
+        return format!(
+            "harmonics {followed} hold modes at rest (by inertia counts, up to {} of {largest}) and were followed \
+            from {margin_hz:.0} Hz downwards",
+            coverage.counted_empty.last().unwrap_or(largest),
+        );
     }
-}
-
-fn proof_note(coverage: &Coverage) -> String {
-    let mut note = format!(
-        "harmonics 0 to {}: {} have modes and were followed from {:.0} Hz down",
-        coverage.largest_harmonic,
-        number_ranges(&coverage.followed),
-        coverage.margin_hz,
-    );
-    for (harmonics, why) in [
+    let empty = [
         (&coverage.proven_empty, "are proven to have none"),
         (&coverage.counted_empty, "have none by count at quarters of the friction range"),
-    ] {
-        if !harmonics.is_empty() {
-            note += &format!("; {} {why}", number_ranges(harmonics));
-        }
-    }
-    note + &format!(" below {:.0} Hz", coverage.limit_hz)
+    ];
+    let empty = empty.iter().filter(|own| !own.0.is_empty());
+    let empty: String = empty.map(|(own, why)| format!("; {} {why}", number_ranges(own))).collect();
+    format!(
+        "harmonics 0 to {largest}: {followed} have modes and were followed from {margin_hz:.0} Hz down{empty} \
+         below {limit_hz:.0} Hz"
+    )
 }

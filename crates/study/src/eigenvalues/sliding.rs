@@ -99,10 +99,7 @@ impl SlidingModel {
 
     /// Friction coefficients at which contact nodes open or close, rising.
     pub fn contact_changes(&self) -> &[f64] {
-        match &self.model {
-            Model::Whole(whole) => &whole.range.changes,
-            Model::Waves(_) => &[],
-        }
+        if let Model::Whole(whole) = &self.model { &whole.range.changes } else { &[] }
     }
 
     /// What the report says of the base state, scaled to the case's thickness.
@@ -127,10 +124,7 @@ impl SlidingModel {
             (None, _) => self.drives(speed),
         };
         // Points of a mesh lie at nodes or between them, a ring has many.
-        let nodes = |own: &ContactState| match self.solid {
-            None => 1,
-            Some(_) => own.place.shares.len(),
-        };
+        let nodes = |own: &ContactState| self.solid.as_ref().map_or(1, |_| own.place.shares.len());
         let count = |is_pressed: bool| {
             contact().filter(|own| own.is_pressed == is_pressed).map(nodes).sum()
         };

@@ -1,14 +1,14 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
-use super::contact::open_note;
-use super::model::Model;
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
     instead_note, overdamped_note, ratio_note, table_notes, uncertainty_note, weak_note,
 };
 use super::reading::{lefts_needed, read, shapes_needed};
-use super::sensitivity::body_sensitivities;
-use super::{SlidingModel, Solution, no_modes};
+use super::{
+    SlidingModel, Solution, contact::open_note, model::Model, no_modes,
+    sensitivity::body_sensitivities,
+};
 use crate::*;
 use frictionsim_physics::prestress::PrestressError;
 use frictionsim_results::cea::SensitivityReport;

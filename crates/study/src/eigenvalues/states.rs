@@ -2,8 +2,7 @@
 
 mod joining;
 
-use super::Solution;
-use super::whole::notes;
+use super::{Solution, whole::notes};
 use crate::*;
 use frictionsim_physics::cea::sparse::{self, CyclicTangent, FrictionlessModes};
 use frictionsim_physics::prestress::{PressedRange, PressedState};

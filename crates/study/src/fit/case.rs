@@ -2,10 +2,9 @@
 
 use super::free_part::{STEP, free_part, rates};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode, fit};
-use crate::eigenvalues;
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
-use crate::mac::MeasuredShapes;
 use crate::*;
+use crate::{eigenvalues, mac::MeasuredShapes};
 use frictionsim_case::Fit;
 use frictionsim_physics::cea::ModeBranch;
 use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};
@@ -216,12 +215,8 @@ pub fn notes(case: &Case, wanted: &Fit, found: &FitSummary) -> Vec<String> {
             let beside = found.residuals.iter().find(is_beside).map_or(String::new(), |line| {
                 format!(", beside the line at {:.0} Hz", line.frequency_hz)
             });
-            format!(
-                "unstable but not measured: {} at {:.0} Hz, growth {:+.1} Hz{beside}",
-                mode.name(),
-                mode.frequency_hz,
-                mode.real_hz
-            )
+            let (name, frequency, growth) = (mode.name(), mode.frequency_hz, mode.real_hz);
+            format!("unstable but not measured: {name} at {frequency:.0} Hz, growth {growth:+.1} Hz{beside}")
         }));
     }
     notes

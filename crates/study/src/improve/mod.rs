@@ -143,9 +143,8 @@ fn predictions(
     }
     let changes: Vec<Result<(Change, Trial), String>> =
         parallel::map(trials, |trial| Ok((change(search, modal, &trial)?, trial)));
-    for reason in changes.iter().filter_map(|own| own.as_ref().err()) {
-        notes.push(format!("{}: {reason}", kind.word()));
-    }
+    let failed = changes.iter().filter_map(|own| own.as_ref().err());
+    notes.extend(failed.map(|reason| format!("{}: {reason}", kind.word())));
     let changes: Vec<(Change, Trial)> = changes.into_iter().flatten().collect();
 
     // By the growth of all modes together.
@@ -221,11 +220,8 @@ fn shortlist(
 fn shared(search: &Search<'_>, elements: &[u32], dofs: &[usize]) -> Vec<bool> {
     let mesh = &search.base.mesh;
     let mut inside: BTreeMap<u32, u32> = BTreeMap::new();
-    for &element in elements {
-        for &node in mesh.element_nodes(element as usize) {
-            *inside.entry(node).or_default() += 1;
-        }
-    }
+    let all = elements.iter().flat_map(|&element| mesh.element_nodes(element as usize));
+    all.for_each(|&node| *inside.entry(node).or_default() += 1);
     let nodes = dofs.iter().map(|dof| dof / mesh.dimension);
     nodes.map(|node| inside.get(&(node as u32)) < Some(&search.places.uses[node])).collect()
 }

@@ -5,8 +5,7 @@
 use super::base::{Base, target_modes};
 use super::fields::Derivatives;
 use crate::*;
-use frictionsim_physics::fem::element::ElementGeometry;
-use frictionsim_physics::mesh::Counterface;
+use frictionsim_physics::{fem::element::ElementGeometry, mesh::Counterface};
 use frictionsim_results::improve::{Sizes, TargetFields, TargetMode};
 use nalgebra::SymmetricEigen;
 
@@ -33,12 +32,10 @@ impl Places {
 
         // Nodes that nothing may touch.
         let mut closed: BTreeSet<u32> = contact_nodes(base);
-        for boundary in mesh.boundaries.iter().filter(|own| is_forbidden(&own.name)) {
-            closed.extend(&boundary.nodes);
-        }
-        for element in (0..mesh.element_count()).filter(|&e| region(e)) {
-            closed.extend(mesh.element_nodes(element));
-        }
+        let boundaries = mesh.boundaries.iter().filter(|own| is_forbidden(&own.name));
+        closed.extend(boundaries.flat_map(|own| &own.nodes));
+        let elements = (0..mesh.element_count()).filter(|&e| region(e));
+        closed.extend(elements.flat_map(|e| mesh.element_nodes(e)));
         let held: BTreeSet<usize> = mesh.held_dofs().collect();
         let d = mesh.dimension;
         let is_free = |node: usize| (0..d).any(|axis| !held.contains(&(d * node + axis)));
@@ -68,11 +65,8 @@ impl Places {
         let patches = (0..open.len()).filter(|&e| open[e]).map(|e| (e, patch(e)));
         let patches = patches.filter(|(_, own)| own.iter().all(|&e| open[e as usize]));
         let mut uses = vec![0; mesh.node_count()];
-        for element in 0..mesh.element_count() {
-            for &node in mesh.element_nodes(element) {
-                uses[node as usize] += 1;
-            }
-        }
+        let all = (0..mesh.element_count()).flat_map(|e| mesh.element_nodes(e));
+        all.for_each(|&node| uses[node as usize] += 1);
         // The contact curve of a plane body is a hole of one body with a rigid cylinder in it, and not its only curve.
         let is_inside = matches!(mesh.counterface, Counterface::Cylinder { is_inside: true, .. });
         let is_alone = mesh.opposite.is_none() && mesh.boundaries.len() > 1;

@@ -40,15 +40,13 @@ impl TransientStudy<'_> {
                 Some(name) => format!("region {name}"),
                 None => "the body".to_owned(),
             };
-            let [low, high] = chain.band_hz;
+            let ([low, high], count) = (chain.band_hz, chain.elements.len());
+            let (error, at_rest) = (100.0 * chain.largest_error, chain.at_rest);
+            let at_once = at_rest * chain.glassy();
             format!(
-                "{name}: a Maxwell chain of {} elements has its modulus and loss factor from \
-                 {low:.4} to {high:.4} Hz, within {:.2} % of the complex modulus. At rest it has \
-                 {:.4} times the modulus that the case gives, at once {:.4} times",
-                chain.elements.len(),
-                100.0 * chain.largest_error,
-                chain.at_rest,
-                chain.at_rest * chain.glassy()
+                "{name}: a Maxwell chain of {count} elements has its modulus and loss factor from \
+                 {low:.4} to {high:.4} Hz, within {error:.2} % of the complex modulus. At rest it has \
+                 {at_rest:.4} times the modulus that the case gives, at once {at_once:.4} times"
             )
         });
         said.collect()
@@ -131,13 +129,11 @@ fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) 
     let [low, high] =
         shares.fold([1.0_f64, 0.0_f64], |[low, high], share| [low.min(share), high.max(share)]);
     let error = (high - low) * frequency * time_step;
+    let [from, to, percent] = [low, high, error].map(|share| 100.0 * share);
     (error > STEP_ERROR).then(|| {
         format!(
-            "between {:.0} and {:.0} % of the contact nodes stick, so the time step may shorten the \
-             period by up to {:.2} %. A smaller transient.time_step is more accurate",
-            100.0 * low,
-            100.0 * high,
-            100.0 * error
+            "between {from:.0} and {to:.0} % of the contact nodes stick, so the time step may shorten the \
+             period by up to {percent:.2} %. A smaller transient.time_step is more accurate"
         )
     })
 }

@@ -1,8 +1,7 @@
 //! The body of a case as the time loop takes it.
 
 use crate::*;
-use frictionsim_physics::cycle::OperatingPoint;
-use frictionsim_physics::transient::SteppedBody;
+use frictionsim_physics::{cycle::OperatingPoint, transient::SteppedBody};
 
 /// The mesh of a case and what belongs to it: a transient and the limit cycles that it may end on step the same body.
 #[derive(Debug)]

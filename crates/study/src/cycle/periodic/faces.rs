@@ -2,8 +2,7 @@
 
 use crate::transient::SteppedMesh;
 use crate::*;
-use frictionsim_physics::cycle::periodic::FlatFace;
-use frictionsim_physics::mesh::SolidFace;
+use frictionsim_physics::{cycle::periodic::FlatFace, mesh::SolidFace};
 
 /// Difference of the areas of two surfaces that cover each other wholly.
 const SAME: f64 = 0.01;

@@ -4,8 +4,7 @@ use crate::eigenvalues::{Model, Solver};
 use crate::tangent::{MODES_IN_TIME, options_in_time};
 use crate::transient::SteppedMesh;
 use crate::*;
-use frictionsim_physics::cea::sparse;
-use frictionsim_physics::cycle::periodic::GrowingMode;
+use frictionsim_physics::{cea::sparse, cycle::periodic::GrowingMode};
 
 /// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.
 const LARGEST_FRICTION: f64 = 2.0;
@@ -117,10 +116,7 @@ fn sweep_in_time(
     frictions: &[f64],
     shapes_at: &[f64],
 ) -> Result<(Model, FrictionSweep), StudyError> {
-    let solver = match case.body.revolution() {
-        Some(_) => Solver::Waves,
-        None => Solver::WholeMesh,
-    };
+    let solver = case.body.revolution().map_or(Solver::WholeMesh, |_| Solver::Waves);
     let request = SweepRequest {
         shapes_at,
         ..SweepRequest::new(frictions, asked_modes(case, MODES_IN_TIME))

@@ -1,7 +1,6 @@
 //! What each region, support and contact adds to the growth of each mode.
 
-use super::parts::Parts;
-use super::shapes::Shapes;
+use super::{parts::Parts, shapes::Shapes};
 use crate::*;
 use frictionsim_physics::prestress::{Kind, Part, PartForms, Terms};
 use frictionsim_results::cea::{Contribution, ModeName, Source};

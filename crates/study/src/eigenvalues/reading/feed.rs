@@ -10,9 +10,7 @@
 //!
 //! and their sum what the contact feeds in the budget, without a remainder.
 
-use super::budget::Sums;
-use super::parts::Parts;
-use super::shapes::Shapes;
+use super::{budget::Sums, parts::Parts, shapes::Shapes};
 use crate::eigenvalues::whole::BasePoint;
 use crate::*;
 use frictionsim_physics::contact::{PressedState, linearized, turned};

@@ -13,8 +13,7 @@
 
 use super::parts::Parts;
 use crate::*;
-use frictionsim_physics::fem::DiscretizationError;
-use frictionsim_physics::prestress::PartLaw;
+use frictionsim_physics::{fem::DiscretizationError, prestress::PartLaw};
 
 /// Damping factor from which on a frequency says little of a mode.
 const MOST_DAMPED: f64 = 0.2;

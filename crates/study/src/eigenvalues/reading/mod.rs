@@ -20,8 +20,7 @@ mod parts;
 mod shapes;
 mod waves;
 
-use super::model::Model;
-use super::sliding::SlidingModel;
+use super::{model::Model, sliding::SlidingModel};
 use crate::*;
 use frictionsim_results::cea::Reading;
 pub(super) use mesh_error::lefts_needed;

@@ -8,9 +8,8 @@ use super::shapes::{couplings, name_of};
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
 use crate::*;
-use frictionsim_physics::cea::ModeWave;
-use frictionsim_physics::linalg::banded::BandedMatrix;
 use frictionsim_physics::prestress::{Kind, Part, PartForms, Term};
+use frictionsim_physics::{cea::ModeWave, linalg::banded::BandedMatrix};
 use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Reading, Source};
 
 /// A body taken apart.
