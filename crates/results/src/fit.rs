@@ -32,9 +32,9 @@ impl Finding for FitSummary {
             .columns(MODES, &self.modes)
             .column(GROWS.0, None, self.modes.iter().map(ModeSummary::is_unstable));
         let fitted = format!(
-            "Fitted to {} lines of {} at friction coefficient {}; the worst frequency differs by {:.3} %. {} of {} \
+            "Fitted to {} of {} at friction coefficient {}; the worst frequency differs by {:.3} %. {} of {} \
              searches, from the best of {} points, ended here.",
-            self.residuals.len(),
+            plural(self.residuals.len(), ["line", "lines"]),
             self.measurement,
             self.friction_coefficient,
             self.worst_percent,

@@ -21,10 +21,9 @@ use frictionsim_physics::frf::{
 };
 use frictionsim_physics::linalg::GaussianNoise;
 use frictionsim_physics::mesh::BoundaryCondition;
-use frictionsim_results::ResponseSummary;
+use frictionsim_results::{ResponseSummary, plural};
 
-/// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
-/// silent.
+/// Hears how many frequencies are solved, a few at a time, from any thread; cyclic method and reduction are silent.
 pub type Progress<'a> = dyn Fn(usize) + Sync + 'a;
 
 /// The system that a case excites, ready to be solved.
@@ -157,11 +156,11 @@ fn described(case: &Case, frf: &Frf, found: &ResponseSummary) -> String {
         _ => String::new(),
     };
     format!(
-        "{} from {} to {}: {} lines, {} unknowns, {}{error}",
+        "{} from {} to {}: {}, {} unknowns, {}{error}",
         found.quantity,
         place(frf.force),
         place(frf.response),
-        found.lines,
+        plural(found.lines, ["line", "lines"]),
         found.dofs,
         found.method,
     )
