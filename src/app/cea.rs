@@ -1,5 +1,4 @@
-//! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient, or of a superelement that
-//! stands free.
+//! `frictionsim cea`: complex eigenvalues of steady sliding over friction, or of a superelement that stands free.
 
 use super::prelude::*;
 use super::{limits::STANDARD_INPUT, start_threads};

@@ -3,6 +3,7 @@
 use super::measurement::{Measurement, SideFile, chosen};
 use super::prelude::*;
 use super::session::read_case;
+use crate::cea::{CeaError, ModeLimit};
 use crate::results::signal::{
     ChannelSummary, MODE_TOLERANCE, ModeSummary, SignalDrawing, SignalSummary, document,
     draw as draw_figures, write_spectra,
@@ -15,7 +16,7 @@ use crate::signal::{
     averaged_spectrum, exponential_stage, spectral_lines,
 };
 use crate::study::{modes_at_own_friction, tangent_options};
-use crate::{cea::ModeLimit, fem::MassKind, results::charts::ModeLine};
+use crate::{fem::MassKind, results::charts::ModeLine};
 
 /// Lines reported for each channel.
 const MOST_LINES: usize = 12;
@@ -109,15 +110,20 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
         analysed.into_iter().unzip();
     let highest = channels.iter().filter_map(|c| c.main_frequency_hz).fold(0.0, f64::max);
+    let mut notes = file.notes.clone();
     let modes = match &case {
         Some(case) if highest > 0.0 => {
             let mass = case.cea.as_ref().map_or(MassKind::Consistent, |cea| cea.mass);
             let options = tangent_options(case, mass);
-            let limit = ModeLimit::MaxFrequency(1.3 * highest);
-            let modes = modes_at_own_friction(case, &options, limit);
-            let modes =
-                modes.map_err(|error| Failure::run(format!("modes of the case: {error}")))?;
-            ModeSummary::all(&modes, case.body.has_sectors())
+            match modes_at_own_friction(case, &options, ModeLimit::MaxFrequency(1.3 * highest)) {
+                Ok(modes) => ModeSummary::all(&modes, case.body.has_sectors()),
+                Err(CeaError::NoModes { lowest_hz, .. }) => {
+                    let lowest = "the lowest mode of the case lies far above every line, at";
+                    notes.push(format!("{lowest} {lowest_hz:.1} Hz"));
+                    Vec::new()
+                }
+                Err(error) => return Err(Failure::run(format!("modes of the case: {error}"))),
+            }
         }
         _ => Vec::new(),
     };
@@ -125,22 +131,20 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         channel.name_modes(&modes);
     }
     let folder = asked.output.open_folder(&measurement.manifest, false)?;
-    let friction = |case: &Case| case.contact.sliding.friction_coefficient;
     let summary = SignalSummary {
         source: measurement.source.clone(),
         sampling_rate_hz: file.sampling_rate,
         samples: file.channels[0].samples.len(),
-        friction_coefficient: case.as_ref().map(friction),
+        friction_coefficient: case.as_ref().map(|own| own.contact.sliding.friction_coefficient),
         mode_tolerance: MODE_TOLERANCE,
         channels,
-        notes: file.notes.clone(),
+        notes,
     };
     write_spectra(&folder, &spectra)?;
     let aside = write_copies(asked, [wav, uff], &file)?;
     let mut told = Told::of(measurement.head(), document(&summary));
     told.text += &aside;
     asked.output.finish_result(folder, told, &summary, || {
-        let unstable = modes.iter().filter(|mode| mode.unstable);
         let line =
             |mode: &ModeSummary| ModeLine { frequency_hz: mode.frequency_hz, label: mode.label() };
         let drawing = SignalDrawing {
@@ -148,7 +152,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
             spectra,
             window: window_length(asked, &file),
             max_frequency_hz: asked.max_frequency,
-            modes: unstable.map(line).collect(),
+            modes: modes.iter().filter(|mode| mode.unstable).map(line).collect(),
         };
         let (figures, left_out) = draw_figures(&drawing, &summary);
         left_out.iter().for_each(|reason| tracing::warn!("{reason}"));

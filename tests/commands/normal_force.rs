@@ -50,27 +50,36 @@ fn the_force_of_an_interference_gives_that_interference_back() {
 #[test]
 fn every_contact_gets_its_own_force() {
     let folder = folder();
-    let contact = |name: &str, force: f64| {
+    let contact = |surface: &str, force: f64| {
         format!(
-            "contacts.{name}={{ surface=\"{name}_z0\", counterface=\"plane\", speed=1.5, \
+            "contacts.{surface}={{ surface=\"{surface}\", counterface=\"plane\", speed=1.5, \
              direction=[1.0, 0.0, 0.0], normal_stiffness=1e12, normal_force={force:?}, \
              friction_coefficient=0.3 }}"
         )
     };
-    let forces = |more: &[String], [left, right]: [f64; 2]| {
-        let own = [SEAM.to_owned(), contact("left", left), contact("right", right)];
+    let forces = |more: &[String], wanted: [(&str, f64); 2]| {
+        let [left, right] = wanted.map(|(surface, force)| contact(surface, force));
+        let own = [SEAM.to_owned(), left, right];
         let path = folder.path().join("case.toml");
         case_of(path, PADS, &[&own, more].concat()).normal_forces().unwrap()
     };
-    near_each(&forces(&[], [200.0, 300.0]), &[200.0, 300.0], 1e-9);
+    let below = |left, right| [("left_z0", left), ("right_z0", right)];
+    near_each(&forces(&[], below(200.0, 300.0)), &[200.0, 300.0], 1e-9);
     for (held, bound) in [(1e4, 1e-4), (1e6, 1e-6), (1e9, 1e-9)] {
         let held = |name: &str| {
             let springs = format!("normal_stiffness={held:e}, tangential_stiffness={held:e}");
             format!("boundaries.{name}_z1={{ condition=\"support\", {springs} }}")
         };
         let more = ["material.young_modulus=2e11".to_owned(), held("left"), held("right")];
-        near_each(&forces(&more, [2.0, 3.0]), &[2.0, 3.0], bound);
+        near_each(&forces(&more, below(2.0, 3.0)), &[2.0, 3.0], bound);
     }
+    // Of two opposite ones the weaker follows the block away from where its face was.
+    let free = |name: &str| format!("boundaries.{name}_z1={{ condition=\"free\" }}");
+    let springs = "condition=\"support\", normal_stiffness=1e11, tangential_stiffness=1e11";
+    let aside = format!("boundaries.left_x0={{ {springs} }} ; boundaries.right_x1={{ {springs} }}");
+    let more = [free("left"), free("right"), aside];
+    let opposite = [("left_z0", 300.0), ("left_z1", 100.0)];
+    near_each(&forces(&more, opposite), &[300.0, 100.0], 1e-9);
 }
 
 /// Closed forms: a block without Poisson's ratio under a rigid plane is a spring `E A / h`; springs of `k` on the length `l` give way by

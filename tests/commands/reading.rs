@@ -335,3 +335,22 @@ fn friction_couples_a_pair_where_one_wave_loses_what_the_other_gains() {
     let falling = "contact.static_friction_ratio=3.0 ; contact.decay_speed=0.5 ; contact.rotation_speed_rpm=100.0";
     has(&page(falling), &["!friction couples"]);
 }
+
+/// Where contact opens growth may jump across zero: that friction depends on the contact alone, and growth has no slope there. The
+/// derivative told was that of a smooth crossing.
+#[test]
+fn a_critical_friction_at_which_growth_jumps_has_no_derivative() {
+    let mesh = include_bytes!("../cases/skewed-block.msh");
+    let case = include_bytes!("../cases/skewed-block.toml");
+    let folder = folder_with(&[("skewed-block.msh", &mesh[..]), ("case.toml", &case[..])]);
+    let set = "boundaries.top.normal_stiffness=3.7e11 ; boundaries.top.tangential_stiffness=6.1e11 ; \
+        material.poisson_ratio=0.38 ; damping.stiffness_coefficient=7.5e-8 ; cea.modes=8 ; \
+        cea.friction_coefficients=[0.0, 0.3, 0.6, 0.9] ; cea.sensitivities=true";
+    let answer = cea(folder.path(), "case.toml", &[set]);
+    let said = ["at friction 0.495801, 0.794148 the growth of a mode jumps", "another, jumps, or"];
+    let answer = answer.says(&said);
+    let critical = |row: &Row| row.number("critical_friction");
+    assert!(answer.rows("stability.csv").iter().any(|row| (critical(row) - 0.495801).abs() < 1e-6));
+    let onsets: Vec<f64> = answer.rows("sensitivities.csv").iter().map(critical).collect();
+    assert!(onsets.iter().all(|own| own.is_nan() || (own - 0.495801).abs() > 1e-6), "{onsets:?}");
+}

@@ -47,6 +47,19 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
     assert!(figures.join("signal-1.svg").exists() && figures.join("spectrum-1.png").exists());
 }
 
+/// The run ended with an error: no mode lies below 1.3 times the frequency of the tone.
+#[test]
+fn lines_far_below_every_mode_are_lines_all_the_same() {
+    let case = include_str!("../cases/pressed-block.toml").to_owned() + "interference = 1e-5\n";
+    let folder = folder_with(&[
+        ("block.msh", &plane_block([0.04, 0.03], [6, 4], ["face", "back", "block"])),
+        ("block.toml", case.as_bytes()),
+        ("tone.csv", tones(2.5e4, 4_000, &[("x", 433.0)]).as_bytes()),
+    ]);
+    let run = Run::of("signal", "tone.csv").within(&folder).args(&["--case", "block.toml"]);
+    run.done().says(&["433.00", "the lowest mode of the case lies far above every line"]);
+}
+
 #[test]
 fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
     let folder = beside("tone.csv", &tones(2.5e5, 20_000, &[("x", 9433.0)]));

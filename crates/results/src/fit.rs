@@ -35,10 +35,10 @@ impl Finding for FitSummary {
             self;
         let SearchSummary { starts, searches, arrived } = self.search;
         let fitted = format!(
-            "Fitted to {} lines of {measurement} at friction coefficient {friction_coefficient}; the worst frequency \
+            "Fitted to {} of {measurement} at friction coefficient {friction_coefficient}; the worst frequency \
              differs by {worst_percent:.3} %. {arrived} of {searches} searches, from the best of {starts} points, \
              ended here.",
-            measured.len(),
+            plural(measured.len(), ["line", "lines"]),
         );
         let pairs = self.correlations.iter().flat_map(|(a, row)| {
             let later = row.iter().filter(move |(b, _)| a < *b);

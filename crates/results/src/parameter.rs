@@ -10,18 +10,14 @@ pub fn parameter_name(key: &str) -> String {
     named(key).map_or_else(|| literal(key), |(quantity, _)| quantity)
 }
 
-/// An axis over the values of a case key: quantity, symbol and unit; the key itself where it is not one of those that
-/// studies go over.
+/// An axis over the values of a case key: quantity, symbol and unit; the key itself where studies seldom go over it.
 pub fn parameter_axis(key: &str) -> Axis {
-    match named(key) {
-        Some((quantity, unit)) if PREFIXED.contains(&unit) => Axis::new(&quantity, unit).prefixed(),
-        Some((quantity, unit)) => Axis::new(&quantity, unit),
-        None => Axis::new(&literal(key), ""),
-    }
+    let (quantity, unit) = named(key).unwrap_or_else(|| (literal(key), ""));
+    let axis = Axis::new(&quantity, unit);
+    if PREFIXED.contains(&unit) { axis.prefixed() } else { axis }
 }
 
-/// A value of a case key among others, as text in the unit that [`shared_unit`] gives them: at most four significant
-/// digits.
+/// A value of a case key as text in the unit that [`shared_unit`] gives all of them: at most four significant digits.
 pub fn in_unit(value: f64, factor: f64) -> String {
     literal(&rounded(value * factor, 4).to_string())
 }
@@ -38,7 +34,10 @@ fn named(key: &str) -> Option<(String, &'static str)> {
     let (quantity, unit) = match parts.as_slice() {
         ["materials", _, last] => quantity_of(&format!("material.{last}"))
             .or_else(|| quantity_of(&format!("damping.{last}"))),
-        ["contacts" | "motion" | "boundaries", _, last] => quantity_of(&format!("contact.{last}")),
+        ["contacts", _, "normal_force"] => Some(("normal force *N*", "N")),
+        ["contacts" | "motion", _, last] => quantity_of(&format!("contact.{last}")),
+        ["boundaries", _, last] => quantity_of(&format!("boundary.{last}"))
+            .or_else(|| quantity_of(&format!("contact.{last}"))),
         _ => quantity_of(key),
     }?;
     Some(match parts.as_slice() {
@@ -56,7 +55,7 @@ fn quantity_of(key: &str) -> Option<(&'static str, &'static str)> {
         "material.young_modulus" => ("Young's modulus *E*", "Pa"),
         "material.poisson_ratio" => ("Poisson's ratio *ν*", "–"),
         "material.density" => ("density *ρ*", "kg/m³"),
-        "material.loss_factor" => ("loss factor *η*", "–"),
+        "material.loss_factor" | "contact.loss_factor" => ("loss factor *η*", "–"),
         "damping.mass_coefficient" => ("mass damping *α*_{R}", "1/s"),
         "damping.stiffness_coefficient" => ("stiffness damping *β*_{R}", "s"),
         "contact.friction_coefficient" => ("friction coefficient *μ*", "–"),
@@ -66,16 +65,14 @@ fn quantity_of(key: &str) -> Option<(&'static str, &'static str)> {
         "contact.rotation_speed_rpm" => ("rotation speed *Ω*", "rpm"),
         "contact.speed" => ("speed *V*", "m/s"),
         "contact.normal_stiffness" => ("contact stiffness *k*_{n}", "Pa/m"),
-        "contact.tangential_stiffness" => ("tangential stiffness *k*_{t}", "Pa/m"),
-        "contact.pressure" => ("pressure *p*", "Pa"),
+        "boundary.normal_stiffness" => ("normal stiffness *k*_{n}", "Pa/m"),
+        "boundary.tangential_stiffness" => ("tangential stiffness *k*_{t}", "Pa/m"),
+        "boundary.pressure" => ("pressure *p*", "Pa"),
         "contact.cubic_stiffness" => ("cubic contact stiffness *c*", "Pa/m³"),
         "contact.reference_pressure" => ("reference pressure *p*_{r}", "Pa"),
         "contact.height" => ("height of the contact's law *h*", "m"),
-        "contact.normal_damping" => ("normal contact damping", "Pa s/m"),
-        "contact.tangential_damping" => ("tangential contact damping", "Pa s/m"),
-        key if key.starts_with("boundaries.") && key.ends_with(".pressure") => {
-            ("pressure *p*", "Pa")
-        }
+        "contact.normal_damping" => ("normal damping", "Pa s/m"),
+        "contact.tangential_damping" => ("tangential damping", "Pa s/m"),
         _ => return None,
     })
 }

@@ -33,8 +33,7 @@ pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyEr
     Ok(BasinSummary::new(rivals, !case.has_rotating_waves(), found))
 }
 
-/// The boundary between the basins of two modes that grow, or between that of one mode and steady sliding, and the
-/// numbers of the two rivals, 0 for steady sliding.
+/// The boundary between the basins of two modes that grow, or of one and steady sliding; their numbers (0: sliding).
 pub fn boundary_of_modes(
     case: &Case,
     request: &BasinRequest,
@@ -57,6 +56,11 @@ pub fn boundary_of_modes(
 /// Places of the modes that compete: those asked for, else the two that grow fastest, else the least stable one.
 fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<usize>, StudyError> {
     let growing = steady.growing();
+    if let (true, Some(above)) = (growing.is_empty(), steady.above_hz) {
+        return Err(StudyError::Case(refusal!(case, "basin",
+            "a mode of {above:.0} Hz, above the {} looked at, grows, and none of these does", steady.modes.len();
+            "among modes that decay"; "raise cea.modes, or cea.max_frequency_hz")));
+    }
     let Some(asked) = &request.modes else {
         return Ok(match growing.len() {
             0 => steady.least_stable().into_iter().collect(),

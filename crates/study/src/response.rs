@@ -20,10 +20,9 @@ use frictionsim_physics::frf::{
     direct_response, reduced_response,
 };
 use frictionsim_physics::{linalg::GaussianNoise, mesh::BoundaryCondition};
-use frictionsim_results::ResponseSummary;
+use frictionsim_results::{ResponseSummary, plural};
 
-/// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
-/// silent.
+/// Hears how many frequencies are solved, a few at a time, from any thread; cyclic method and reduction are silent.
 pub type Progress<'a> = dyn Fn(usize) + Sync + 'a;
 
 /// The system that a case excites, ready to be solved.
@@ -157,7 +156,8 @@ fn described(case: &Case, frf: &Frf, found: &ResponseSummary) -> String {
     };
     let ResponseSummary { quantity, lines, dofs, method, .. } = found;
     let [from, to] = [frf.force, frf.response].map(place);
-    format!("{quantity} from {from} to {to}: {lines} lines, {dofs} unknowns, {method}{error}")
+    let lines = plural(*lines, ["line", "lines"]);
+    format!("{quantity} from {from} to {to}: {lines}, {dofs} unknowns, {method}{error}")
 }
 
 impl Response {

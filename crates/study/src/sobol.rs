@@ -38,8 +38,7 @@ const DIRECTIONS: [(u32, u32, &[u32]); 31] = [
     (7, 42, &[1, 3, 7, 3, 13, 59, 17]),
 ];
 
-/// Sobol's sequence under Owen's nested uniform scrambling, which keeps the evenness and makes every point uniformly
-/// distributed.
+/// Sobol's sequence under Owen's nested uniform scrambling: it stays even, and every point is uniformly distributed.
 ///
 /// Each coordinate is scrambled by a hash of its leading digits: A. B. Owen, "Scrambling Sobol and Niederreiter-Xing
 /// points", J. Complexity 14 (1998) 466; B. Burley, "Practical hash-based Owen scrambling", JCGT 9 (2020) 4.

@@ -1,5 +1,4 @@
-//! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep
-//! holds.
+//! The summary of one analysis of a case, as its command prints it, without a file written: what a sweep's point holds.
 
 use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use super::eigenvalues::{self, Solved};

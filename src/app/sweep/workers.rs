@@ -34,15 +34,13 @@ pub struct SweepRun<'a> {
 }
 
 impl SweepRun<'_> {
-    /// Runs those of `points` that are neither finished nor claimed by another process, and returns
-    /// how many that were.
+    /// Runs those of `points` that are neither finished nor claimed by another process, and returns how many that were.
     ///
     /// Workers take the next point when they are done with one. Inside a point the threads that
     /// are left over work: one, unless there are fewer points than threads.
     ///
     /// # Errors
-    /// A folder that cannot be written; the other workers finish the points they have. A point that
-    /// fails is no error: its record says so.
+    /// A folder that cannot be written; other workers finish the points they have. A point that fails has its record.
     pub fn run(&self, points: &[usize], threads: usize) -> Result<usize, Failure> {
         let workers = threads.clamp(1, points.len().max(1));
         let (next, is_stopped) = (AtomicUsize::new(0), AtomicBool::new(false));

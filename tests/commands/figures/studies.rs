@@ -52,6 +52,14 @@ fn points_over_any_key_have_frequencies_and_status_too() {
     assert_eq!(figures.len(), 2);
     let words = "interference δ ; main frequency f (kHz)";
     check("study-interference", &figures[0].to_svg(None).unwrap(), &[words]);
+    for (key, axis) in [
+        ("boundaries.back.normal_stiffness", "normal stiffness kn, back (Pa/m)"),
+        ("boundaries.back.loss_factor", "loss factor η, back"),
+        ("contacts.pad.normal_force", "normal force N, pad (N)"),
+    ] {
+        let points = [1.0, 2.0].map(|value| point(1, json!({ key: value }), transient(value, 9.0)));
+        check("study-names", &draw_sweep(&points, 0.3, &[])[0].to_svg(None).unwrap(), &[axis]);
+    }
 }
 
 #[test]

@@ -299,4 +299,18 @@ mod tests {
         let is_own = growths.map(|growth| growth.stage.is_ok());
         assert_eq!(is_own, [true, false, false, true, true]);
     }
+
+    /// A dashpot of 1e300 Pa s/m asks for that: `check` ended in an overflow.
+    #[test]
+    fn more_steps_than_can_be_counted_are_the_most_that_can() {
+        let plan = crate::transient::settings::StepPlan {
+            time_step: 1e-300,
+            limit: 1e-300,
+            largest_frequency: 1e300,
+            steps_per_sample: u64::MAX,
+            samples: 3,
+            sample_interval: 1e-6,
+        };
+        assert_eq!(plan.total_steps(), u64::MAX);
+    }
 }

@@ -163,7 +163,7 @@ impl StepPlan {
 
     /// Steps of the whole run; the last one makes the velocity around the last sample.
     pub fn total_steps(&self) -> u64 {
-        (self.samples - 1) * self.steps_per_sample + 1
+        1_u64.saturating_add((self.samples - 1).saturating_mul(self.steps_per_sample))
     }
 
     /// Time of a sample, s.

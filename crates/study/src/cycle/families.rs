@@ -24,8 +24,7 @@ pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
 }
 
 /// The value of a parameter, SI, towards its range at which the lowest onset comes down to the case's friction
-/// coefficient; none of parameters that no onset depends on: sliding at constant friction knows neither speed nor
-/// interference.
+/// coefficient; none of speed and interference: sliding at constant friction knows neither.
 pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Option<f64> {
     let mut point = operating_point(case);
     let (model, here) = (disc_model(case).ok()?, parameter.of(&point));
@@ -63,8 +62,7 @@ pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
 }
 
 /// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
-/// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their
-/// birth.
+/// friction. One that is named is sought even where steady sliding is stable: its cycles may outlive their birth.
 pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, StudyError> {
     let (model, limit) = (disc_model(case)?, asked_modes(case, MODES));
     let harmonics: BTreeSet<usize> = match &cycle.harmonics {

@@ -47,8 +47,7 @@ pub struct PeriodicStudy<'a> {
 }
 
 impl<'a> PeriodicStudy<'a> {
-    /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as the transient has
-    /// them.
+    /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as in the transient.
     ///
     /// Where none of them grows at the case's own operating point, and a range of a parameter is to be gone through,
     /// the search starts in the range where one does, at its ends first: the cycles that are born there may live on
@@ -326,8 +325,7 @@ fn sought(steady: &Steady, place: usize) -> ModeSummary {
     }
 }
 
-/// The value of a parameter, SI, between one at which steady sliding is stable and one at which a mode grows, where it
-/// does neither.
+/// The value of a parameter, SI, between one where sliding is stable and one where a mode grows: neither there.
 fn onset(of: (&Case, &SteppedMesh<'_>), parameter: Parameter, ends: [f64; 2]) -> Option<f64> {
     let growth = |value: f64| Some(Steady::at(of, parameter, value).ok()?.growth_rate());
     critical(growth, ends)

@@ -14,8 +14,7 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// The solver that `method` means for the body of a case: `auto` uses the rotational symmetry where the body has
-    /// it.
+    /// The solver that `method` means for the body of a case: `auto` uses the rotational symmetry, where it has one.
     ///
     /// # Errors
     /// A method that the body does not have; a counterface at rest, on which the body sticks.
@@ -111,8 +110,7 @@ impl Model {
     }
 
     /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, beside what else the
-    /// symmetry of sectors reveals, where there are sectors; `progress` hears of every friction coefficient that is
-    /// solved.
+    /// symmetry of sectors reveals, where there are sectors; `progress` hears of every friction coefficient solved.
     pub fn spectrum_with_waves(
         &self,
         case: &Case,

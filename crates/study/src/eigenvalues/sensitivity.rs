@@ -9,6 +9,9 @@ use frictionsim_physics::cea::cyclic::{WavePair, wave_pairs};
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
 use frictionsim_results::cea::{OnsetRates, SensitivityReport, SensitivityRow};
 
+/// Relative distance to which targets are eigenvalues: at an onset where growth jumps across zero there is none.
+const FOUND: f64 = 1e-6;
+
 /// A mode, or the onset of one: what is differentiated.
 #[derive(Clone, Copy)]
 struct Target {
@@ -83,7 +86,7 @@ pub fn body_sensitivities(
     let lost = targets.iter().zip(&found).filter(|(_, pair)| pair.is_none());
     let lost = lost.map(|(Target { friction, eigenvalue }, _)| {
         let hz = eigenvalue.im / TAU;
-        format!("the mode at {hz:.1} Hz and friction {friction} coincides with another one, or was not found again")
+        format!("the mode at {hz:.1} Hz and friction {friction} coincides with another, jumps, or was not found again")
     });
     let mut missing: Vec<String> = lost.collect();
     missing.extend(rates.iter().filter_map(|(_, reason)| reason.clone()));
@@ -202,7 +205,9 @@ fn whole_pairs(
     let frictions: Vec<f64> = places.iter().map(|place| place.friction).collect();
     let base = Linearized::of(case, cea, &frictions, None)?;
     for (k, place) in places.iter_mut().enumerate() {
-        place.pairs = mode_pairs(base.tangent(k), place.friction, &place.targets);
+        let is_found = |p: &ModePair| base.shift(k, p).norm() <= FOUND * p.eigenvalue.norm();
+        let pairs = mode_pairs(base.tangent(k), place.friction, &place.targets).into_iter();
+        place.pairs = pairs.map(|pair| pair.filter(is_found)).collect();
     }
     Ok(Pairs::Whole(Box::new(base), places))
 }

@@ -74,8 +74,7 @@ impl SlidingModel {
         Ok(model)
     }
 
-    /// Refuses a contact that nothing presses: friction does nothing there, and critical frictions would be those of no
-    /// contact.
+    /// Refuses a contact that nothing presses: friction does nothing there; critical frictions would be those of none.
     fn refuse_no_pressure(&self, case: &Case) -> Result<(), StudyError> {
         let assembly = case.body.assembly();
         let is_free =

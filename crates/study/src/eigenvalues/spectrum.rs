@@ -45,8 +45,7 @@ pub fn modes_with_waves_below(
     Ok((found.sweep.into_first_modes(), waves))
 }
 
-/// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body
-/// has.
+/// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the body's symmetry.
 pub fn modes_at_own_friction(
     case: &Case,
     options: &TangentOptions,
@@ -66,8 +65,7 @@ pub struct OnsetSearch {
     pub intervals: Vec<UnstableInterval>,
     /// The harmonics that hold modes, where all were looked at.
     pub followed: Vec<usize>,
-    /// Harmonic and branch of the modes within the range of frequencies at some friction coefficient, each once,
-    /// rising.
+    /// Harmonic and branch of modes within the range of frequencies at some friction coefficient, each once, rising.
     pub within: Vec<(usize, usize)>,
 }
 

@@ -122,8 +122,7 @@ impl WholeMesh {
     }
 }
 
-/// Where the base states of solid bodies begin: contact that stiffens depends on friction, and the analysis starts
-/// without.
+/// Where the base states of solid bodies begin: contact that stiffens depends on friction; analyses start without.
 fn start_of(contacts: &[(SlidingSurfaces, ContactSurface)]) -> &'static [f64] {
     let mut solid = contacts.iter().filter(|(contact, _)| !contact.is_edge());
     let stiffens = solid.any(|(contact, _)| contact.stiffness.law.is_some());

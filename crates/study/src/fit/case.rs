@@ -56,8 +56,7 @@ pub fn fit_case(
     Ok(found)
 }
 
-/// Lines of a table of modes beyond which it is hardly one: assigning them to modes grows with the cube of their
-/// number.
+/// Lines of a table of modes beyond which it is hardly one: assigning them grows with the cube of their number.
 const MOST_LINES: usize = 1000;
 
 /// Frequencies that a measured mode has, Hz.

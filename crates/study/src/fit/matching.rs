@@ -30,8 +30,7 @@ impl Weights {
     }
 }
 
-/// The mode of each line, each mode for one line at most, at the smallest sum of squared weighted differences, and that
-/// sum.
+/// The mode of each line, each for one line at most, at the smallest sum of squared weighted differences, and that sum.
 ///
 /// A line of known harmonic takes modes of that harmonic alone. A line that no mode is left for has none; it costs as
 /// much as a difference of its whole frequency.

@@ -87,8 +87,7 @@ impl<'a> ModalModel<'a> {
         Change { projected, attached: None }
     }
 
-    /// As [`Self::local`], with what modes beyond the listed ones give way at these dofs, none of which touches a
-    /// contact.
+    /// As [`Self::local`], with what modes beyond the listed ones give way at these dofs, which touch no contact.
     ///
     /// `D (1 + R D)^-1` at two frequencies is taken for a stiffness, a mass and a dashpot.
     pub fn yielding(&self, dofs: &[usize], [m, c, k]: [&DMatrix<f64>; 3]) -> Change {
@@ -113,8 +112,7 @@ impl<'a> ModalModel<'a> {
     /// Takes `[M, C, K]` of a patch away from the body: its dofs, and which of them other elements share.
     ///
     /// What is inside hangs on the shared dofs alone, so that the body loses the dynamic stiffness of the patch there,
-    /// `D(s) = -(T_bb - T_bi T_ii^-1 T_ib)`, in series with what the body beside it gives way, as in
-    /// [`Self::yielding`].
+    /// `D(s) = -(T_bb - T_bi T_ii^-1 T_ib)`, in series with what the body beside it gives way ([`Self::yielding`]).
     ///
     /// `None` where the patch shares no free dof with another element.
     pub fn removed(

@@ -100,8 +100,7 @@ fn are_same(a: &[Onset], b: &[Onset]) -> bool {
         })
 }
 
-/// A design, its probability of squeal and the ends of that probability's interval; beside it the onsets of the first
-/// sample.
+/// A design, its probability of squeal and the ends of its interval; beside it the onsets of the first sample.
 fn probability(
     case: &Case,
     sampler: &Sampler<'_>,

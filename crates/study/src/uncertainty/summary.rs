@@ -63,8 +63,7 @@ const SAME: f64 = 1e-9;
 /// Resamples that the intervals of indices rest on.
 const RESAMPLES: usize = 400;
 
-/// First-order and total index of each parameter with 95 % intervals: the percentiles over samples drawn from the given
-/// ones with replacement.
+/// First-order and total index of each parameter with 95 % intervals: percentiles over samples drawn with replacement.
 ///
 /// G. E. B. Archer, A. Saltelli, I. M. Sobol, "Sensitivity measures, ANOVA-like techniques and the use of bootstrap",
 /// J. Stat. Comput. Simul. 58 (1997) 99.

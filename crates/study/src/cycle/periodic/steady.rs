@@ -17,13 +17,15 @@ pub struct Steady {
     pub base: Vec<f64>,
     /// All modes looked at, by frequency.
     pub modes: Vec<ComplexMode>,
+    /// Frequency of one that grows above them, Hz.
+    pub above_hz: Option<f64>,
 }
 
 impl Steady {
     /// That of a case.
     pub fn of(case: &Case, stepped: &SteppedMesh<'_>) -> Result<Self, StudyError> {
         let own = [case.contact.sliding.friction_coefficient];
-        if let Some(assembly) = &stepped.assembly {
+        let (base, found) = if let Some(assembly) = &stepped.assembly {
             let request = SweepRequest {
                 shapes_at: &own,
                 ..SweepRequest::new(&own, asked_modes(case, MODES_IN_TIME))
@@ -32,15 +34,17 @@ impl Steady {
             let range = assembly.range(&own, &Default::default())?;
             let state = &range.states[range.state_of[0]];
             let tangent = assembly.tangent(state, &options_in_time(case))?;
-            let found = sparse::sweep(&tangent, &request, &Unwatched)?;
-            return Ok(Self { base: state.displacement(own[0]), modes: found.into_first_modes() });
-        }
-        let (model, sweep) = sweep_in_time(case, &own, &own)?;
-        let base = match &model {
-            Model::Whole(whole) => whole.state().displacement(own[0]),
-            _ => stepped.body(case).sliding_displacement()?,
+            (state.displacement(own[0]), sparse::sweep(&tangent, &request, &Unwatched)?)
+        } else {
+            let (model, sweep) = sweep_in_time(case, &own, &own)?;
+            let base = match &model {
+                Model::Whole(whole) => whole.state().displacement(own[0]),
+                _ => stepped.body(case).sliding_displacement()?,
+            };
+            (base, sweep)
         };
-        Ok(Self { base, modes: sweep.into_first_modes() })
+        let above_hz = found.beyond().map(|(_, mode)| mode.frequency_hz());
+        Ok(Self { base, above_hz, modes: found.into_first_modes() })
     }
 
     /// That of a case with a parameter at another value, SI.

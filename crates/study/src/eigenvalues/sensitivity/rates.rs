@@ -69,6 +69,12 @@ impl Linearized {
         &self.tangents[self.model.range.state_of[place]]
     }
 
+    /// How far the eigenvalue of a pair is from one there, to first order: the response to all that the matrices have.
+    pub(super) fn shift(&self, place: usize, pair: &ModePair) -> c64 {
+        let [k, c, m, h] = &self.values(place, pair.eigenvalue.im / TAU);
+        pair.response(self.tangent(place).stiffness.pattern(), [k, c, m], h)
+    }
+
     /// Which contact points are pressed there.
     fn pressed(&self, place: usize) -> &[bool] {
         &self.model.range.states[self.model.range.state_of[place]].is_pressed
