@@ -151,7 +151,8 @@ impl WholeMesh {
         common.dofs = common.dofs.max(tangent.unknowns.len());
         let watch = PartWatch { whole: common.progress, prefix, is_heard: true };
         if let Some(symmetry) = &self.symmetry {
-            match CyclicTangent::new(&tangent, symmetry, self.mesh.node_count()) {
+            let highest = request.friction_coefficients.iter().fold(0.0, |m: f64, mu| m.max(*mu));
+            match CyclicTangent::new(&tangent, symmetry, (self.mesh.node_count(), highest)) {
                 Ok(waves) => {
                     return sparse::sweep_by_diameters(&tangent, &waves, request, &watch);
                 }

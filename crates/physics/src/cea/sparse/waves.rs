@@ -30,14 +30,14 @@ pub struct CyclicTangent<'a> {
 }
 
 impl<'a> CyclicTangent<'a> {
-    /// The waves of `whole`, the tangent of a mesh of `node_count` nodes that has the symmetry.
+    /// The waves of `whole`, the tangent of a mesh of `node_count` nodes that has the symmetry, up to the friction coefficient `highest`.
     ///
     /// # Errors
     /// In words what differs from sector to sector: supports, loads or masses in one place only, an asymmetric state of contact.
     pub fn new(
         whole: &'a SlidingTangent,
         symmetry: &CyclicSymmetry,
-        node_count: usize,
+        (node_count, highest): (usize, f64),
     ) -> Result<Self, String> {
         let (count, unknowns) = (symmetry.count, &whole.unknowns);
         // Nodes, and with them unknowns, follow each other sector by sector.
@@ -54,12 +54,12 @@ impl<'a> CyclicTangent<'a> {
             ));
         }
         let own = Self { whole, count, size: start(1) };
-        own.check_alike()?;
+        own.check_alike(highest)?;
         Ok(own)
     }
 
-    /// Refuses matrices that differ from sector to sector.
-    fn check_alike(&self) -> Result<(), String> {
+    /// Refuses matrices that differ from sector to sector somewhere up to a friction coefficient.
+    fn check_alike(&self, highest: f64) -> Result<(), String> {
         let (size, total, whole) = (self.size, self.size * self.count, self.whole);
         let pattern = whole.stiffness.pattern();
         let viscous =
@@ -69,10 +69,11 @@ impl<'a> CyclicTangent<'a> {
             Some(_) => ("stiffness of a part with a table", own),
         });
         for (what, matrix) in viscous.into_iter().chain(losses) {
-            let pairs = matrix.coefficients().iter().map(|values| {
+            let pairs = matrix.coefficients().iter().enumerate().map(|(power, values)| {
+                let reach = (highest - matrix.origin()).max(0.0).powi(power as i32); // Of a power of (mu - a).
                 turned_pair(size, total, |x| {
                     let row = |row| pattern.row(row).map(|(k, column)| values[k] * x[column]).sum();
-                    (0..total).map(row).collect()
+                    (0..total).map(row).map(|own: f64| reach * own).collect()
                 })
             });
             // Powers of mu that almost cancel are held to the others.
