@@ -1,7 +1,6 @@
 //! Request of a sweep: friction coefficients, modes, shapes.
 
 use super::CeaError;
-use super::sparse::FrictionlessModes;
 
 /// Which modes are wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +29,7 @@ impl ModeLimit {
 }
 
 /// What a sweep is to find.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweepRequest<'a> {
     /// Friction coefficients, in any order; repeated values are computed once.
     pub friction_coefficients: &'a [f64],
@@ -45,8 +44,6 @@ pub struct SweepRequest<'a> {
     /// Whether it goes on from a sweep that ends at its first friction coefficient: branches begin there, not without friction, and
     /// their names are for the caller to give.
     pub is_continued: bool,
-    /// Modes without friction of nearly the same body, over the same unknowns, which serve for its own.
-    pub rest: Option<&'a FrictionlessModes>,
 }
 
 impl<'a> SweepRequest<'a> {
@@ -59,7 +56,6 @@ impl<'a> SweepRequest<'a> {
             lefts_at: None,
             count_modes: false,
             is_continued: false,
-            rest: None,
         }
     }
 

@@ -165,7 +165,7 @@ impl WholeMesh {
             common.rest = Some(FrictionlessModes::compute(&tangent, request.limit)?);
         }
         let rest = common.rest.as_ref().filter(|_| request.is_continued);
-        sparse::sweep(&tangent, &SweepRequest { rest, ..*request }, &watch)
+        sparse::sweep_sharing(&tangent, request, rest, &watch)
     }
 }
 

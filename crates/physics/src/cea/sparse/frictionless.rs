@@ -40,7 +40,7 @@ impl FrictionlessModes {
     /// [`Self::compute`], or what is known of the same or nearly the same body, with factors of its own: from an earlier run or given.
     pub(super) fn compute_watched(
         tangent: &SlidingTangent,
-        request: &SweepRequest<'_>,
+        (limit, rest): (ModeLimit, Option<&Self>),
         watch: &dyn SweepWatch,
     ) -> Result<Self, CeaError> {
         let inertia = Inertia::new(tangent)?;
@@ -50,7 +50,7 @@ impl FrictionlessModes {
                 watch.recalled::<(Vec<_>, Vec<f64>, Centre)>("frictionless")?;
             Some((from_columns(&columns, unknowns)?, frequencies, centre))
         };
-        let given = request.rest.filter(|own| own.vectors.nrows() == unknowns);
+        let given = rest.filter(|own| own.vectors.nrows() == unknowns);
         let given = given.map(|own| (own.vectors.clone(), own.frequencies.clone(), own.centre));
         if let Some((vectors, frequencies, centre)) = given.or_else(recalled) {
             let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
@@ -62,7 +62,7 @@ impl FrictionlessModes {
                 return Ok(Self { vectors, rigid, frequencies, centre, factors });
             }
         }
-        let found = Self::found_by(tangent, &inertia, request.limit)?;
+        let found = Self::found_by(tangent, &inertia, limit)?;
         let vectors = columns_of(&found.vectors);
         watch.keep_value("frictionless", &(vectors, &found.frequencies, found.centre));
         Ok(found)
@@ -117,7 +117,11 @@ impl FrictionlessModes {
                 let counted = inertia.count_below(middle)?;
                 if counted != kept + rigid {
                     if recounts == MOST_ATTEMPTS {
-                        return Err(contradicted(kept + rigid, middle, counted));
+                        return Err(CeaError::Failed(format!(
+                            "without friction the solver found {} modes below {:.1} Hz, the inertia of the stiffness counts {counted}",
+                            kept + rigid,
+                            middle / TAU
+                        )));
                     }
                     recounts += 1;
                     extra += counted.abs_diff(kept + rigid) + BLOCK;
@@ -146,15 +150,6 @@ fn overdamped(tangent: &SlidingTangent, found: &Lowest) -> usize {
         damping >= 2.0 * found.kappas[*j].max(0.0).sqrt() * inertia // x^T K x = kappa x^T M x.
     };
     leading.take_while(is_overdamped).count()
-}
-
-/// The inertia contradicts what was found below a frequency (rad/s).
-fn contradicted(found: usize, below: f64, counted: usize) -> CeaError {
-    CeaError::Failed(format!(
-        "without friction the solver found {found} modes below {:.1} Hz, the inertia of the \
-         stiffness counts {counted}",
-        below / TAU
-    ))
 }
 
 /// The lowest motions of a pencil.

@@ -57,7 +57,7 @@ pub use nodal_diameters::sweep_by_diameters;
 pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, SolvedPoint};
 pub use structure::{ShiftInverted, StructureMatrices};
-pub use sweep::{SparseSweep, sweep};
+pub use sweep::{SparseSweep, sweep, sweep_sharing};
 pub use waves::CyclicTangent;
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range are seen.

@@ -58,8 +58,14 @@ impl ModePair {
 pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Option<ModePair>> {
     let problem = FullProblem::at(tangent, mu);
     let rate = FullProblem::of(tangent, |matrix| matrix.derivative(mu));
+    let unknowns = problem.dimension();
+    let start = random_columns(unknowns, 2.min(unknowns), 7);
+    let start = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
     let pair = |target: &c64| {
-        let [right, mut left] = inverse_iterations(&problem, *target)?;
+        // Far enough from the eigenvalue for regular factors, near enough for iterations that gain as many digits.
+        let factors = problem.factors(target * (1.0 + MULTIPLE)).ok()?;
+        let right = single(&iterated(&factors, start.clone(), false))?;
+        let mut left = single(&iterated(&factors, start.clone(), true))?;
         let scale = problem.slope(*target, &left, &right);
         left.iter_mut().for_each(|v| *v /= scale);
         let mut pair = ModePair {
@@ -88,17 +94,6 @@ fn iterated(factors: &ComplexSparseLu, mut x: Mat<c64>, is_left: bool) -> Mat<c6
         }
     }
     x
-}
-
-/// Right and left vector, of unit length, of the single eigenvalue at `target`.
-fn inverse_iterations(problem: &FullProblem<'_>, target: c64) -> Option<[Vec<c64>; 2]> {
-    let unknowns = problem.dimension();
-    let start = random_columns(unknowns, 2.min(unknowns), 7);
-    let start = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
-    // Far enough from the eigenvalue for regular factors, near enough for iterations that gain as many digits.
-    let factors = problem.factors(target * (1.0 + MULTIPLE)).ok()?;
-    let right = single(&iterated(&factors, start.clone(), false))?;
-    Some([right, single(&iterated(&factors, start, true))?])
 }
 
 /// The first of two columns of unit length, if the other one is a multiple of it.

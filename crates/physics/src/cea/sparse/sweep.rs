@@ -30,21 +30,33 @@ pub fn sweep(
     request: &SweepRequest<'_>,
     watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
+    sweep_sharing(tangent, request, None, watch)
+}
+
+/// [`sweep`] of nearly the same body as one whose modes without friction are known: they serve for its own.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn sweep_sharing(
+    tangent: &SlidingTangent,
+    request: &SweepRequest<'_>,
+    rest: Option<&FrictionlessModes>,
+    watch: &dyn SweepWatch,
+) -> Result<FrictionSweep, CeaError> {
     let tangent = referred(tangent, request.limit)?;
-    sweep_holding(&tangent, request, (request.limit, GUARD_MODES), watch)
+    sweep_holding(&tangent, (request, rest), (request.limit, GUARD_MODES), watch)
 }
 
 /// [`sweep`] from the modes within `limit` without friction, those wanted there at least; where it does not do with them, from `more`,
 /// and from twice as many more each time.
 fn sweep_holding(
     tangent: &SlidingTangent,
-    request: &SweepRequest<'_>,
+    (request, rest): (&SweepRequest<'_>, Option<&FrictionlessModes>),
     (limit, more): (ModeLimit, usize),
     watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
-    let rest = request.rest.filter(|_| limit == request.limit); // More modes than wanted are found anew.
-    let own = SweepRequest { limit, rest, ..*request };
-    let mut sweep = SparseSweep::prepare(tangent, &own, watch)?;
+    let own = SweepRequest { limit, ..*request };
+    let mut sweep = SparseSweep::prepare(tangent, (&own, rest), watch)?;
     sweep.limit = request.limit;
     sweep.cover()?;
     sweep.solve()?;
@@ -58,7 +70,7 @@ fn sweep_holding(
         let held = sweep.builder.count;
         let watch = PartWatch { whole: watch, prefix: format!("of-{held}-"), is_heard: true };
         let limit = ModeLimit::Lowest((held + more).min(sweep.elastic()));
-        return sweep_holding(tangent, request, (limit, 2 * more), &watch);
+        return sweep_holding(tangent, (request, None), (limit, 2 * more), &watch);
     };
     if let ModeLimit::MaxFrequency(limit_hz) = request.limit
         && sweep.points.iter().all(|point| point.wanted == 0)
@@ -135,13 +147,13 @@ impl<'a> SparseSweep<'a> {
     /// Computes the frictionless modes, where the sweep starts.
     pub fn prepare(
         tangent: &'a SlidingTangent,
-        request: &SweepRequest<'_>,
+        (request, rest): (&SweepRequest<'_>, Option<&FrictionlessModes>),
         watch: &'a dyn SweepWatch,
     ) -> Result<Self, CeaError> {
         let mut grid = request.rising_grid()?;
         request.limit.check()?;
         let lowest = grid[0];
-        let modes = FrictionlessModes::compute_watched(tangent, request, watch)?;
+        let modes = FrictionlessModes::compute_watched(tangent, (request.limit, rest), watch)?;
         // What structural damping leaves of rigid motions is recognised by following them from rest.
         let is_continued = request.is_continued && !(tangent.is_lossy() && modes.rigid > 0);
         if lowest > 0.0 && !is_continued {
@@ -149,14 +161,14 @@ impl<'a> SparseSweep<'a> {
         }
         let highest = modes.frequencies.last().copied().unwrap_or(1.0); // Without any mode every scale will do.
         let linearization = Linearization::of(tangent, highest, modes.centre);
-        let rest = (&modes.vectors, modes.rigid);
+        let vectors = (&modes.vectors, modes.rigid);
         Ok(Self {
             tangent,
             linearization,
             limit: request.limit,
             edge: ContactEdge::of(tangent),
             norms: StructureMatrices::at(tangent, linearization, 0.0).norms(),
-            builder: BasisBuilder::new(tangent, linearization, rest, modes.factors, watch),
+            builder: BasisBuilder::new(tangent, linearization, vectors, modes.factors, watch),
             leaves_out: vec![false; grid.len()],
             grid,
             lowest,
@@ -327,7 +339,7 @@ mod tests {
         for is_proportional in [true, false] {
             let tangent = string_on_belt(200, 0.4, is_proportional);
             let request = SweepRequest::new(&[0.0, 0.1, 0.2, 0.3], ModeLimit::Lowest(6));
-            let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
+            let mut sweep = SparseSweep::prepare(&tangent, (&request, None), &Unwatched).unwrap();
             sweep.cover().unwrap();
             sweep.solve().unwrap();
             let complete = sweep.points[2].modes.len();

@@ -76,7 +76,7 @@ fn unknown(pair: &[Part]) -> Range<f64> {
 /// Friction coefficients at which the state is unknown and between which a branch changes its stability.
 pub struct Undecided {
     pub gap: Range<f64>,
-    /// Where its growth may vanish: on the straight line between both ends, or as the state beyond would have it, if it held there.
+    /// Where its growth may vanish: on the straight line between both ends, or as the state beyond would have it there.
     pub guess: Option<f64>,
 }
 
@@ -244,8 +244,8 @@ mod tests {
         FrictionPoint { friction_coefficient, modes, above }
     }
 
-    /// Growth of -10 1/s where a state ends at 0.3, and of 30 1/s at 0.5 in the next one, crosses zero about 0.35, wherever that one would
-    /// have it between.
+    /// Growth of -10 1/s where a state ends at 0.3, and of 30 1/s at 0.5 in the next one, crosses zero about 0.35,
+    /// wherever that one would have it between.
     #[test]
     fn states_between_are_sought_where_growth_crosses_zero() {
         let before = vec![point(0.3, [vec![mode(-10.0)], Vec::new()])];

@@ -150,7 +150,7 @@ mod tests {
                 count_modes: true,
                 ..SweepRequest::new(&[0.0, 0.1, 0.2, 0.3], ModeLimit::Lowest(6))
             };
-            let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
+            let mut sweep = SparseSweep::prepare(&tangent, (&request, None), &Unwatched).unwrap();
             sweep.cover().unwrap();
             sweep.solve().unwrap();
             let branches = sweep.track().unwrap();
