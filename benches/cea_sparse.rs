@@ -25,7 +25,7 @@ fn values() -> Vec<f64> {
 }
 
 fn prepared(tangent: &SlidingTangent) -> SparseSweep<'_> {
-    SparseSweep::prepare(tangent, &request(&values()), &Unwatched).expect("solved")
+    SparseSweep::prepare(tangent, (&request(&values()), None), &Unwatched).expect("solved")
 }
 
 /// With the basis that all friction values have in common.
