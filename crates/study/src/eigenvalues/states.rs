@@ -27,6 +27,8 @@ struct Common<'a> {
 const COARSE: f64 = 1e-7;
 /// Share of a gap that the next state leaves on either side at least.
 const LEAST_SHARE: f64 = 1e-3;
+/// Places at which contact opens that a note lists one by one.
+const MOST_PLACES: usize = 4;
 /// Rounds in which base states are solved where stability changes between two of them.
 const MOST_ROUNDS: usize = 30;
 
@@ -153,12 +155,8 @@ impl WholeMesh {
         if let Some(symmetry) = &self.symmetry {
             let highest = request.friction_coefficients.iter().fold(0.0, |m: f64, mu| m.max(*mu));
             match CyclicTangent::new(&tangent, symmetry, (self.mesh.node_count(), highest)) {
-                Ok(waves) => {
-                    return sparse::sweep_by_diameters(&tangent, &waves, request, &watch);
-                }
-                Err(why) => {
-                    common.asymmetry.get_or_insert(why);
-                }
+                Ok(waves) => return sparse::sweep_by_diameters(&tangent, &waves, request, &watch),
+                Err(why) => common.asymmetry = common.asymmetry.take().or(Some(why)),
             }
         }
         if request.is_continued && common.rest.is_none() {
@@ -181,34 +179,35 @@ fn place_of(solved: &[f64], friction: f64) -> Option<f64> {
 fn place_in(Undecided { gap, guess }: &Undecided, round: usize) -> f64 {
     let least = LEAST_SHARE * (gap.end - gap.start);
     let guess = guess.filter(|_| round % 4 != 3);
-    let middle = 0.5 * (gap.start + gap.end);
-    guess.map_or(middle, |mu| mu.clamp(gap.start + least, gap.end - least))
+    guess.unwrap_or(0.5 * (gap.start + gap.end)).clamp(gap.start + least, gap.end - least)
 }
 
 /// What there is to say of contact points that open or close within a sweep.
 fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
-    let places = (0..range.changes.len()).map(|k| {
+    let place = |k: usize| {
         let unknown = range.unknown_between(k);
         match unknown.is_empty() {
             true => format!("{:.6}", unknown.start),
             false => format!("{:.6} to {:.6} (several)", unknown.start, unknown.end),
         }
-    });
+    };
+    let mut places: Vec<String> = (0..range.changes.len()).map(place).collect();
+    if let ([first, .., last], true) = (&range.changes[..], places.len() > MOST_PLACES) {
+        places = vec![format!("{first:.6} to {last:.6} ({} times or more)", places.len())];
+    }
     let listed = |all: Vec<String>, by: &str| (!all.is_empty()).then(|| all.join(by));
-    let opening = listed(places.collect(), ", ").map(|places| {
+    let opening = listed(places, ", ").map(|places| {
         format!(
             "contact points open or close at friction coefficients {places}: the stiffness jumps \
              there, and branches are continued by the nearest eigenvalue"
         )
     });
-    let jumps = jumps(parts).map(|mu| format!("{mu:.6}"));
-    let jump = listed(jumps.collect(), ", ").map(|places| {
+    let jump = listed(jumps(parts).map(|mu| format!("{mu:.6}")).collect(), ", ").map(|places| {
         format!(
             "at friction {places} the growth of a mode jumps across zero as contact points open or close"
         )
     });
-    let gaps = undecided(parts).map(|own| own.gap);
-    let gaps = gaps.map(|gap| format!("{} and {}", gap.start, gap.end));
+    let gaps = undecided(parts).map(|own| format!("{} and {}", own.gap.start, own.gap.end));
     let unknown = listed(gaps.collect(), ", between ").map(|gaps| {
         format!(
             "between friction {gaps} contact points open or close, and no state could be solved. A mode changes its \
