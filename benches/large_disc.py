@@ -3,8 +3,9 @@
     python3 benches/large_disc.py UNKNOWNS FOLDER        # writes FOLDER/disc.inp and FOLDER/disc.toml
 
 The disc (steel, 30 to 75 mm, 12 mm thick, clamped at its bore) and the pad (a friction material with its own damping, held
-across the pressure) are cut into bricks of two to three millimetres and these into six tetrahedra each. Their meshes do
-not match in the contact.
+across the pressure) are cut into bricks, of about two millimetres at half a million unknowns, and these into six
+tetrahedra each. Their meshes do not match in the contact, which opens in part: `state = "closed"` in
+`[contacts.Pad_Face]` keeps it shut.
 """
 
 import math

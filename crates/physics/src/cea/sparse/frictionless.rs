@@ -50,7 +50,7 @@ impl FrictionlessModes {
                 watch.recalled::<(Vec<_>, Vec<f64>, Centre)>("frictionless")?;
             Some((from_columns(&columns, unknowns)?, frequencies, centre))
         };
-        let given = rest.filter(|own| own.vectors.nrows() == unknowns);
+        let given = rest.filter(|own| own.rigid == 0 && own.vectors.nrows() == unknowns); // Rigid motions are to be exact.
         let given = given.map(|own| (own.vectors.clone(), own.frequencies.clone(), own.centre));
         if let Some((vectors, frequencies, centre)) = given.or_else(recalled) {
             let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
