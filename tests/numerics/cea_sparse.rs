@@ -214,6 +214,30 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     assert!(one.points[2].modes.iter().all(|m| m.shape.is_none()));
 }
 
+/// Consistency check: where branches are only followed, growth has the sign and critical friction the digits of a sweep that solves all.
+#[test]
+fn branches_that_are_only_followed_have_the_same_onsets() {
+    for damping_model in [WholeTangent, BodyOnly] {
+        let tangent = disc(48, 10, damping_model);
+        let values = [0.1, 0.4, 0.8];
+        let strict = SweepRequest { is_continued: true, ..sweep_request(&values, Lowest(12)) };
+        let followed = SweepRequest { passed_at: &values, ..strict };
+        let [strict, followed] =
+            [strict, followed].map(|own| sweep(&tangent, &own, &|_| {}).unwrap());
+        let criticals = |found: &FrictionSweep| -> Vec<f64> {
+            found.intervals.iter().map(|own| own.critical_friction).collect()
+        };
+        assert!(!strict.intervals.is_empty());
+        near_each(&criticals(&strict), &criticals(&followed), 1e-9);
+        for (own, other) in strict.points.iter().zip(&followed.points) {
+            let grow = |point: &FrictionPoint| -> Vec<bool> {
+                point.modes.iter().map(ComplexMode::is_unstable).collect()
+            };
+            assert_eq!(grow(own), grow(other), "{}", own.friction_coefficient);
+        }
+    }
+}
+
 /// Consistency check: a sweep that finds the first steps of an earlier run goes on to the same bits, with proportional
 /// and with any damping, and does the other steps alone.
 #[test]

@@ -104,8 +104,8 @@ impl WholeMesh {
             let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
             values.sort_by(f64::total_cmp);
             let Some(&first) = values.first() else { continue };
-            // Branches are followed from where the state before ends. A state between friction values asked for is
-            // solved where it begins to hold, too: another one may be found that ends there.
+            // Branches are followed from where the state before ends, or ended when the state was solved first. One
+            // between friction values asked for is solved where it begins to hold.
             let unknown = k.checked_sub(1).map_or(first..first, |k| range.unknown_between(k));
             let is_new = !common.request.friction_coefficients.iter().any(|mu| values.contains(mu));
             let end = range.changes.get(k);
@@ -116,17 +116,24 @@ impl WholeMesh {
             }
             values.extend(end);
             let known = common.solved.iter().find(|(set, at, _)| {
-                *set == state.is_pressed && values.iter().all(|mu| place_of(at, *mu).is_some())
+                let is_early = is_new || at[0] <= unknown.start + SAME_CHANGE;
+                *set == state.is_pressed
+                    && is_early
+                    && values.iter().all(|mu| place_of(at, *mu).is_some())
             });
             let sweep = match known {
                 Some((_, at, sweep)) => {
                     sweep.since(place_of(at, unknown.start).unwrap_or(unknown.start))
                 }
                 None => {
-                    values.insert(0, unknown.start);
+                    values.splice(0..0, (!is_new).then_some(unknown.start));
                     values.dedup();
+                    let asked = common.request.friction_coefficients;
+                    let passed: Vec<f64> =
+                        values.iter().copied().filter(|mu| !asked.contains(mu)).collect();
                     let own = SweepRequest {
                         friction_coefficients: &values,
+                        passed_at: &passed,
                         is_continued: k > 0,
                         ..*common.request
                     };

@@ -44,6 +44,8 @@ pub struct SolvedPoint {
     pub checks: Vec<ModeCheck>,
     /// Frequency up to which modes are wanted here, rad/s: that of the highest where a number of them is.
     pub range_end: f64,
+    /// Whether branches are only followed here, see [`crate::cea::SweepRequest::passed_at`].
+    pub is_passed: bool,
     /// Whether left vectors are coarse still.
     pub has_coarse_lefts: bool,
 }
@@ -65,20 +67,37 @@ impl SolvedPoint {
     /// residual above the bound of converged pairs.
     pub fn open_modes(&self, goal: f64) -> impl Iterator<Item = &ReducedMode> {
         let pairs = self.modes.iter().zip(&self.checks).take(self.wanted);
-        let open = pairs.filter(move |(_, check)| {
+        let open = pairs.enumerate().filter(move |(i, (_, check))| {
             // A residual of round-off is no excuse where the mode answers to it, but for the least that there can be.
             let is_within = |errors: f64| check.residual <= errors * f64::EPSILON;
             let is_summed = is_within(ROUNDING_ERRORS) && check.error() <= RESIDUAL_BOUND;
             let is_round_off = is_within(2.0) || is_summed;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
-            !is_fine && !is_round_off
+            !(is_fine || is_round_off || self.is_followed(*i))
         });
-        open.map(|(mode, _)| mode)
+        open.map(|(_, (mode, _))| mode)
+    }
+
+    /// Whether a mode is as sharp as a branch needs it that is only followed here: its residual force, relative to the inertia force, leaves
+    /// the square over the distance from other eigenvalues open, which is less than its growth. What grows may do so from a jump on, where
+    /// its frequency is told.
+    fn is_followed(&self, i: usize) -> bool {
+        let (own, residual) = (self.modes[i].eigenvalue, self.checks[i].force_residual);
+        let distances = self.modes.iter().map(|other| (other.eigenvalue - own).norm());
+        let distance = distances.filter(|other| *other > 0.0).fold(own.norm(), f64::min);
+        let [distance, growth] = [distance, own.re.abs()].map(|part| part / own.norm());
+        let most = if self.modes[i].is_growing() { SAME_EIGENVALUE } else { NEAR };
+        self.is_passed && residual.powi(2) <= distance * most.min(LITTLE * growth)
+    }
+
+    /// Whether mode `i` is what it is taken for.
+    pub fn is_told(&self, i: usize) -> bool {
+        self.checks[i].has_converged() || self.is_followed(i)
     }
 
     /// Wanted modes that have converged, and whose eigenvalue their residual does not leave open.
     pub fn converged(&self) -> usize {
-        self.checks.iter().take(self.wanted).filter(|check| check.has_converged()).count()
+        (0..self.wanted.min(self.checks.len())).filter(|&i| self.is_told(i)).count()
     }
 
     /// Takes out the wanted modes that have not converged; their frequencies, rad/s. Where a number of modes is wanted those above take
@@ -86,7 +105,7 @@ impl SolvedPoint {
     pub fn drop_unconverged(&mut self, limit: ModeLimit) -> Vec<f64> {
         let mut dropped = Vec::new();
         for i in (0..self.wanted.min(self.checks.len())).rev() {
-            if !self.checks[i].has_converged() {
+            if !self.is_told(i) {
                 self.checks.remove(i);
                 dropped.push(self.modes.remove(i).eigenvalue.im);
                 self.wanted -= 1;
@@ -170,6 +189,7 @@ mod tests {
             wanted: 4,
             checks: [(1e-16, 1e-5), (2e-9, 1e-15), (2e-10, 1e-5), (2e-10, 1e-12)].map(check).into(),
             range_end: 5.0,
+            is_passed: false,
             has_coarse_lefts: false,
         };
         assert_eq!(point.drop_unconverged(ModeLimit::MaxFrequency(1.0)), [3.0, 2.0]);

@@ -130,6 +130,8 @@ pub struct SparseSweep<'a> {
     grid: Vec<f64>,
     /// Smallest friction coefficient asked for.
     lowest: f64,
+    /// Friction coefficients at which branches are only followed, see [`SweepRequest::passed_at`].
+    passed: Vec<f64>,
     /// Whether branches begin at the first friction coefficient asked for.
     is_continued: bool,
     /// Whether at rest a stiffness that is not positive leaves motions unheld.
@@ -172,6 +174,8 @@ impl<'a> SparseSweep<'a> {
             leaves_out: vec![false; grid.len()],
             grid,
             lowest,
+            // With other than viscous damping errors of eigenvalues are not of second order.
+            passed: if tangent.is_lossy() { Vec::new() } else { request.passed_at.to_vec() },
             is_continued,
             is_unheld: modes.frequencies.first() == Some(&0.0),
             points: Vec::new(),
@@ -190,7 +194,13 @@ impl<'a> SparseSweep<'a> {
         if !self.is_continued && (self.lowest > 0.0 || is_reduced) {
             self.builder.begin_at_rest()?;
         }
-        let asked = &self.grid[self.first_asked()..];
+        // Where branches are only followed corrections do, from modes at one place.
+        let all = &self.grid[self.first_asked()..];
+        let mut asked: Vec<f64> =
+            all.iter().copied().filter(|mu| !self.passed.contains(mu)).collect();
+        if asked.is_empty() {
+            asked.push(all[all.len() / 2]);
+        }
         let mut open: Vec<f64> = Vec::new();
         for mu in [asked[asked.len() - 1], asked[0], asked[asked.len() / 2]] {
             open.extend((!self.builder.is_sampled(mu) && !open.contains(&mu)).then_some(mu));

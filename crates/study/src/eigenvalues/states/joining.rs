@@ -37,11 +37,11 @@ fn name_of(interval: &UnstableInterval) -> Name {
 }
 
 /// The branches that both of two neighbours know where they meet, and whose stability changes there: friction
-/// coefficient and mode beyond.
+/// coefficient and the mode on both sides.
 fn jumps_between<'a>(
     before: &'a Part,
     after: &'a Part,
-) -> impl Iterator<Item = (f64, &'a ComplexMode)> {
+) -> impl Iterator<Item = (f64, [&'a ComplexMode; 2])> {
     let is_same =
         |one: &ComplexMode, other: &ComplexMode| one.branch > 0 && name(one) == name(other);
     before.last().zip(after.first()).into_iter().flat_map(move |(last, first)| {
@@ -49,7 +49,7 @@ fn jumps_between<'a>(
             let (i, same) = last.known().enumerate().find(|(_, other)| is_same(other, mode))?;
             let is_listed = i < last.modes.len() || j < first.modes.len();
             (is_listed && same.is_unstable() != mode.is_unstable())
-                .then_some((first.friction_coefficient, mode))
+                .then_some((first.friction_coefficient, [same, mode]))
         })
     })
 }
@@ -104,7 +104,7 @@ pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
         let root = all.filter(|mu| gap.contains(mu)).min_by(|a, b| a.total_cmp(b));
         let jump = jumps_between(&pair[0], &pair[1]).next();
         let is_open = root.is_some() || jump.is_some() || begins_statically(&pair[0], &pair[1]);
-        let crossing = jump.and_then(|(_, mode)| crossing_of(name(mode), [&pair[0], &pair[1]]));
+        let crossing = jump.and_then(|(_, own)| crossing_of(name(own[1]), [&pair[0], &pair[1]]));
         is_open.then_some(Undecided { gap, guess: crossing.or(root) })
     })
 }
@@ -149,10 +149,10 @@ fn joined_intervals(parts: &mut [Part], frictions: &[f64]) -> Vec<UnstableInterv
         let intervals = std::mem::take(&mut part.sweep.intervals);
         let jumps = before.last().into_iter().flat_map(|before| jumps_between(before, part));
         // Where growth jumps to decay an interval ends.
-        for (friction, mode) in jumps.filter(|(_, mode)| !mode.is_unstable()) {
+        for (friction, [last, mode]) in jumps.filter(|(_, own)| !own[1].is_unstable()) {
             let own = found.iter_mut().rev().find(|known| is_open(known, name(mode)));
             if let Some(known) = own {
-                known.restabilized = Some((friction, mode.frequency_hz()));
+                known.restabilized = Some((friction, last.frequency_hz()));
             }
         }
         // So does one of static instability where the next state is stable.

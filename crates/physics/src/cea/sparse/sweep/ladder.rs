@@ -87,7 +87,11 @@ impl SparseSweep<'_> {
         match rung {
             Rung::AtRest if self.builder.is_whole => {}
             Rung::AtRest => {
-                let is_near = is_alone && point.worst().1 <= NEAR; // Corrections do where the error is small already.
+                // Corrections do where the error is small already.
+                let is_near = match point.is_passed {
+                    true => point.worst().1 <= LITTLE.powi(2),
+                    false => is_alone && point.worst().1 <= NEAR,
+                };
                 let modes = &point.modes[..point.checks.len()];
                 if is_near || self.builder.is_sampled(mu) {
                     self.builder.take_up(mu, modes);

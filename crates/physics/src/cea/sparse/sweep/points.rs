@@ -65,6 +65,7 @@ impl SparseSweep<'_> {
             wanted,
             checks,
             range_end,
+            is_passed: self.passed.contains(&mu),
             has_coarse_lefts: true,
         })
     }
