@@ -21,7 +21,6 @@ mod revolution;
 mod rim;
 mod solid;
 mod solid_body;
-mod solid_refinement;
 mod specification;
 mod splitting;
 

@@ -49,7 +49,7 @@ impl Mesh {
         (0..self.element_count()).filter(is_near).map(|e| e as u32).collect()
     }
 
-    /// A generated plane mesh as a file, its nodes numbered from 1.
+    /// Nodes, elements and boundaries as a file, which has no conditions and no symmetry.
     pub fn to_file(&self) -> FileMesh {
         let name = |region: usize| self.regions[region].as_str().into();
         let element = |e: usize| FileElement {
@@ -59,21 +59,28 @@ impl Mesh {
             entity: self.region(e) as i64,
             nodes: self.element_nodes(e).to_vec(),
         };
-        let curves = self.boundaries.iter().map(|boundary| {
-            let edges = boundary.faces.iter().map(|face| {
-                let nodes = &face.nodes;
-                (nodes[0], nodes[1], nodes.get(2).copied())
-            });
-            (boundary.name.clone(), edges.collect())
-        });
-        FileMesh {
-            labels: (1..=self.node_count()).collect(),
+        let mut file = FileMesh {
+            labels: (0..self.node_count()).map(|node| self.node_label(node)).collect(),
             points: self.nodes.clone(),
             dimension: self.dimension,
             elements: (0..self.element_count()).map(element).collect(),
-            curves: curves.collect(),
             is_used: vec![true; self.node_count()],
+            equations: self.equations.clone(),
             ..FileMesh::default()
+        };
+        for boundary in &self.boundaries {
+            let (name, faces) = (boundary.name.clone(), boundary.faces.iter());
+            if self.dimension == 2 {
+                let edges =
+                    faces.map(|own| (own.nodes[0], own.nodes[1], own.nodes.get(2).copied()));
+                file.curves.insert(name, edges.collect());
+            } else if boundary.is_covered() {
+                let faces = faces.map(|own| (own.kind, own.nodes.clone()));
+                file.surfaces.insert(name, faces.collect());
+            } else {
+                file.node_sets.insert(name, boundary.nodes.clone());
+            }
         }
+        file
     }
 }

@@ -12,12 +12,6 @@ pub(super) const STEPS: u8 = 64;
 /// A place of the mesh: corners with their linear shares in it, which all elements around it agree on.
 pub(super) type Place = Vec<(u32, u8)>;
 
-/// A part of an element with its nodes and their places.
-pub(super) struct Part {
-    pub kind: ElementKind,
-    pub nodes: Vec<(u32, Place)>,
-}
-
 /// The nodes of a finer mesh.
 pub(super) struct Splitting {
     /// By their places.
@@ -52,7 +46,7 @@ impl Splitting {
         kind: ElementKind,
         own: &[u32],
         curved: impl Fn(&Self, &Place) -> Option<[f64; 3]>,
-    ) -> Vec<Part> {
+    ) -> Vec<(ElementKind, Vec<u32>)> {
         // Its own nodes are nodes of its parts: corners, and middles of edges as corners between them.
         let corners = kind.corner_count();
         for &corner in &own[..corners] {
@@ -71,7 +65,7 @@ impl Splitting {
             let middles: Vec<[f64; 3]> = child.middles().map(middle).collect();
             at.extend(middles);
             let nodes = at.into_iter().map(|at| self.node(kind, own, at, &curved));
-            Part { kind: child, nodes: nodes.collect() }
+            (child, nodes.collect())
         });
         parts.collect()
     }
@@ -83,7 +77,7 @@ impl Splitting {
         own: &[u32],
         at: [f64; 3],
         curved: &impl Fn(&Self, &Place) -> Option<[f64; 3]>,
-    ) -> (u32, Place) {
+    ) -> u32 {
         let linear = kind.with_corners(kind.corner_count(), false);
         let shares = own.iter().zip(linear.shape_functions(at));
         let steps =
@@ -91,7 +85,7 @@ impl Splitting {
         let mut place: Place = steps.filter(|(_, steps)| *steps > 0).collect();
         place.sort_unstable();
         if let Some(&node) = self.places.get(&place) {
-            return (node, place);
+            return node;
         }
         let point = curved(self, &place).unwrap_or_else(|| {
             let mut point = [0.0; 3];
@@ -103,8 +97,8 @@ impl Splitting {
         });
         let node = self.points.len() as u32;
         self.points.push(point);
-        self.places.insert(place.clone(), node);
-        (node, place)
+        self.places.insert(place, node);
+        node
     }
 
     /// Labels of all nodes: new ones count on from the largest.
