@@ -5,7 +5,7 @@ use super::elimination::Elimination;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
-use super::rotation::{Rotation, grounded};
+use super::rotation::Rotation;
 use super::tangent::{ContactDofs, ContactPart, SlidingTangent};
 use super::terms::{Kind, PartLaw, Terms, geometric_stiffness};
 use super::{PrestressError, Result, TangentOptions};
@@ -165,10 +165,9 @@ impl<'a> Assembly<'a> {
     /// # Errors
     /// As [`Self::range`].
     pub fn state(&self, friction_coefficient: f64) -> Result<PressedState> {
-        let PressedRange { states, state_of, .. } =
+        let PressedRange { states, .. } =
             self.range(&[friction_coefficient], &Default::default())?;
-        let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
-        state.ok_or(PrestressError::NoState { friction_coefficient })
+        states.into_iter().next().ok_or(PrestressError::NoState { friction_coefficient })
     }
 
     /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn. What is `known` of the same bodies
@@ -249,10 +248,7 @@ impl<'a> Assembly<'a> {
             let held = basis.congruent(stiffness);
             basis.displacement_under(load, &held).or_else(|error| match &self.joined.rotation {
                 // A centrifugal load alone is in balance by itself.
-                Some(own) if own.terms.centrifugal == load => {
-                    let body = (self.mesh, self.materials);
-                    basis.displacement_under(load, &grounded(held.into_owned(), body, basis))
-                }
+                Some(own) if own.terms.centrifugal == load => Ok(own.displacement.clone()),
                 _ => Err(error),
             })?
         };

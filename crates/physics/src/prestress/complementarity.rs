@@ -13,6 +13,11 @@ const MAX_SETS: usize = 200;
 /// Smallest range of friction coefficients over which a polynomial follows one set of points.
 const SHORTEST_RANGE: f64 = 1e-3;
 
+/// Share of all contact forces that round-off leaves of a sum that is zero.
+const UNPRESSED: f64 = 1e-9;
+/// Share of the force that the bodies themselves would take where they are pushed in that is none.
+const NO_FORCE: f64 = 1e-12;
+
 /// Share of the largest force up to which a violated condition is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
@@ -130,11 +135,23 @@ pub(super) fn pressed_points(
     Err(PrestressError::NoState { friction_coefficient })
 }
 
-/// Refuses a contact that nothing presses: without friction its points pull as much as they push.
+/// Refuses a contact that nothing presses: without friction the forces on all its points are in balance by themselves, or none at all
+/// beside what pushes the bodies in.
 fn check_pressed(bodies: &mut ContactSystem<'_>) -> Result<()> {
     let all = vec![true; bodies.pressing().points.len()];
-    let forces = bodies.state_of(0.0, &all)?.normal_forces;
-    bodies.pressing().check_pressed(&forces, bodies.push())
+    let forces = bodies.state_of(0.0, &all)?.normal_forces.into_iter();
+    let mut forces = forces.map(|force| if force.is_finite() { force } else { 0.0 }); // 0 / 0.
+    let all: f64 = forces.clone().map(f64::abs).sum();
+    for (name, count) in &bodies.pressing().contacts {
+        let sum: f64 = forces.by_ref().take(*count).sum();
+        if sum.abs() <= (UNPRESSED * all).max(NO_FORCE * bodies.push()) {
+            return Err(PrestressError::Asked(format!(
+                "nothing presses the two sides of {name} together: one of them is held by the contact alone. Press it with a boundary \
+                 pressure or an interference, or hold it by springs"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// How far each point violates its condition, N: the pull on a pressed one, the force of the point's own stiffness over

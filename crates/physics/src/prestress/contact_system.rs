@@ -3,9 +3,9 @@
 use super::joined_points::{Inverse, JoinedPoints};
 use super::pressed_state::{ContactState, Pressing};
 use super::{PrestressError, Result};
-use crate::contact::{NormalLaw, Point, Row};
+use crate::contact::{NormalLaw, Point};
+use crate::linalg::LinearFamily;
 use crate::linalg::dense::{add, difference, norm};
-use crate::linalg::{LinearFamily, Mat};
 use std::collections::BTreeSet;
 
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
@@ -76,11 +76,8 @@ pub(super) struct ContactSystem<'a> {
     springs: Vec<f64>,
     even: Vec<f64>,
     pushed: Vec<f64>,
-    /// `P`, and `r_i k_i` in it, N/m.
-    solver: Inverse,
-    held: Vec<f64>,
-    /// Columns of `P^-1` at the contact, once those solved for alone, `asked`, are many.
-    columns: Option<Mat<f64>>,
+    /// `P^-1` with `r_i k_i` in it, and how many of its columns were solved for one by one.
+    inverse: Inverse,
     asked: usize,
     /// Whether the last solution took too long.
     is_slow: bool,
@@ -107,8 +104,7 @@ fn even(spring: f64, bodies: f64, are_many: bool) -> f64 {
 /// What the equations of a set of pressed points are made of.
 struct Equations<'a> {
     points: &'a JoinedPoints<'a>,
-    /// `P`, and columns of its inverse.
-    inverse: (&'a Inverse, Option<&'a Mat<f64>>),
+    inverse: &'a Inverse,
     /// `s k`, `(s - e r) k`, `s p` and `e`.
     own: Vec<f64>,
     normal: Vec<f64>,
@@ -162,14 +158,12 @@ impl<'a> ContactSystem<'a> {
         Ok(Self {
             last: Vec::new(),
             pushed: pressing.pushed.clone(),
-            solver: points.factorize(&even)?,
-            held: even.clone(),
+            inverse: points.factorize(even.clone())?,
             points,
             bodies,
             are_many,
             springs,
             even,
-            columns: None,
             asked: 0,
             is_slow: false,
             systems: None,
@@ -198,12 +192,11 @@ impl<'a> ContactSystem<'a> {
         if self.are_many && self.springs.iter().zip(&self.bodies).any(is_far) {
             return self.factorize(is_pressed);
         }
-        let own = &self.points.along_normals;
-        let has_many = self.asked > own.len() / AT_ONCE && own.len() <= MOST_HELD;
-        if self.columns.is_none() && has_many {
-            let rows: Vec<Row> = own.dofs.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
-            self.columns = Some(self.points.columns(&self.solver, &rows));
-        } else if self.columns.is_none() && self.is_slow {
+        let most = self.points.along_normals.len();
+        let has_many = self.asked > most / AT_ONCE && most <= MOST_HELD;
+        if self.inverse.columns.is_none() && has_many {
+            self.points.hold_columns(&mut self.inverse);
+        } else if self.inverse.columns.is_none() && self.is_slow {
             self.factorize(is_pressed)?;
         }
         Ok(())
@@ -219,9 +212,9 @@ impl<'a> ContactSystem<'a> {
     fn factorize(&mut self, is_pressed: &[bool]) -> Result<()> {
         let mut held = self.even.clone();
         held.iter_mut().zip(is_pressed).filter(|own| !own.1).for_each(|own| *own.0 *= OPEN_SHARE);
-        if held != self.held {
-            self.solver = self.points.factorize(&held)?;
-            (self.held, self.systems, self.columns, self.asked) = (held, None, None, 0);
+        if held != self.inverse.springs {
+            self.inverse = self.points.factorize(held)?;
+            (self.systems, self.asked) = (None, 0);
         }
         Ok(())
     }
@@ -259,8 +252,8 @@ impl<'a> ContactSystem<'a> {
         let yields: Vec<f64> = yields.collect();
         Equations {
             points: &self.points,
-            inverse: (&self.solver, self.columns.as_ref()),
-            normal: (0..own.len()).map(|i| own[i] - yields[i] * self.held[i]).collect(),
+            inverse: &self.inverse,
+            normal: (0..own.len()).map(|i| own[i] - yields[i] * self.inverse.springs[i]).collect(),
             own,
             origin: pressed(&self.pushed),
             yields,
@@ -271,9 +264,9 @@ impl<'a> ContactSystem<'a> {
     /// The systems of a set of pressed points.
     fn systems_of(&self, equations: &Equations<'_>, is_pressed: &[bool]) -> Systems {
         let (points, origin, is_pressed) = (&self.points, &equations.origin, is_pressed.to_vec());
-        let pushes = self.held.iter().zip(origin);
+        let pushes = self.inverse.springs.iter().zip(origin);
         let pushes: Vec<[f64; 2]> = pushes.map(|(k, push)| [k * push, 0.0]).collect();
-        let loaded = points.along_normals.restrict(&points.respond(&self.solver, &pushes)); // d_0.
+        let loaded = points.along_normals.restrict(&points.respond(&self.inverse, &pushes)); // d_0.
         if equations.is_stiff {
             let left = difference(&points.separations(&loaded), origin);
             let (none, scale) = (vec![0.0; origin.len()], norm(&left));
@@ -350,6 +343,6 @@ impl<'a> ContactSystem<'a> {
 
     /// Displacement of every dof from the state of the contact points.
     pub fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {
-        self.points.displacement((&self.solver, &self.held), friction_coefficient, state)
+        self.points.displacement(&self.inverse, friction_coefficient, state)
     }
 }

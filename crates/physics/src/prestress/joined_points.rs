@@ -31,6 +31,10 @@ pub(super) struct JoinedPoints<'a> {
 /// `P^-1`.
 pub(super) struct Inverse {
     solver: SparseLu,
+    /// `r_i`, N/m.
+    pub springs: Vec<f64>,
+    /// Its columns of the unknowns that normals touch, at those that contact touches, once they are held.
+    pub columns: Option<Mat<f64>>,
     /// `P`, numbered by dof, and its unknowns, of few points: what round-off leaves is solved for, too, as slender bodies multiply it.
     refined_by: Option<(Triplets, DofMap)>,
 }
@@ -91,16 +95,17 @@ impl<'a> JoinedPoints<'a> {
     ///
     /// # Errors
     /// [`super::PrestressError::Singular`] where a body is held by nothing, not even by contact.
-    pub fn factorize(&self, springs: &[f64]) -> Result<Inverse> {
+    pub fn factorize(&self, springs: Vec<f64>) -> Result<Inverse> {
         let mut held = self.stiffness.clone(); // K + sum_i r_i n_i n_i^T.
-        for (row, spring) in self.normals.iter().zip(springs) {
+        for (row, spring) in self.normals.iter().zip(&springs) {
             let row = row.iter().map(|&(unknown, along)| (self.unknowns.dofs[unknown], along));
             let row: Row = row.collect();
             held.push_product(*spring, &row, &row);
         }
         let solver = factorized(&held, &self.unknowns)?;
         let is_refined = self.along_normals.len() <= REFINED;
-        Ok(Inverse { solver, refined_by: is_refined.then(|| (held, self.unknowns.clone())) })
+        let refined_by = is_refined.then(|| (held, self.unknowns.clone()));
+        Ok(Inverse { solver, springs, columns: None, refined_by })
     }
 
     /// About `1 / n_i . K^-1 n_i`, by the diagonal of `K`, N/m: the softer of two sides counts.
@@ -115,32 +120,27 @@ impl<'a> JoinedPoints<'a> {
         })
     }
 
-    /// `P^-1` times each of some `rows`, at the unknowns that contact touches.
-    pub fn columns(&self, solver: &Inverse, rows: &[Row]) -> Mat<f64> {
-        let solved: Vec<Mat<f64>> = crate::parallel::map(rows.chunks(BLOCK), |rows| {
-            let mut block = Mat::zeros(self.unknowns.len(), rows.len());
-            for (j, row) in rows.iter().enumerate() {
-                row.iter().for_each(|&(unknown, along)| block[(unknown, j)] += along);
-            }
-            solver.solve_in_place(&mut block);
+    /// Holds the columns of `P^-1`.
+    pub fn hold_columns(&self, inverse: &mut Inverse) {
+        let own = &self.along_normals.dofs;
+        let solved: Vec<Mat<f64>> = crate::parallel::map(own.chunks(BLOCK), |own| {
+            let mut block = Mat::zeros(self.unknowns.len(), own.len());
+            own.iter().enumerate().for_each(|(j, &unknown)| block[(unknown, j)] = 1.0);
+            inverse.solve_in_place(&mut block);
             picked(&block, &self.touched)
         });
-        Mat::from_fn(self.touched.len(), rows.len(), |i, j| solved[j / BLOCK][(i, j % BLOCK)])
+        let entry = |i: usize, j: usize| solved[j / BLOCK][(i, j % BLOCK)];
+        inverse.columns = Some(Mat::from_fn(self.touched.len(), own.len(), entry));
     }
 
-    /// What forces along the normals and drags of the points alone move along normals, for each of some forces: by the `columns` of `P^-1`
-    /// of these unknowns, where they are known.
-    pub fn moved_under(
-        &self,
-        (solver, columns): (&Inverse, Option<&Mat<f64>>),
-        along: &[Vec<[f64; 2]>],
-    ) -> Vec<Vec<f64>> {
+    /// What forces along the normals and drags of the points alone move along normals, for each of some forces.
+    pub fn moved_under(&self, inverse: &Inverse, along: &[Vec<[f64; 2]>]) -> Vec<Vec<f64>> {
         let mut block = Mat::zeros(self.unknowns.len(), along.len());
         (along.iter().enumerate()).for_each(|(j, own)| self.push(column_mut(&mut block, j), own));
-        let moved = match columns {
+        let moved = match &inverse.columns {
             Some(columns) => columns.transpose() * picked(&block, &self.touched), // P^-1 is symmetric.
             None => {
-                solver.solve_in_place(&mut block);
+                inverse.solve_in_place(&mut block);
                 picked(&block, &self.along_normals)
             }
         };
@@ -173,19 +173,19 @@ impl<'a> JoinedPoints<'a> {
         self.normals.iter().map(form).collect()
     }
 
-    /// Displacement of every dof from the state of the points, with `P` of these springs.
+    /// Displacement of every dof from the state of the points.
     pub fn displacement(
         &self,
-        (solver, springs): (&Inverse, &[f64]),
+        inverse: &Inverse,
         friction_coefficient: f64,
         state: &ContactState,
     ) -> Vec<f64> {
-        let along = springs.iter().enumerate().map(|(i, spring)| {
+        let along = inverse.springs.iter().enumerate().map(|(i, spring)| {
             let force = state.normal_forces[i];
             // (N_i + r_i c_i) n_i + mu N_i drag_i t_i.
             [force + spring * state.separations[i], friction_coefficient * force]
         });
-        let y = self.unknowns.expand(&self.respond(solver, &along.collect::<Vec<_>>()));
+        let y = self.unknowns.expand(&self.respond(inverse, &along.collect::<Vec<_>>()));
         self.pressing.elimination.displacement(&y)
     }
 }

@@ -1,15 +1,10 @@
 //! Bodies pressed together at their contact points, and the state of these.
 
+use super::PrestressError;
 use super::elimination::Elimination;
-use super::{PrestressError, Result};
 use crate::contact::{NormalLaw, Point, PressedState, Turning};
 use crate::fem::Triplets;
 use std::ops::Range;
-
-/// Share of all contact forces that round-off leaves of a sum that is zero.
-const UNPRESSED: f64 = 1e-9;
-/// Share of the force that the bodies themselves would take where they are pushed in that is none.
-const NO_FORCE: f64 = 1e-12;
 
 /// What presses bodies together.
 #[derive(Clone, Debug)]
@@ -33,24 +28,6 @@ pub struct Pressing<'a> {
 }
 
 impl Pressing<'_> {
-    /// Refuses a contact whose forces on all its points are in balance by themselves, so that nothing presses it: they are none at all
-    /// beside the `push`, N, where nothing presses any.
-    pub(super) fn check_pressed(&self, forces: &[f64], push: f64) -> Result<()> {
-        let forces = forces.iter().map(|force| if force.is_finite() { *force } else { 0.0 }); // 0 / 0.
-        let all: f64 = forces.clone().map(f64::abs).sum();
-        let mut own = forces;
-        for (name, count) in &self.contacts {
-            let sum: f64 = own.by_ref().take(*count).sum();
-            if sum.abs() <= (UNPRESSED * all).max(NO_FORCE * push) {
-                return Err(PrestressError::Asked(format!(
-                    "nothing presses the two sides of {name} together: one of them is held by the contact alone. Press it with a boundary \
-                     pressure or an interference, or hold it by springs"
-                )));
-            }
-        }
-        Ok(())
-    }
-
     /// The points that touch together with one of them.
     pub(super) fn together_with(&self, point: usize) -> Range<usize> {
         let mut first = 0;

@@ -35,9 +35,8 @@ impl SectorSliding {
     ) -> Result<Self> {
         let edge = ContactInterface::of_sector(strip);
         let points = edge.points(contact);
-        let all = vec![true; points.len()];
         let on_edge = (&points[..], Vec::new(), law);
-        let state = of_sector((strip, stiffness), on_edge, contact.interference, |_| Ok(all))?;
+        let state = of_sector((strip, stiffness), on_edge, contact.interference)?;
         let state = state.pressed_all_round((&edge, &points), strip.count)?;
         let nodes = |point: &Point| point.normal.iter().map(|own| own.0 / 2).collect(); // Two dofs a node.
         Ok(Self {
@@ -51,12 +50,12 @@ impl SectorSliding {
     }
 }
 
-/// The state of those points of one sector that `pressed` finds to be, some `together`, pushed in by `delta` on a law or rigid contact.
+/// The state of some points of one sector, pushed in by `delta` on a law or rigid contact. All of them are pressed, but where so many
+/// `together` may open.
 fn of_sector(
     (strip, stiffness): (&Strip, &Triplets),
     (points, together, law): (&[Point], Vec<usize>, Option<NormalLaw>),
     delta: f64,
-    pressed: impl FnOnce(&mut ContactSystem<'_>) -> Result<Vec<bool>>,
 ) -> Result<PressedState> {
     let size = strip.dof_count();
     // Neighbours move as this sector does.
@@ -72,7 +71,10 @@ fn of_sector(
         together,
     };
     let mut system = ContactSystem::new(&pressing)?;
-    let set = pressed(&mut system)?;
+    let mut set = vec![true; points.len()];
+    if !pressing.together.is_empty() {
+        set = pressed_points(&mut system, 0.0, &set)?;
+    }
     let mut state = system.unaltered_state(set)?;
     // Friction alone turns the sectors about their axis, and nothing but that: the rest is round-off.
     for (power, own) in state.displacements.iter_mut().enumerate() {
@@ -213,15 +215,9 @@ impl Face<'_> {
     }
 
     /// [`of_sector`] of some points of the face.
-    fn state(
-        &self,
-        points: &[Point],
-        together: Vec<usize>,
-        pressed: impl FnOnce(&mut ContactSystem<'_>) -> Result<Vec<bool>>,
-    ) -> Result<PressedState> {
-        let on_face = (points, together, self.law);
-        let delta = self.contact.interference;
-        of_sector((&self.sector.strip, self.elastic), on_face, delta, pressed)
+    fn state(&self, points: &[Point], together: Vec<usize>) -> Result<PressedState> {
+        let body = (&self.sector.strip, self.elastic);
+        of_sector(body, (points, together, self.law), self.contact.interference)
     }
 
     /// The points of the whole face under some pressures of the rings, and their state.
@@ -288,8 +284,7 @@ impl Face<'_> {
         let point = |&node: &usize| node_point(self.sector, node, self.contact);
         let points: Vec<Point> = nodes.map(point).collect();
         let together = self.sector.rings.iter().map(|ring| ring.nodes.len()).collect();
-        let all = vec![true; points.len()];
-        let state = self.state(&points, together, |system| pressed_points(system, 0.0, &all))?;
+        let state = self.state(&points, together)?;
         Ok((points, state))
     }
 
@@ -308,8 +303,7 @@ impl Face<'_> {
                     points.extend(own.into_iter().map(|own| own.1));
                 }
             }
-            let all = vec![true; points.len()];
-            let state = self.state(&points, Vec::new(), |_| Ok(all))?;
+            let state = self.state(&points, Vec::new())?;
             let found = self.approaches(&points, &state.displacements[0]);
             if norm(&difference(&found, &values)) <= SETTLED * norm(&found) {
                 return Ok((points, state));

@@ -67,7 +67,7 @@ impl Rotation {
 }
 
 /// A stiffness over the unknowns of `basis` with springs of [`GROUND`] in proportion to the mass.
-pub(super) fn grounded(
+fn grounded(
     mut stiffness: Triplets,
     (mesh, materials): (&Mesh, &dyn MaterialField),
     basis: &Elimination,
