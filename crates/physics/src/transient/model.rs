@@ -15,8 +15,9 @@ use crate::fem::{
     assemble_supports, beside,
 };
 use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector};
-use crate::prestress::Assembly;
+use crate::prestress::{Assembly, Elimination};
 use nalgebra::Vector3;
+use std::borrow::Cow;
 
 /// Bodies of a mesh or of revolution.
 #[derive(Clone, Copy, Debug)]
@@ -103,10 +104,23 @@ impl<'a> TransientModel<'a> {
         }
     }
 
+    /// Which dofs are held, and which follow others.
+    fn basis(&self) -> Cow<'a, Elimination> {
+        let total = self.mesh().dof_count();
+        Cow::Owned(match self.body {
+            SteppedBody::Plane { mesh, .. } => Elimination::holding(total, mesh.held_dofs()),
+            SteppedBody::Revolution { sector: SolidSector { strip, .. }, .. } => {
+                let is_held = |dof: &usize| strip.is_held[dof % strip.dof_count()];
+                Elimination::holding(total, (0..total).filter(is_held))
+            }
+            SteppedBody::Assembly { assembly, .. } => return Cow::Borrowed(&assembly.joined.basis),
+        })
+    }
+
     /// A matrix over all dofs without those that are held or follow others.
     fn bound(&self, matrix: Triplets) -> Triplets {
-        let SteppedBody::Assembly { assembly, .. } = self.body else { return matrix };
-        let (basis, unknowns) = (&assembly.joined.basis, assembly.joined.basis.unknowns());
+        let basis = self.basis();
+        let unknowns = basis.unknowns();
         let mut matrix = basis.congruent(&matrix).into_owned();
         let moves = |dof: usize| unknowns.unknown_of[dof].is_some();
         matrix.entries.retain(|&(row, column, _)| moves(row) && moves(column));
@@ -202,20 +216,12 @@ impl<'a> TransientModel<'a> {
         if beta != 0.0 {
             damping.entries.extend(springs.scaled(-beta).entries);
         }
-        let [mut masses, own] = assemble_extra_damping(mesh, self.material, kind, self.damping);
+        let [masses, own] = assemble_extra_damping(mesh, self.material, kind, self.damping);
         damping.entries.extend(own.entries);
-        // Lumped as the masses are.
-        if let SteppedBody::Assembly { assembly, .. } = self.body {
-            masses = assembly.joined.basis.gathered(&masses);
-        }
         let mut damping = self.bound(damping);
-        damping.entries.extend(masses.entries);
-        let pressure = assemble_pressures(mesh).map(|load| match self.body {
-            SteppedBody::Assembly { assembly, .. } => {
-                assembly.joined.basis.transposed_forces(&load)
-            }
-            _ => load,
-        });
+        let basis = self.basis();
+        damping.entries.extend(basis.gathered(&masses).entries); // Lumped as the masses are.
+        let pressure = assemble_pressures(mesh).map(|load| basis.transposed_forces(&load));
         BoundaryForces::of(damping, &pressure.unwrap_or_default(), operator)
     }
 
@@ -257,20 +263,9 @@ impl<'a> TransientModel<'a> {
         }
         perturbation.add_noise(&mut velocity, self.components());
         // What is held or follows others does not move by itself.
-        match self.body {
-            SteppedBody::Plane { mesh, .. } => mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0),
-            SteppedBody::Revolution { sector, .. } => {
-                for own in velocity.chunks_exact_mut(sector.strip.dof_count()) {
-                    sector.strip.held_dofs().for_each(|dof| own[dof] = 0.0);
-                }
-            }
-            SteppedBody::Assembly { assembly, .. } => {
-                let unknowns = assembly.joined.basis.unknowns();
-                let free = unknowns.expand(&unknowns.restrict(&velocity));
-                velocity = assembly.joined.basis.displacement(&free);
-            }
-        }
-        Ok(velocity)
+        let basis = self.basis();
+        let unknowns = basis.unknowns();
+        Ok(basis.displacement(&unknowns.expand(&unknowns.restrict(&velocity))))
     }
 
     /// Where each node stands for the waves of a perturbation.
