@@ -6,8 +6,6 @@ use super::structure::ShiftInverted;
 use crate::cea::sparse::*;
 use crate::linalg::dense::{column_norms, columns_of, dot, from_columns, join_rows, pick_columns};
 use crate::linalg::{KrylovSchurSettings, krylov_schur};
-use std::borrow::Cow;
-use std::sync::OnceLock;
 
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
@@ -24,10 +22,6 @@ pub struct BasisBuilder<'a> {
     linearization: Linearization,
     /// Factors of `K(0) - sigma M(0)`.
     pub(super) factors: SparseLu,
-    /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
-    stiffness: Cow<'a, MatrixPolynomial>,
-    /// The order of elimination of this stiffness at any friction, made for the first factors.
-    family: OnceLock<Result<LuAnalysis, LinalgError>>,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -67,8 +61,6 @@ impl<'a> BasisBuilder<'a> {
             tangent,
             linearization,
             factors,
-            stiffness: linearization.centred_stiffness(tangent),
-            family: OnceLock::new(),
             model,
             count: modes.ncols() - rigid,
             rigid,
@@ -77,12 +69,6 @@ impl<'a> BasisBuilder<'a> {
             watch,
             steps: 0,
         }
-    }
-
-    /// The order of elimination of stiffness about the centre at any friction.
-    pub(super) fn family(&self) -> Result<&LuAnalysis, LinalgError> {
-        let analyse = || LuAnalysis::new(self.stiffness.pattern());
-        self.family.get_or_init(analyse).as_ref().map_err(Clone::clone)
     }
 
     /// The columns of the next steps, one at each of `values`, side by side: those that an earlier run of the same sweep found, else those
@@ -172,7 +158,8 @@ impl<'a> BasisBuilder<'a> {
         leading: Option<usize>,
     ) -> Result<Mat<f64>, CeaError> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let factors = SparseLu::factorize(self.family()?, self.stiffness.evaluate(mu))?;
+        let stiffness = self.linearization.centred_stiffness(self.tangent, mu);
+        let factors = SparseLu::factorize(self.factors.analysis(), stiffness)?;
         let operator = ShiftInverted::new(&matrices, &factors);
 
         // The start.

@@ -3,8 +3,8 @@
 use crate::cea::counted::is_vibration;
 use crate::cea::sparse::*;
 use crate::fem::RayleighDamping;
+use crate::linalg::dense::add;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 
 /// The point about which eigenvalues are searched for: `K + c C + c^2 M`, or `K + c^2 M`, takes the place of `K` in factors, so that
 /// they exist however a body is held, and softly held bodies lose no digits.
@@ -52,18 +52,14 @@ impl Linearization {
         10.0 * self.centre().rigid
     }
 
-    /// What takes the place of `K` about the centre.
-    pub fn centred_stiffness(self, tangent: &SlidingTangent) -> Cow<'_, MatrixPolynomial> {
-        let shift = self.centre().shift;
-        if shift == 0.0 {
-            return Cow::Borrowed(&tangent.stiffness);
-        }
-        let sum = MatrixPolynomial::combination;
-        let inert = sum(1.0, &tangent.stiffness, shift * shift, &tangent.mass); // K + c^2 M.
-        Cow::Owned(match self {
-            Self::Reduced(..) => inert,
-            Self::Companion { .. } => sum(1.0, &inert, shift, &tangent.damping), // K + c C + c^2 M.
-        })
+    /// Nonzero values of what takes the place of `K` about the centre at friction coefficient `mu`.
+    pub fn centred_stiffness(self, tangent: &SlidingTangent, mu: f64) -> Vec<f64> {
+        let c = self.centre().shift;
+        let damping = match self {
+            Self::Reduced(..) => 0.0, // K + c^2 M.
+            Self::Companion { .. } => c,
+        };
+        shifted_stiffness(tangent, mu, [damping, c * c])
     }
 
     /// `kappa`, or `lambda`, that belongs to the eigenvalue `s` of the shift-inverted operator: `kappa = 1/s - c^2`,
@@ -114,4 +110,15 @@ impl Linearization {
     pub fn inertia(self, lambda: c64) -> f64 {
         lambda.norm_sqr() + self.centre().shift.powi(2)
     }
+}
+
+/// Nonzero values of `K + a C + b M` at friction coefficient `mu`.
+pub(super) fn shifted_stiffness(tangent: &SlidingTangent, mu: f64, [a, b]: [f64; 2]) -> Vec<f64> {
+    let mut values = tangent.stiffness.evaluate(mu);
+    for (factor, matrix) in [(a, &tangent.damping), (b, &tangent.mass)] {
+        if factor != 0.0 {
+            add(&mut values, factor, &matrix.evaluate(mu));
+        }
+    }
+    values
 }

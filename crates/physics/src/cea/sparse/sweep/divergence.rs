@@ -1,6 +1,7 @@
 //! Where steady sliding loses its static stability: a motion grows there without oscillating.
 
 use crate::cea::sparse::branches::BranchEnd;
+use crate::cea::sparse::linearization::shifted_stiffness;
 use crate::cea::sparse::*;
 use crate::linalg::Bracket;
 
@@ -102,12 +103,9 @@ impl SparseSweep<'_> {
 
     /// `ln det K(mu)`, or `ln det T(s)` where `s` tells growth from rigid motions; minus infinity where there are no factors.
     fn ln_static(&self, mu: f64) -> Result<c64, CeaError> {
-        let mut values = self.tangent.stiffness.evaluate(mu);
         let growth = self.linearization.least_growth();
-        let [damping, mass] = [&self.tangent.damping, &self.tangent.mass].map(|p| p.evaluate(mu));
-        let terms = values.iter_mut().zip(damping.iter().zip(&mass));
-        terms.for_each(|(k, (c, m))| *k += growth * (c + growth * m)); // K + s C + s^2 M.
-        let found = SparseLu::ln_determinant(self.builder.family()?, &values);
+        let values = shifted_stiffness(self.tangent, mu, [growth, growth * growth]); // K + s C + s^2 M.
+        let found = SparseLu::ln_determinant(self.builder.factors.analysis(), &values);
         Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }
 }
