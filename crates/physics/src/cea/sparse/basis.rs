@@ -4,7 +4,7 @@ mod samples;
 
 use super::structure::ShiftInverted;
 use crate::cea::sparse::*;
-use crate::linalg::dense::{column_norms, columns_of, dot, from_columns, join_rows, pick_columns};
+use crate::linalg::dense::{column_norms, columns_of, dot, from_columns, join_rows};
 use crate::linalg::{KrylovSchurSettings, krylov_schur};
 
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
@@ -97,35 +97,6 @@ impl<'a> BasisBuilder<'a> {
             total: 0,
         });
         found.into_iter().collect()
-    }
-
-    /// `t = (K(0) - sigma M(0))^-1 r` of the residuals `r` of those of the modes' packed vectors that have not converged, if `t^T r` is any
-    /// energy beside theirs: a stiff contact has large forces in short displacements, so lengths do not tell.
-    fn corrections(&self, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
-        let packed = PackedModes::of(modes, self.model.dimension());
-        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let mut open = Mat::zeros(matrices.dimension(), 0);
-        for (coordinates, entries) in packed.groups(GROUP_WIDTH) {
-            let x = self.model.expand(coordinates);
-            let (residuals, momenta) = matrices.residuals_and_momenta(&entries, x.as_ref());
-            let mut corrections = residuals.clone();
-            self.factors.solve_in_place(corrections.as_mut()); // t = (K(0) - sigma M(0))^-1 r.
-            let is_open = |entry: &&PackedEntry| {
-                let size = |own| entry.vector(own).norm();
-                let energy = |a: &Mat<f64>, b: &Mat<f64>| -> f64 {
-                    let pair = |j| dot(column(a.as_ref(), j), column(b.as_ref(), j)).abs();
-                    entry.columns.clone().map(pair).sum()
-                };
-                let factor = matrices.inertia_factor(entry);
-                size(&residuals) > CONVERGED * factor * size(&momenta)
-                    && energy(&corrections, &residuals)
-                        > CONVERGED * ROUND_OFF * factor * energy(&x, &momenta) // Squares of lengths.
-            };
-            let own: Vec<usize> =
-                entries.iter().filter(is_open).flat_map(|entry| entry.columns.clone()).collect();
-            open = join_columns(open.as_ref(), pick_columns(&corrections, &own).as_ref());
-        }
-        open
     }
 
     /// Adds the lowest modes at `mu` from an iteration of its own, independent of the basis so far, with the factors of `K(mu)`;

@@ -94,15 +94,11 @@ impl Linearization {
         }
     }
 
-    /// The `s` of [`Self::eigenvalue`] that belongs to `lambda`.
-    pub fn inverse_value(self, lambda: c64) -> c64 {
+    /// The `kappa`, or `lambda`, that belongs to `lambda`.
+    pub fn value_of(self, lambda: c64) -> c64 {
         match self {
-            Self::Reduced(damping, centre) => {
-                (damping.kappa(lambda) + centre.shift * centre.shift).inv()
-            }
-            Self::Companion { frequency_scale, centre } => {
-                ((lambda - centre.shift) / frequency_scale).inv()
-            }
+            Self::Reduced(damping, _) => damping.kappa(lambda),
+            Self::Companion { .. } => lambda,
         }
     }
 

@@ -41,7 +41,6 @@ mod waves;
 // What most files here name.
 use crate::cea::*;
 use mode::{ModeAt, ModesAt, ReducedMode};
-use packed::{PackedEntry, PackedModes};
 use projected::ProjectedMatrices;
 use reduced::ReducedModel;
 use term::Term;

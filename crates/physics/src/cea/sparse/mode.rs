@@ -10,8 +10,6 @@ use crate::linalg::vectors::product;
 pub struct ReducedMode {
     /// Eigenvalue `lambda`, `Im > 0`, rad/s.
     pub eigenvalue: c64,
-    /// The eigenvalue `s` of the shift-inverted operator that it comes from.
-    pub inverse_value: c64,
     /// `dlambda/dmu`, rad/s.
     pub derivative: c64,
     /// Coordinates of the right vector `x`, of unit length.
@@ -32,24 +30,24 @@ pub struct ModeAt {
 /// A friction coefficient and its modes.
 pub type ModesAt<'a> = (f64, &'a [ReducedMode]);
 
-/// What is kept of a mode: eigenvalue, inverse value and derivative, right and left vector.
-pub type KeptMode = ([[f64; 2]; 3], Vec<[f64; 2]>, Vec<[f64; 2]>);
+/// What is kept of a mode: eigenvalue and derivative, right and left vector.
+pub type KeptMode = ([[f64; 2]; 2], Vec<[f64; 2]>, Vec<[f64; 2]>);
 
 impl ReducedMode {
     /// What is kept of it, bit by bit.
     pub fn kept(&self) -> KeptMode {
         let pair = |v: c64| [v.re, v.im];
         let [right, left] = [&self.right, &self.left].map(|own| own.iter().copied().map(pair));
-        let scalars = [self.eigenvalue, self.inverse_value, self.derivative].map(pair);
+        let scalars = [self.eigenvalue, self.derivative].map(pair);
         (scalars, right.collect(), left.collect())
     }
 
     /// The mode that was kept.
     pub fn recalled((scalars, right, left): KeptMode) -> Self {
         let complex = |[re, im]: [f64; 2]| c64::new(re, im);
-        let [eigenvalue, inverse_value, derivative] = scalars.map(complex);
+        let [eigenvalue, derivative] = scalars.map(complex);
         let [right, left] = [right, left].map(|own| own.into_iter().map(complex).collect());
-        Self { eigenvalue, inverse_value, derivative, right, left }
+        Self { eigenvalue, derivative, right, left }
     }
 
     /// The same with other coordinates of its vectors.

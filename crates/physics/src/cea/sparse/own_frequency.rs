@@ -86,7 +86,6 @@ mod tests {
             let zero = c64::new(0.0, 0.0);
             ReducedMode {
                 eigenvalue: c64::new(-0.005, (omega * omega - 2.5e-5).sqrt()),
-                inverse_value: zero,
                 derivative: zero,
                 right: own.clone(),
                 left: own,

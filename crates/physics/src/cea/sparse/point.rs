@@ -170,7 +170,6 @@ mod tests {
     fn eigenvalues_that_residuals_leave_open_are_no_modes() {
         let mode = |k: usize| ReducedMode {
             eigenvalue: c64::new(-0.1, k as f64),
-            inverse_value: c64::new(0.0, 0.0),
             derivative: c64::new(0.0, 0.0),
             right: Vec::new(),
             left: Vec::new(),

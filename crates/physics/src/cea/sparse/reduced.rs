@@ -333,7 +333,6 @@ impl ReducedModel {
         }
         let at = self.at(mu);
         let mut modes = [at.mode_near(guess)?];
-        modes[0].inverse_value = self.linearization.inverse_value(modes[0].eigenvalue);
         self.complete(&mut modes, &at, mu);
         let [mode] = modes;
         (mode.eigenvalue.im > 0.0).then_some(mode)

@@ -77,19 +77,19 @@ impl<'a> StructureMatrices<'a> {
         MotionMatrices { stiffness, damping, mass, losses: losses.iter().map(lost).collect() }
     }
 
-    /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for the packed vectors `x` of `entries`, in
-    /// the same packing; and `M x`.
+    /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for vectors `x` side by side and the eigenvalue of each; and
+    /// `M x`.
     pub fn residuals_and_momenta(
         &self,
-        entries: &[PackedEntry],
+        eigenvalues: impl Iterator<Item = c64>,
         x: MatRef<'_, f64>,
     ) -> (Mat<f64>, Mat<f64>) {
         let images = self.images(x);
         let mut residuals = Mat::zeros(x.nrows(), x.ncols());
-        for entry in entries {
-            let value = self.linearization.value(entry.inverse_value);
+        for (k, lambda) in eigenvalues.enumerate() {
+            let value = self.linearization.value_of(lambda);
             for (factor, image) in self.linearization.terms(&images, value) {
-                add_complex_multiple(&mut residuals, factor, image, &entry.columns); // sum f_p P_p x.
+                add_complex_multiple(&mut residuals, factor, image, k); // sum f_p P_p x.
             }
         }
         (residuals, images.mass)
@@ -102,15 +102,6 @@ impl<'a> StructureMatrices<'a> {
                 (lambda * damping.stiffness_coefficient + 1.0).norm()
             }
             Linearization::Companion { .. } => 1.0,
-        }
-    }
-
-    /// What turns `|M x|` into the size of the inertia force in the units of a residual: `|kappa + c^2|` or `|lambda - c|^2`.
-    pub fn inertia_factor(&self, entry: &PackedEntry) -> f64 {
-        let value = entry.inverse_value.inv().norm(); // 1 / s = kappa + c^2, or nu.
-        match self.linearization {
-            Linearization::Reduced(..) => value,
-            Linearization::Companion { frequency_scale, .. } => (value * frequency_scale).powi(2),
         }
     }
 

@@ -1,7 +1,7 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
-use super::{BasisBuilder, scale_to_unit_length, turn_to_real};
-use crate::cea::sparse::packed::side_by_side;
+use super::{BasisBuilder, turn_to_real};
+use crate::cea::sparse::packed::{joined, side_by_side};
 use crate::cea::sparse::*;
 use std::convert::Infallible;
 
@@ -89,17 +89,22 @@ impl BasisBuilder<'_> {
         }
     }
 
-    /// Corrects `modes`, nearly those at `mu`, by the full problem there, `t = T(sigma)^-1 T(lambda) x`; whether the basis grew.
+    /// Takes up corrections of modes, each nearly one at its friction coefficient: of right vectors (`false`) and of left ones where `sides`
+    /// has them, of which a basis of right ones holds less. An eigenvalue is wrong by the product of what both lack. Whether the basis grew.
     ///
-    /// What `x` has of another mode, with the eigenvalue `nu`, a correction takes away down to `|sigma - lambda| / |sigma - nu|`: factors
-    /// that hold friction, damping, losses and tables, and lie beside the mode, leave a hundredth or less.
-    pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> bool {
-        self.correct(&[mu], |builder, _| builder.shifted_corrections(mu, modes, &[false]))
-    }
-
-    /// Takes up the corrections of modes at `values` that `find` has, told by place; whether the basis grew.
-    fn correct(&mut self, values: &[f64], find: impl Fn(&Self, usize) -> Mat<f64> + Sync) -> bool {
-        let Ok(found) = self.steps(values, |own, i| Ok::<_, Infallible>(find(own, i)));
+    /// By the full problem there, `t = T(sigma)^-1 T(lambda) x`: what `x` has of another mode, with the eigenvalue `nu`, goes down to
+    /// `|sigma - lambda| / |sigma - nu|`. Factors that hold friction, damping, losses and tables, and lie beside the mode, leave a hundredth
+    /// or less. Or, `is_at_rest`, by the factors without friction, which cost next to nothing and leave more: of a left vector little, as
+    /// what it lacks is near the contact and follows the load as in statics.
+    pub fn correct(&mut self, states: &[ModesAt<'_>], sides: &[bool], is_at_rest: bool) -> bool {
+        let values: Vec<f64> = states.iter().map(|state| state.0).collect();
+        let Ok(found) = self.steps(&values, |builder, i| {
+            let (mu, modes) = states[i];
+            Ok::<_, Infallible>(match is_at_rest {
+                true => builder.corrections_at_rest(mu, modes, sides),
+                false => builder.shifted_corrections(mu, modes, sides),
+            })
+        });
         let none = Mat::zeros(self.tangent.stiffness.dimension(), 0);
         let all = found.iter().fold(none, |all, own| join_columns(all.as_ref(), own.as_ref()));
         let has_grown = self.model.extend(all, ROUND_OFF).ncols() > 0;
@@ -112,28 +117,7 @@ impl BasisBuilder<'_> {
         has_grown
     }
 
-    /// Corrects modes, each nearly one at its friction coefficient, and their left vectors, of which a basis of right ones holds less: an
-    /// eigenvalue is wrong by the product of what both lack. As [`Self::shift`] or, `is_at_rest`, by the factors without friction, which cost
-    /// next to nothing and leave more; whether the basis grew.
-    pub fn correct_both(&mut self, states: &[ModeAt], is_at_rest: bool) -> bool {
-        let values: Vec<f64> = states.iter().map(|state| state.mu).collect();
-        self.correct(&values, |builder, i| {
-            let (own, sides) = (std::slice::from_ref(&states[i].mode), [false, true]);
-            match is_at_rest {
-                true => builder.corrections_at_rest(values[i], own, &sides),
-                false => builder.shifted_corrections(values[i], own, &sides),
-            }
-        })
-    }
-
-    /// Corrects left vectors of modes at `mu` by the factors without friction: what a basis of right ones lacks of them is near the contact,
-    /// where the normal force works on their slip, and follows the load as in statics.
-    pub fn correct_lefts(&mut self, mu: f64, modes: &[ReducedMode]) -> bool {
-        self.correct(&[mu], |builder, _| builder.corrections_at_rest(mu, modes, &[true]))
-    }
-
-    /// `(K(0) - sigma M(0))^-1 r` of the residuals `r` of right vectors (`false`) and of left ones where `sides` has them, two real columns
-    /// each.
+    /// `(K(0) - sigma M(0))^-1 r` of the residuals `r`, two real columns each.
     fn corrections_at_rest(&self, mu: f64, modes: &[ReducedMode], sides: &[bool]) -> Mat<f64> {
         let own: Vec<&ReducedMode> = modes.iter().collect();
         let residuals = sides.iter().map(|is_left| self.residuals(&self.side(mu, *is_left), &own));
@@ -151,18 +135,18 @@ impl BasisBuilder<'_> {
 
     /// `T(lambda) x` of the vectors of modes on one side; of proportional damping but for a factor.
     fn residuals(&self, side: &StructureMatrices<'_>, modes: &[&ReducedMode]) -> Vec<Vec<c64>> {
-        let own = |mode: &&ReducedMode| {
-            let vector = if side.is_transposed { &mode.left } else { &mode.right };
-            (self.linearization.inverse_value(mode.eigenvalue), vector.clone())
-        };
-        let packed = PackedModes::of_vectors(self.model.dimension(), modes.iter().map(own));
-        let x = self.model.expand(packed.coordinates.as_ref());
-        let (residuals, _) = side.residuals_and_momenta(&packed.entries, x.as_ref());
-        packed.entries.iter().map(|entry| entry.joined(&residuals)).collect()
+        let groups = modes.chunks(GROUP_WIDTH / 2).flat_map(|group| {
+            let own = group.iter().map(|m| if side.is_transposed { &m.left } else { &m.right });
+            let own = side_by_side(self.model.dimension(), &own.collect::<Vec<_>>());
+            let x = self.model.expand(own.as_ref());
+            let values = group.iter().map(|mode| mode.eigenvalue);
+            let (residuals, _) = side.residuals_and_momenta(values, x.as_ref());
+            (0..group.len()).map(move |k| joined(&residuals, k))
+        });
+        groups.collect()
     }
 
-    /// The corrections of [`Self::shift`], two real columns each, of right vectors (`false`) and of left ones where `sides` has them.
-    /// Neighbours in frequency share factors.
+    /// `T(sigma)^-1 r` of the residuals `r`, two real columns each. Neighbours in frequency share factors.
     fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode], sides: &[bool]) -> Mat<f64> {
         let problem = FullProblem::at(self.tangent, mu).sharing(self.factors.analysis());
         let unknowns = problem.dimension();
@@ -210,26 +194,14 @@ impl BasisBuilder<'_> {
             let end = CHANGE_PLACES * modes[j].eigenvalue.im; // No cut parts two that may change places.
             modes.partition_point(|mode| mode.eigenvalue.im < end)
         });
-        PackedModes::of(&modes[..held], self.model.dimension()).coordinates
+        let held: Vec<&Vec<c64>> = modes[..held].iter().map(|mode| &mode.right).collect();
+        side_by_side(self.model.dimension(), &held)
     }
 
     /// Where `mu` lies among the friction coefficients whose modes the basis holds: an odd number at one, an even one between.
     pub fn gap(&self, mu: f64) -> usize {
         let below = self.sampled.iter().filter(|&&held| held < mu).count();
         2 * below + usize::from(self.is_sampled(mu))
-    }
-
-    /// Adds the corrections of `modes`, those at a sampled `mu` or nearly so, to the basis and to the sample; whether there were any.
-    pub fn refine_modes(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        let find = |builder: &Self, _| Ok::<_, LinalgError>(builder.corrections(modes, mu));
-        let mut corrections = self.steps(&[mu], find)?.swap_remove(0);
-        scale_to_unit_length(&mut corrections);
-        let has_any = corrections.ncols() > 0;
-        if has_any {
-            self.model.extend(corrections.clone(), SETTLED);
-            self.model.hold_sample(mu, &corrections);
-        }
-        Ok(has_any)
     }
 
     /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the `place` between where a

@@ -43,7 +43,6 @@ impl ReducedModel {
                 if is_within(values[k], BESIDE) {
                     let mode = &mut modes[j];
                     mode.eigenvalue = values[k];
-                    mode.inverse_value = self.linearization.inverse_value(values[k]);
                     [mode.right, mode.left] =
                         vectors.each_ref().map(|own| own.col(k).iter().copied().collect());
                 }
@@ -114,7 +113,6 @@ mod tests {
         let exact = c64::new(-0.01, (1.0_f64 - 1e-4).sqrt());
         let given = |shift: f64| ReducedMode {
             eigenvalue: exact + shift,
-            inverse_value: c64::ZERO,
             derivative: c64::ZERO,
             right: vec![c64::ONE, c64::I, c64::ZERO],
             left: vec![c64::ONE, c64::I, c64::ZERO],

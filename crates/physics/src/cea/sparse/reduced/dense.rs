@@ -34,11 +34,7 @@ impl ReducedModel {
                 let at = at.frozen(frequency_hz);
                 Ok(self.part_clusters(&at, self.solve_lossy(&at, count)?))
             };
-            let mut modes = own_frequency::solve(at, &frozen, start_hz)?; // Each at its own frequency.
-            for mode in &mut modes {
-                mode.inverse_value = self.linearization.inverse_value(mode.eigenvalue);
-            }
-            return Ok(modes);
+            return own_frequency::solve(at, &frozen, start_hz); // Each at its own frequency.
         }
         if !at.losses.is_empty() {
             return Ok(self.part_clusters(at, self.solve_lossy(at, count)?)); // i H alone.
@@ -74,7 +70,6 @@ impl ReducedModel {
         let oscillating = order.into_iter().filter_map(|i| {
             Some(ReducedMode {
                 eigenvalue: self.linearization.eigenvalue(eigen.values[i])?,
-                inverse_value: eigen.values[i],
                 derivative: c64::new(0.0, 0.0),
                 right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
                 left: unpack(&eigen.values, left.as_ref(), m, i, true),
@@ -189,7 +184,6 @@ impl ReducedModel {
             let column = |vectors: &Mat<c64>| (0..m).map(|row| vectors[(row, i)]).collect();
             Some(ReducedMode {
                 eigenvalue: self.linearization.eigenvalue(values[i])?,
-                inverse_value: values[i],
                 derivative: c64::new(0.0, 0.0),
                 right: column(&right),
                 left: column(&upper),

@@ -86,35 +86,37 @@ impl SparseSweep<'_> {
         let (mu, point) = (self.grid[k], &self.points[k]);
         match rung {
             Rung::AtRest if self.builder.is_whole => {}
-            Rung::AtRest => {
-                // Corrections do where the error is small already.
-                let is_near = match point.is_passed {
-                    true => point.worst().1 <= LITTLE.powi(2),
-                    false => is_alone && point.worst().1 <= NEAR,
-                };
-                let modes = &point.modes[..point.checks.len()];
-                if is_near || self.builder.is_sampled(mu) {
-                    self.builder.take_up(mu, modes);
-                    self.builder.refine_modes(mu, modes)?;
-                } else {
-                    self.builder.sample(&[mu])?;
-                }
+            Rung::AtRest if !(self.builder.is_sampled(mu) || self.is_near(k, is_alone)) => {
+                self.builder.sample(&[mu])?;
             }
-            Rung::Shifted | Rung::Without => {
+            Rung::AtRest | Rung::Shifted | Rung::Without => {
                 self.leaves_out[k] = rung == Rung::Without;
                 let may_be_none =
                     |mode: &ReducedMode| self.leaves_out[k] && mode.is_nearly_critical();
-                let open = point.open_modes(self.goal()).filter(|mode| !may_be_none(mode));
-                let open: Vec<ReducedMode> = open.cloned().collect();
+                let open: Vec<ReducedMode> = if rung == Rung::AtRest && !point.is_passed {
+                    // Factors that are there serve all that is not down to round-off.
+                    let pairs = point.modes.iter().zip(&point.checks);
+                    let open = pairs.filter(|(_, check)| check.force_residual > CONVERGED);
+                    open.map(|(mode, _)| mode.clone()).collect()
+                } else {
+                    let open = point.open_modes(self.goal()).filter(|mode| !may_be_none(mode));
+                    open.cloned().collect()
+                };
                 self.builder.take_up(mu, &point.modes);
                 if !open.is_empty() {
-                    self.builder.shift(mu, &open);
+                    self.builder.correct(&[(mu, &open)], &[false], rung == Rung::AtRest);
                 }
             }
             Rung::Whole => self.builder.hold_all(mu),
             Rung::Spent => {}
         }
         Ok(())
+    }
+
+    /// Whether corrections do at point `k`, as its error is small already: of one that is only followed two rounds of them.
+    fn is_near(&self, k: usize, is_alone: bool) -> bool {
+        let (point, (_, error)) = (&self.points[k], self.points[k].worst());
+        if point.is_passed { error <= LITTLE.powi(2) } else { is_alone && error <= NEAR }
     }
 
     /// Residual force, relative to the inertia force, above which a point is improved.

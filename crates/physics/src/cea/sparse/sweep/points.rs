@@ -1,11 +1,11 @@
 //! Modes at the friction coefficients of a sweep, each held to its residual in the full matrices, and their vectors.
 
-use crate::cea::sparse::packed::PackedVector;
 use crate::cea::sparse::packed::joined;
 use crate::cea::sparse::packed::side_by_side;
 use crate::cea::sparse::point::ModeCheck;
 use crate::cea::sparse::point::normalize;
 use crate::cea::sparse::*;
+use crate::linalg::vectors::largest;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// `|lambda|^2 |M| + |lambda| |C| + |K|` with the `norms` of the three.
@@ -87,48 +87,49 @@ impl SparseSweep<'_> {
     pub(super) fn check(&self, mu: f64, modes: &[ReducedMode]) -> Vec<ModeCheck> {
         let model = &self.builder.model;
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let packed = PackedModes::of(modes, model.dimension());
         let norms = matrices.norms();
-        let (mut checks, mut modes) = (Vec::with_capacity(modes.len()), modes.iter());
-        for (coordinates, entries) in packed.groups(GROUP_WIDTH) {
-            let x = model.expand(coordinates);
-            let (residuals, momenta) = matrices.residuals_and_momenta(&entries, x.as_ref());
-            for (entry, mode) in entries.iter().zip(&mut modes) {
+        let mut checks = Vec::with_capacity(modes.len());
+        for group in modes.chunks(GROUP_WIDTH / 2) {
+            let own: Vec<&Vec<c64>> = group.iter().map(|mode| &mode.right).collect();
+            let x = model.expand(side_by_side(model.dimension(), &own).as_ref());
+            let values = group.iter().map(|mode| mode.eigenvalue);
+            let (residuals, momenta) = matrices.residuals_and_momenta(values, x.as_ref());
+            checks.extend(group.iter().enumerate().map(|(k, mode)| {
                 let lambda = mode.eigenvalue;
                 let [residual, momentum, shape] =
-                    [&residuals, &momenta, &x].map(|mapped| entry.vector(mapped));
-                let force = matrices.residual_factor(lambda) * residual.norm(); // |T(lambda) x|.
-                let inertia = self.linearization.inertia(lambda) * momentum.norm(); // (|lambda|^2 + c^2) |M x|.
+                    [&residuals, &momenta, &x].map(|own| joined(own, k));
+                let force = matrices.residual_factor(lambda) * length(&residual); // |T(lambda) x|.
+                let inertia = self.linearization.inertia(lambda) * length(&momentum); // (|lambda|^2 + c^2) |M x|.
                 let scale = magnitude(norms, lambda);
-                checks.push(ModeCheck {
-                    residual: force / (scale * shape.norm()),
+                ModeCheck {
+                    residual: force / (scale * length(&shape)),
                     force_residual: force / inertia,
                     uncertainty: uncertainty(norms, mode),
-                    contact_share: self.contact_share(shape, momentum),
-                    edge: self.edge.restrict(|unknown| shape.at(unknown)),
-                    peak: shape.peak(),
-                });
-            }
+                    contact_share: self.contact_share(&shape, &momentum),
+                    edge: self.edge.restrict(|unknown| shape[unknown]),
+                    peak: largest(&shape),
+                }
+            }));
         }
         checks
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole. `momentum` is `M(mu) x`, which differs from
     /// that of the body alone, `M(0) x`, in the rows of these nodes.
-    fn contact_share(&self, x: PackedVector<'_>, momentum: PackedVector<'_>) -> f64 {
+    fn contact_share(&self, x: &[c64], momentum: &[c64]) -> f64 {
         let mass = &self.tangent.mass;
         let (pattern, values) = (mass.pattern(), &mass.coefficients()[0]);
-        let along = |i: usize, p: c64| x.at(i).re * p.re + x.at(i).im * p.im; // Re(conj x p).
+        let along = |i: usize, p: c64| x[i].re * p.re + x[i].im * p.im; // Re(conj x p).
         let (mut edge, mut friction) = (0.0, 0.0);
         let contact = &self.tangent.contact;
         let touched = [&contact.tangential, &contact.normal, &contact.opposite];
         for &i in touched.into_iter().flatten() {
             let row = pattern.row(i);
-            let own: c64 = row.map(|(position, j)| x.at(j) * values[position]).sum();
+            let own: c64 = row.map(|(position, j)| x[j] * values[position]).sum();
             edge += along(i, own);
-            friction += along(i, momentum.at(i) - own);
+            friction += along(i, momentum[i] - own);
         }
-        let whole: f64 = (0..pattern.dimension()).map(|i| along(i, momentum.at(i))).sum();
+        let whole: f64 = (0..pattern.dimension()).map(|i| along(i, momentum[i])).sum();
         edge / (whole - friction) // Over x^H M(0) x.
     }
 
@@ -141,7 +142,7 @@ impl SparseSweep<'_> {
         let wanted = &mut point.modes[..point.wanted];
         for _ in 0..2 {
             // A round leaves a tenth to a hundredth.
-            if self.builder.correct_lefts(mu, wanted) {
+            if self.builder.correct(&[(mu, wanted)], &[true], true) {
                 self.builder.model.refine_lefts(wanted, mu);
             }
         }

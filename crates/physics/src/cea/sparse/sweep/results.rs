@@ -124,7 +124,9 @@ impl SparseSweep<'_> {
             let is_at_rest = !searches && largest <= LITTLE * std::mem::replace(&mut last, largest);
             let mut has_grown = false;
             for states in open.chunks(if is_at_rest { open.len().max(1) } else { 1 }) {
-                has_grown |= self.builder.correct_both(states, is_at_rest);
+                let states: Vec<ModesAt<'_>> =
+                    states.iter().map(|own| (own.mu, std::slice::from_ref(&own.mode))).collect();
+                has_grown |= self.builder.correct(&states, &[false, true], is_at_rest);
             }
             if !has_grown {
                 let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
