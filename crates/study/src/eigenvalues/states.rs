@@ -36,9 +36,8 @@ impl WholeMesh {
     /// Solves the sparse eigenproblems at the friction coefficients that the model was made for: a sweep of each state
     /// with its tangent, which the friction coefficients where one gives way to the next end and begin.
     ///
-    /// Between two friction coefficients asked for contact points may open or close one after the other. Where the
-    /// stability of a branch changes there, the states between are solved too, by bisection, until one of them has the
-    /// critical friction, or two meet there.
+    /// Between two friction coefficients asked for contact points may open or close one after the other. Where a branch
+    /// changes its stability there, states between are solved until one has the critical friction, or two meet there.
     pub(crate) fn sweep(
         &self,
         case: &Case,
@@ -104,12 +103,11 @@ impl WholeMesh {
             let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
             values.sort_by(f64::total_cmp);
             let Some(&first) = values.first() else { continue };
-            // Branches are followed from where the state before ends, or ended when the state was solved first. One
-            // between friction values asked for is solved where it begins to hold.
             let unknown = k.checked_sub(1).map_or(first..first, |k| range.unknown_between(k));
-            let is_new = !common.request.friction_coefficients.iter().any(|mu| values.contains(mu));
+            let asked = common.request.friction_coefficients;
+            let is_new = !asked.iter().any(|mu| values.contains(mu));
             let end = range.changes.get(k);
-            // One between them, over all of its own range.
+            // One between them is solved where it begins and ends to hold.
             values.retain(|_| !is_new || end.is_none());
             if is_new || unknown.is_empty() {
                 values.insert(0, unknown.end);
@@ -117,20 +115,19 @@ impl WholeMesh {
             values.extend(end);
             let known = common.solved.iter().find(|(set, at, _)| {
                 let is_early = is_new || at[0] <= unknown.start + SAME_CHANGE;
-                *set == state.is_pressed
-                    && is_early
-                    && values.iter().all(|mu| place_of(at, *mu).is_some())
+                let has = |mu: &f64| place_of(at, *mu).is_some();
+                *set == state.is_pressed && is_early && values.iter().all(has)
             });
             let sweep = match known {
                 Some((_, at, sweep)) => {
                     sweep.since(place_of(at, unknown.start).unwrap_or(unknown.start))
                 }
                 None => {
+                    // Branches of the others are followed from where the state before ends.
                     values.splice(0..0, (!is_new).then_some(unknown.start));
                     values.dedup();
-                    let asked = common.request.friction_coefficients;
-                    let passed: Vec<f64> =
-                        values.iter().copied().filter(|mu| !asked.contains(mu)).collect();
+                    let mut passed = values.clone();
+                    passed.retain(|mu| !asked.contains(mu));
                     let own = SweepRequest {
                         friction_coefficients: &values,
                         passed_at: &passed,

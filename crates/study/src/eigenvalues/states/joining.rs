@@ -190,14 +190,10 @@ fn relabel(before: &Part, after: &mut Part) {
     let (Some(last), Some(first)) = (before.last(), after.first()) else { return };
     // Nearest pairs first, each mode once; those just above the list too, which may enter it.
     let [old, new] = [last, first].map(|point| point.known().collect::<Vec<_>>());
-    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-    for (i, old) in old.iter().enumerate() {
-        for (j, new) in new.iter().enumerate() {
-            if old.nodal_diameters == new.nodal_diameters {
-                pairs.push(((old.eigenvalue - new.eigenvalue).norm(), i, j));
-            }
-        }
-    }
+    let places = (0..old.len()).flat_map(|i| (0..new.len()).map(move |j| (i, j)));
+    let alike = places.filter(|&(i, j)| old[i].nodal_diameters == new[j].nodal_diameters);
+    let distance = |i: usize, j: usize| (old[i].eigenvalue - new[j].eigenvalue).norm();
+    let pairs = alike.map(|(i, j)| (distance(i, j), i, j)).collect();
     let paired = order::each_once(pairs).into_iter();
     let paired = paired.filter(|&(i, j)| old[i].branch > 0 && new[j].branch > 0);
     let mut name_at: BTreeMap<Name, Name> =
