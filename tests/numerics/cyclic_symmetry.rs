@@ -137,6 +137,18 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
     }
 }
 
+/// Split elements are not numbered by sectors: a finer mesh is solved as a whole, whatever the case asks for.
+#[test]
+fn a_refined_body_of_sectors_is_solved_as_a_whole() {
+    let analysis = "[cea]\nmodes = 6\nfriction_coefficients = [0.3]\n";
+    let case =
+        read("refined", &disc_sector(3, [8, 4], false), &screwed_disc(3, analysis), "cyclic");
+    let [coarse, fine] = [1.0, 2.0].map(|factor| solution(&case.refined(factor).unwrap()).1);
+    assert_eq!([coarse.method, fine.method], ["cyclic", "sparse"]);
+    let [coarse, fine] = [&coarse, &fine].map(|own| eigenvalues_of(&own.sweep.points[0].modes));
+    assert!((1e-6..0.1).contains(&largest_error(&coarse, &fine)), "{coarse:?} {fine:?}");
+}
+
 /// Contact that stiffens, over a narrow range of friction: high powers of it, which are round-off, tell no sector from the others.
 #[test]
 fn sectors_are_alike_whatever_round_off_is_in_high_powers_of_friction() {

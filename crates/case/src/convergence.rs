@@ -6,7 +6,6 @@ use frictionsim_physics::mesh::ShaftSpecification;
 
 /// Fewest refinements that an order can be observed from.
 const FEWEST: usize = 3;
-
 /// Refinements of the two directions may differ by this much before the user hears of it.
 const UNEVEN: f64 = 0.02;
 
@@ -52,6 +51,10 @@ impl super::Case {
     /// An imported mesh that cannot be refined.
     pub fn refined(&self, factor: f64) -> Result<Self, super::CaseErrors> {
         let mut body = self.body.clone();
+        let no_body = |error: BodyError| {
+            let (key, label) = ("convergence.factors", "makes no body".to_owned());
+            self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
+        };
         match &mut body.kind {
             BodyKind::Annulus(annulus) => *annulus = Convergence::refined(annulus, factor),
             BodyKind::Revolution(solid) => {
@@ -64,17 +67,19 @@ impl super::Case {
             }
             BodyKind::Assembly(assembly) => {
                 for _ in 0..factor.log2() as u32 {
-                    let finer = assembly.mesh.refined_solids();
-                    let finer = finer.map_err(|error| self.no_refinement(factor, &error))?;
-                    assembly.mesh = Arc::new(finer);
+                    assembly.mesh = Arc::new(assembly.mesh.refined_solids().map_err(no_body)?);
                 }
             }
             BodyKind::Imported(imported) => {
-                let finer = imported.refined(factor.log2() as u32);
-                *imported = finer.map_err(|error| self.no_refinement(factor, &error))?;
+                *imported = imported.refined(factor.log2() as u32).map_err(no_body)?;
             }
         }
-        Ok(Self { body, ..self.clone() })
+        let mut finer = Self { body, ..self.clone() };
+        // The nodes of a split mesh are not numbered by sectors: it is solved as a whole.
+        if let Some(cea) = finer.cea.as_mut().filter(|_| self.body.is_of_sectors()) {
+            cea.method = CeaMethod::Auto;
+        }
+        Ok(finer)
     }
 
     /// The case of a generated body with so many times as many elements in every direction.
@@ -87,11 +92,6 @@ impl super::Case {
             format!("mesh.radial_grading={:?}", annulus.radial_grading),
         ];
         Self::read(self.raw.with_overrides(&finer)?)
-    }
-
-    fn no_refinement(&self, factor: f64, error: &BodyError) -> super::CaseErrors {
-        let (key, label) = ("convergence.factors", "makes no body".to_owned());
-        self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
     }
 }
 

@@ -38,7 +38,7 @@ pub struct SweepRequest<'a> {
     /// Those of the friction coefficients at which mode shapes are wanted.
     pub shapes_at: &'a [f64],
     /// Those at which branches are only followed: modes are known there as closely as naming them and the sign of their growth need.
-    pub passed_at: &'a [f64],
+    pub followed_at: &'a [f64],
     /// The one of them at which left vectors are wanted too, to three digits; with it at critical friction.
     pub lefts_at: Option<f64>,
     /// Whether modes are counted by the argument principle under friction, too.
@@ -55,7 +55,7 @@ impl<'a> SweepRequest<'a> {
             friction_coefficients,
             limit,
             shapes_at: &[],
-            passed_at: &[],
+            followed_at: &[],
             lefts_at: None,
             count_modes: false,
             is_continued: false,

@@ -126,11 +126,11 @@ impl WholeMesh {
                     // Branches of the others are followed from where the state before ends.
                     values.splice(0..0, (!is_new).then_some(unknown.start));
                     values.dedup();
-                    let mut passed = values.clone();
-                    passed.retain(|mu| !asked.contains(mu));
+                    let mut followed = values.clone();
+                    followed.retain(|mu| !asked.contains(mu));
                     let own = SweepRequest {
                         friction_coefficients: &values,
-                        passed_at: &passed,
+                        followed_at: &followed,
                         is_continued: k > 0,
                         ..*common.request
                     };

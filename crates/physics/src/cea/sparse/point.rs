@@ -44,8 +44,8 @@ pub struct SolvedPoint {
     pub checks: Vec<ModeCheck>,
     /// Frequency up to which modes are wanted here, rad/s: that of the highest where a number of them is.
     pub range_end: f64,
-    /// Whether branches are only followed here, see [`crate::cea::SweepRequest::passed_at`].
-    pub is_passed: bool,
+    /// Whether branches are only followed here, see [`crate::cea::SweepRequest::followed_at`].
+    pub is_followed: bool,
     /// Whether left vectors are coarse still.
     pub has_coarse_lefts: bool,
 }
@@ -73,7 +73,7 @@ impl SolvedPoint {
             let is_summed = is_within(ROUNDING_ERRORS) && check.error() <= RESIDUAL_BOUND;
             let is_round_off = is_within(2.0) || is_summed;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
-            !(is_fine || is_round_off || self.is_followed(*i))
+            !(is_fine || is_round_off || self.tells_growth(*i))
         });
         open.map(|(_, (mode, _))| mode)
     }
@@ -81,18 +81,18 @@ impl SolvedPoint {
     /// Whether a mode is as sharp as a branch needs it that is only followed here: its residual force, relative to the inertia force, leaves
     /// the square over the distance from other eigenvalues open, which is less than its growth. What grows may do so from a jump on, where
     /// its frequency is told.
-    fn is_followed(&self, i: usize) -> bool {
+    fn tells_growth(&self, i: usize) -> bool {
         let (own, residual) = (self.modes[i].eigenvalue, self.checks[i].force_residual);
         let distances = self.modes.iter().map(|other| (other.eigenvalue - own).norm());
         let distance = distances.filter(|other| *other > 0.0).fold(own.norm(), f64::min);
         let [distance, growth] = [distance, own.re.abs()].map(|part| part / own.norm());
         let most = if self.modes[i].is_growing() { SAME_EIGENVALUE } else { NEAR };
-        self.is_passed && residual.powi(2) <= distance * most.min(LITTLE * growth)
+        self.is_followed && residual.powi(2) <= distance * most.min(LITTLE * growth)
     }
 
     /// Whether mode `i` is what it is taken for.
     pub fn is_told(&self, i: usize) -> bool {
-        self.checks[i].has_converged() || self.is_followed(i)
+        self.checks[i].has_converged() || self.tells_growth(i)
     }
 
     /// Wanted modes that have converged, and whose eigenvalue their residual does not leave open.
@@ -188,7 +188,7 @@ mod tests {
             wanted: 4,
             checks: [(1e-16, 1e-5), (2e-9, 1e-15), (2e-10, 1e-5), (2e-10, 1e-12)].map(check).into(),
             range_end: 5.0,
-            is_passed: false,
+            is_followed: false,
             has_coarse_lefts: false,
         };
         assert_eq!(point.drop_unconverged(ModeLimit::MaxFrequency(1.0)), [3.0, 2.0]);

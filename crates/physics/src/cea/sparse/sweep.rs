@@ -130,8 +130,8 @@ pub struct SparseSweep<'a> {
     grid: Vec<f64>,
     /// Smallest friction coefficient asked for.
     lowest: f64,
-    /// Friction coefficients at which branches are only followed, see [`SweepRequest::passed_at`].
-    passed: Vec<f64>,
+    /// Friction coefficients at which branches are only followed, see [`SweepRequest::followed_at`].
+    followed: Vec<f64>,
     /// Whether branches begin at the first friction coefficient asked for.
     is_continued: bool,
     /// Whether at rest a stiffness that is not positive leaves motions unheld.
@@ -175,7 +175,7 @@ impl<'a> SparseSweep<'a> {
             grid,
             lowest,
             // With other than viscous damping errors of eigenvalues are not of second order.
-            passed: if tangent.is_lossy() { Vec::new() } else { request.passed_at.to_vec() },
+            followed: if tangent.is_lossy() { Vec::new() } else { request.followed_at.to_vec() },
             is_continued,
             is_unheld: modes.frequencies.first() == Some(&0.0),
             points: Vec::new(),
@@ -197,7 +197,7 @@ impl<'a> SparseSweep<'a> {
         // Where branches are only followed corrections do, from modes at one place.
         let all = &self.grid[self.first_asked()..];
         let mut asked: Vec<f64> =
-            all.iter().copied().filter(|mu| !self.passed.contains(mu)).collect();
+            all.iter().copied().filter(|mu| !self.followed.contains(mu)).collect();
         if asked.is_empty() {
             asked.push(all[all.len() / 2]);
         }

@@ -93,7 +93,7 @@ impl SparseSweep<'_> {
                 self.leaves_out[k] = rung == Rung::Without;
                 let may_be_none =
                     |mode: &ReducedMode| self.leaves_out[k] && mode.is_nearly_critical();
-                let open: Vec<ReducedMode> = if rung == Rung::AtRest && !point.is_passed {
+                let open: Vec<ReducedMode> = if rung == Rung::AtRest && !point.is_followed {
                     // Factors that are there serve all that is not down to round-off.
                     let pairs = point.modes.iter().zip(&point.checks);
                     let open = pairs.filter(|(_, check)| check.force_residual > CONVERGED);
@@ -116,7 +116,7 @@ impl SparseSweep<'_> {
     /// Whether corrections do at point `k`, as its error is small already: of one that is only followed two rounds of them.
     fn is_near(&self, k: usize, is_alone: bool) -> bool {
         let (point, (_, error)) = (&self.points[k], self.points[k].worst());
-        if point.is_passed { error <= LITTLE.powi(2) } else { is_alone && error <= NEAR }
+        if point.is_followed { error <= LITTLE.powi(2) } else { is_alone && error <= NEAR }
     }
 
     /// Residual force, relative to the inertia force, above which a point is improved.

@@ -39,7 +39,7 @@ impl SparseSweep<'_> {
         let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
         let stage = if leaves_out { "-left-out" } else { "" };
         let (steps, held) = (self.builder.steps, self.builder.count);
-        let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}"); // The number of steps tells the state of the basis.
+        let name = format!("modes-{steps:04}-of-{held}-{mu:?}{stage}"); // The number of steps tells the state of the basis.
         let modes = match self.watch.recalled::<Vec<_>>(&name) {
             Some(kept) => kept.into_iter().map(ReducedMode::recalled).collect(),
             None => {
@@ -65,7 +65,7 @@ impl SparseSweep<'_> {
             wanted,
             checks,
             range_end,
-            is_passed: self.passed.contains(&mu),
+            is_followed: self.followed.contains(&mu),
             has_coarse_lefts: true,
         })
     }
