@@ -79,10 +79,10 @@ fn a_contact_state_between_two_friction_values_is_swept_once() {
     let model = SlidingModel::new(&case, cea).unwrap();
     let kept = Kept::default();
     solve(&case, cea, &model, Some(&kept)).unwrap();
-    // Names as `round-2-state-1-value-0003-of-12-0.37`.
+    // Names as `round-2-state-1-modes-0003-of-12-0.37`.
     let mut ends: BTreeMap<String, f64> = BTreeMap::new();
     for (name, _) in kept.steps.lock().unwrap().iter() {
-        let Some((sweep, value)) = name.split_once("-value-") else { continue };
+        let Some((sweep, value)) = name.split_once("-modes-") else { continue };
         let friction: f64 = value.split('-').nth(3).unwrap().parse().unwrap();
         let end = ends.entry(sweep.to_owned()).or_default();
         *end = end.max(friction);
