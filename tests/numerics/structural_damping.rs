@@ -3,6 +3,7 @@
 use crate::prelude::*;
 use crate::shaft::STEEL;
 use frictionsim::cea::sparse::mode_pairs;
+use frictionsim::prestress::MotionMatrices;
 
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
     tangent_with(losses, damping, ContactStiffness::default(), Clamped)
@@ -151,15 +152,17 @@ pub fn follow_differences(
     // Pairs +n and -n that friction has not parted have no single vector.
     for pair in pairs.iter().flatten() {
         let value = pair.eigenvalue;
-        let frozen = beside.each_ref().map(|tangent| {
+        let [above, below] = beside.each_ref().map(|tangent| {
             let there = tangent.at_frequency(value.im / TAU);
-            let lost = there.structural().unwrap();
-            [&there.stiffness, &there.damping, &there.mass, lost].map(|matrix| matrix.evaluate(mu))
+            MotionMatrices::of(&there, |matrix| matrix.evaluate(mu))
         });
-        let [dk, dc, dm, dh] = [0, 1, 2, 3].map(|k| -> Vec<f64> {
-            frozen[0][k].iter().zip(&frozen[1][k]).map(|(a, b)| (a - b) / (2.0 * step)).collect()
-        });
-        let response = pair.response(own.stiffness.pattern(), [&dk, &dc, &dm], &dh);
+        let mut changes = above;
+        assert_eq!([&changes, &below].map(|own| own.losses.len()), [1; 2]);
+        for (change, below) in changes.each_mut().zip(below.each()) {
+            let pairs = change.iter_mut().zip(below);
+            pairs.for_each(|(above, below)| *above = (*above - below) / (2.0 * step));
+        }
+        let response = pair.response(own.stiffness.pattern(), &changes);
         let derivatives = [(response, &by_parameter), (pair.derivative, &by_friction)];
         for ((derivative, sides), bound) in derivatives.into_iter().zip(bounds) {
             let [above, below] =

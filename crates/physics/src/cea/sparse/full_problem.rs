@@ -16,21 +16,16 @@ pub struct FullProblem<'a> {
 impl<'a> FullProblem<'a> {
     /// The problem of `tangent` at friction coefficient `mu`.
     pub fn at(tangent: &'a SlidingTangent, mu: f64) -> Self {
-        Self::of(tangent, |matrix| matrix.evaluate(mu))
+        Self {
+            pattern: tangent.stiffness.pattern(),
+            analysis: OnceLock::new(),
+            values: MotionMatrices::of(tangent, |matrix| matrix.evaluate(mu)),
+        }
     }
 
     /// The same with an analysis that serves other friction coefficients too.
     pub fn sharing(self, analysis: &LuAnalysis) -> Self {
         Self { analysis: Ok(analysis.clone()).into(), ..self }
-    }
-
-    /// That of the values that are taken of each matrix: its derivatives by friction, too.
-    pub fn of(tangent: &'a SlidingTangent, values: impl Fn(&MatrixPolynomial) -> Vec<f64>) -> Self {
-        Self {
-            pattern: tangent.stiffness.pattern(),
-            analysis: OnceLock::new(),
-            values: MotionMatrices::of(tangent, values),
-        }
     }
 
     /// Number of unknowns.
@@ -51,12 +46,6 @@ impl<'a> FullProblem<'a> {
     /// `ln det T(lambda)`, up to multiples of `2 pi i`; an error at an eigenvalue.
     pub fn ln_determinant(&self, lambda: c64) -> Result<c64, LinalgError> {
         ComplexSparseLu::ln_determinant(self.analysis()?, &self.values.at(lambda))
-    }
-
-    /// `w^T T(lambda) x`.
-    pub fn form(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
-        let terms = self.values.terms(lambda).into_iter();
-        terms.map(|(factor, values)| factor * form(self.pattern, values, w, x)).sum()
     }
 
     /// `w^T (2 lambda M + C) x`.

@@ -25,29 +25,12 @@ pub struct ModePair {
 }
 
 impl ModePair {
-    /// `d lambda = - w^T (lambda^2 dM + lambda dC + dK + i dH) x` for changes `[dK, dC, dM]`, and `dH` of the structural damping, given by
-    /// their nonzero values; an empty `dH` is none.
-    pub fn response(
-        &self,
-        pattern: &SparsityPattern,
-        changes: [&[f64]; 3],
-        structural: &[f64],
-    ) -> c64 {
-        let form = |values: &[f64]| form(pattern, values, &self.left, &self.right);
-        let ([stiffness, damping, mass], lambda) = (changes.map(form), self.eigenvalue);
-        let viscous = self.followed(-(lambda * (lambda * mass + damping) + stiffness));
-        match structural.is_empty() {
-            true => viscous,
-            false => viscous + self.followed(c64::new(0.0, -1.0) * form(structural)),
-        }
-    }
-
-    /// The change of the eigenvalue where it would be `change` at fixed stiffness: with tables the stiffness follows it.
-    fn followed(&self, change: c64) -> c64 {
-        match self.own_slope == c64::new(0.0, 0.0) {
-            true => change,
-            false => own_frequency_step(change, self.own_slope),
-        }
+    /// `d lambda = - w^T dT(lambda) x` for changes of the matrices, given by their nonzero values; with tables the stiffness follows
+    /// the eigenvalue.
+    pub fn response(&self, pattern: &SparsityPattern, changes: &MotionMatrices<Vec<f64>>) -> c64 {
+        let terms = changes.terms(self.eigenvalue).into_iter();
+        let forms = terms.map(|(factor, own)| factor * form(pattern, own, &self.left, &self.right));
+        own_frequency_step(-forms.sum::<c64>(), self.own_slope)
     }
 }
 
@@ -57,7 +40,7 @@ impl ModePair {
 /// Each is found by inverse iteration: one factorization of `T(lambda)` serves the right vector and, transposed, the left one.
 pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Option<ModePair>> {
     let problem = FullProblem::at(tangent, mu);
-    let rate = FullProblem::of(tangent, |matrix| matrix.derivative(mu));
+    let rates = MotionMatrices::of(tangent, |matrix| matrix.derivative(mu));
     let unknowns = problem.dimension();
     let start = random_columns(unknowns, 2.min(unknowns), 7);
     let start = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
@@ -75,7 +58,7 @@ pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Opt
             right,
             left,
         };
-        pair.derivative = pair.followed(-rate.form(*target, &pair.left, &pair.right)); // -w^T (dT / dmu) x.
+        pair.derivative = pair.response(tangent.stiffness.pattern(), &rates);
         Some(pair)
     };
     crate::parallel::map(targets, pair)

@@ -150,9 +150,8 @@ impl ProjectedMatrices {
     pub fn followed(&self, mode: &ReducedMode, change: c64, slope: c64) -> c64 {
         let own = std::slice::from_ref(mode);
         let parts = self.own_rates(mode.eigenvalue);
-        let parts = parts.map(|(rate, k)| rate * forms(own, k, own)[(0, 0)]);
-        let sum = parts.reduce(|sum, own| sum + own);
-        sum.map_or(change, |sum| own_frequency_step(change, sum / slope))
+        let sum: c64 = parts.map(|(rate, k)| rate * forms(own, k, own)[(0, 0)]).sum();
+        own_frequency_step(change, sum / slope)
     }
 }
 

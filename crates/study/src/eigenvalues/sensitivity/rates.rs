@@ -5,6 +5,7 @@ use crate::eigenvalues::model::wave_tangent;
 use crate::*;
 use frictionsim_physics::cea::cyclic::{Beside, WavePair, wave_responses};
 use frictionsim_physics::cea::sparse::ModePair;
+use frictionsim_physics::prestress::MotionMatrices;
 
 /// Step of a parameter for the differences of the matrices, relative to its value: entries are linear in most
 /// parameters, and smooth in the others to `STEP^2`; their round-off, divided by it, stays small beside a mode's own
@@ -71,8 +72,8 @@ impl Linearized {
 
     /// How far the eigenvalue of a pair is from one there, to first order: the response to all that the matrices have.
     pub(super) fn shift(&self, place: usize, pair: &ModePair) -> c64 {
-        let [k, c, m, h] = &self.values(place, pair.eigenvalue.im / TAU);
-        pair.response(self.tangent(place).stiffness.pattern(), [k, c, m], h)
+        let values = self.values(place, pair.eigenvalue.im / TAU);
+        pair.response(self.tangent(place).stiffness.pattern(), &values)
     }
 
     /// Which contact points are pressed there.
@@ -80,18 +81,10 @@ impl Linearized {
         &self.model.range.states[self.model.range.state_of[place]].is_pressed
     }
 
-    /// Nonzero values of `K`, `C`, `M` and the structural damping `H` there, empty without, at a frequency in Hz where
-    /// stiffness depends on that.
-    fn values(&self, place: usize, frequency_hz: f64) -> [Vec<f64>; 4] {
-        let (tangent, mu) = (self.tangent(place), self.frictions[place]);
-        let tangent = tangent.at_frequency(frequency_hz);
-        let structural = tangent.structural();
-        [
-            tangent.stiffness.evaluate(mu),
-            tangent.damping.evaluate(mu),
-            tangent.mass.evaluate(mu),
-            structural.map_or_else(Vec::new, |p| p.evaluate(mu)),
-        ]
+    /// Nonzero values of the matrices there, at a frequency in Hz where stiffness depends on that.
+    fn values(&self, place: usize, frequency_hz: f64) -> MotionMatrices<Vec<f64>> {
+        let tangent = self.tangent(place).at_frequency(frequency_hz);
+        MotionMatrices::of(&tangent, |matrix| matrix.evaluate(self.frictions[place]))
     }
 }
 
@@ -208,10 +201,11 @@ fn responses(place: &Place, k: usize, terms: &[(f64, Linearized)]) -> Vec<Option
         let frequency_hz = target.im / TAU;
         // Weights sum up to zero: what all have alike leaves no round-off.
         let first = terms[0].1.values(k, frequency_hz);
-        let mut changes = first.each_ref().map(|values| vec![0.0; values.len()]);
+        let mut changes = first.map(|values| vec![0.0; values.len()]);
         for (weight, side) in &terms[1..] {
-            let sides = side.values(k, frequency_hz).into_iter().zip(&first);
-            for (change, (values, first)) in changes.iter_mut().zip(sides) {
+            let values = side.values(k, frequency_hz);
+            let sides = values.each().zip(first.each());
+            for (change, (values, first)) in changes.each_mut().zip(sides) {
                 let differences = values.iter().zip(first).map(|(value, first)| value - first);
                 change.iter_mut().zip(differences).for_each(|(sum, own)| *sum += weight * own);
             }
@@ -220,10 +214,8 @@ fn responses(place: &Place, k: usize, terms: &[(f64, Linearized)]) -> Vec<Option
     };
     let tangent = terms[0].1.tangent(k);
     let pattern = tangent.stiffness.pattern();
-    let response = |pair: &Option<ModePair>, changes: &[Vec<f64>; 4]| {
-        let [stiffness, damping, mass, structural] = changes.each_ref().map(Vec::as_slice);
-        let pair = pair.as_ref()?;
-        Some(pair.response(pattern, [stiffness, damping, mass], structural))
+    let response = |pair: &Option<ModePair>, changes: &MotionMatrices<_>| {
+        Some(pair.as_ref()?.response(pattern, changes))
     };
     let modes = place.targets.iter().zip(&place.pairs);
     if !tangent.is_tabled() {
