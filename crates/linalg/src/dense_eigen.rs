@@ -217,8 +217,8 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
         (0..values.len()).filter(|&j| values[j].im >= 0.0 && values[j].norm() >= smallest);
     let (mut sound, mut unsound) = (Vec::new(), Vec::new());
     for j in first_columns {
-        let vector = complex_column(values, vectors, j);
-        let image = complex_column(values, &images, j);
+        let vector = complex_column(values, vectors.as_ref(), j);
+        let image = complex_column(values, images.as_ref(), j);
         let pairs = image.iter().zip(&vector);
         // |A x - lambda x|, and what x has beyond sound vectors of the same lambda.
         let error = pairs.map(|(a, x)| (a - values[j] * x).norm_sqr()).sum::<f64>().sqrt();
@@ -246,7 +246,7 @@ fn alike(values: &[c64], vectors: &Mat<f64>, sound: &[usize], j: usize) -> Vec<V
     let is_equal = |k: usize| (values[k] - values[j]).norm() < 1e-8 * values[j].norm();
     let mut basis: Vec<Vec<c64>> = Vec::new();
     for &k in sound.iter().filter(|&&k| is_equal(k)) {
-        let mut vector = complex_column(values, vectors, k);
+        let mut vector = complex_column(values, vectors.as_ref(), k);
         orthogonalize(&mut vector, &basis);
         normalize(&mut vector);
         basis.push(vector);
@@ -282,13 +282,12 @@ fn inverse_iteration(
     vector
 }
 
-fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
-    let real = column(vectors.as_ref(), j);
-    if values[j].im == 0.0 {
-        return real.iter().map(|&v| c64::new(v, 0.0)).collect();
-    }
-    let imaginary = column(vectors.as_ref(), j + 1); // A pair has p + i q in two columns.
-    real.iter().zip(imaginary).map(|(&p, &q)| c64::new(p, q)).collect()
+/// The vector of eigenvalue `j`, of columns as in [`RealEigen`].
+pub fn complex_column(values: &[c64], vectors: MatRef<'_, f64>, j: usize) -> Vec<c64> {
+    let sign = if values[j].im == 0.0 { 0.0 } else { values[j].im.signum() };
+    let first = if sign < 0.0 { j - 1 } else { j }; // A pair has p + i q in two columns.
+    let [p, q] = [first, first + usize::from(sign != 0.0)].map(|k| column(vectors, k));
+    p.iter().zip(q).map(|(&p, &q)| c64::new(p, sign * q)).collect()
 }
 
 #[cfg(test)]
@@ -354,8 +353,8 @@ mod tests {
         let eigen = real_eigen(a.as_ref(), true, usize::MAX).unwrap();
         let images = product(a.as_ref(), eigen.right.as_ref());
         for j in (0..n).filter(|&j| eigen.values[j].im > 0.0) {
-            let x = complex_column(&eigen.values, &eigen.right, j);
-            let image = complex_column(&eigen.values, &images, j);
+            let x = complex_column(&eigen.values, eigen.right.as_ref(), j);
+            let image = complex_column(&eigen.values, images.as_ref(), j);
             for (p, q) in image.iter().zip(&x) {
                 assert!((p - eigen.values[j] * q).norm() < 2e-9 * length(&x));
             }

@@ -2,7 +2,7 @@
 
 use super::CycleError;
 use crate::linalg::dense::{dot, norm, orthogonalize};
-use crate::linalg::dense_eigen::{RealEigen, real_eigen};
+use crate::linalg::dense_eigen::{complex_column, real_eigen};
 use crate::linalg::{Mat, c64};
 
 /// What is looked for, and until when.
@@ -116,7 +116,8 @@ fn ritz(columns: &[Vec<f64>], basis: &[Vec<f64>], motion: &[f64]) -> Option<Vec<
     let overflow = columns[size - 1][size]; // h of P V = V H + h v e^T.
     let shares: Vec<f64> = basis.iter().map(|unit| dot(unit, motion)).collect();
     let ritz = |i: usize| {
-        let (value, factors) = (eigen.values[i], eigenvector(&eigen, i));
+        let (value, factors) =
+            (eigen.values[i], complex_column(&eigen.values, eigen.right.as_ref(), i));
         let length = factors.iter().map(|y| y.norm_sqr()).sum::<f64>().sqrt();
         let along = factors.iter().zip(&shares).map(|(y, share)| y * share).sum::<c64>();
         let residual = overflow * factors[size - 1].norm() / (length * value.norm()); // |P x - rho x| = h |y_k| for x = V y.
@@ -125,14 +126,6 @@ fn ritz(columns: &[Vec<f64>], basis: &[Vec<f64>], motion: &[f64]) -> Option<Vec<
     let mut all: Vec<Ritz> = (0..size).filter(|&i| eigen.values[i].im >= 0.0).map(ritz).collect();
     crate::order::sort_by_number(&mut all, |a| -a.value.norm());
     Some(all)
-}
-
-fn eigenvector(eigen: &RealEigen, i: usize) -> Vec<c64> {
-    let part = |row: usize| match eigen.values[i].im {
-        im if im > 0.0 => c64::new(eigen.right[(row, i)], eigen.right[(row, i + 1)]), // Columns i and i + 1: Re and Im of a pair.
-        _ => c64::new(eigen.right[(row, i)], 0.0),
-    };
-    (0..eigen.right.nrows()).map(part).collect()
 }
 
 /// The vector of length one.

@@ -2,7 +2,9 @@
 
 use crate::cea::sparse::*;
 use crate::linalg::dense::product;
-use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
+use crate::linalg::dense_eigen::{
+    RealEigen, complex_column, complex_eigen, real_eigen, real_eigenvalues,
+};
 use crate::linalg::{KrylovSchurSettings, RealPairs, krylov_schur};
 
 /// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
@@ -65,17 +67,28 @@ impl ReducedModel {
         let mut left = eigen.left.expect("left vectors are asked for");
         lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
 
-        let mut order: Vec<usize> = (0..eigen.values.len()).collect();
-        crate::order::sort_by_number(&mut order, |&i| -eigen.values[i].norm()); // Largest |s| first: nearest to the centre.
-        let oscillating = order.into_iter().filter_map(|i| {
-            Some(ReducedMode {
-                eigenvalue: self.linearization.eigenvalue(eigen.values[i])?,
-                derivative: c64::new(0.0, 0.0),
-                right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
-                left: unpack(&eigen.values, left.as_ref(), m, i, true),
-            })
-        });
-        Ok(self.leading(oscillating, m, count, |_| true))
+        let upper = |vectors: &Mat<f64>, i: usize| {
+            complex_column(&eigen.values, vectors.as_ref().get(..m, ..), i)
+        };
+        // w = conj y, as w^T T stands for y^H T.
+        let left = |i: usize| upper(&left, i).into_iter().map(|own| own.conj()).collect();
+        let vectors = |i: usize| [upper(&eigen.right, i), left(i)];
+        Ok(self.leading(self.oscillating(&eigen.values, vectors), m, count, |_| true))
+    }
+
+    /// The oscillating modes of eigenvalues `s` of the operator, with right and left vectors, by falling `|s|`.
+    fn oscillating(
+        &self,
+        values: &[c64],
+        vectors: impl Fn(usize) -> [Vec<c64>; 2],
+    ) -> impl Iterator<Item = ReducedMode> {
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        crate::order::sort_by_number(&mut order, |&i| -values[i].norm()); // Largest |s| first: nearest to the centre.
+        order.into_iter().filter_map(move |i| {
+            let eigenvalue = self.linearization.eigenvalue(values[i])?;
+            let [right, left] = vectors(i);
+            Some(ReducedMode { eigenvalue, derivative: c64::ZERO, right, left })
+        })
     }
 
     /// The first of modes by falling `|s|`, until `count` of them do that `is_counted` holds for. Where all `m` motions
@@ -178,18 +191,8 @@ impl ReducedModel {
         // The upper half of a left vector y^H of the operator is (K + i H)^T times that of the problem.
         let mut upper = Mat::from_fn(m, left.ncols(), |i, j| left[(i, j)].conj());
         lu.solve_transpose_in_place(upper.as_mut());
-        let mut order: Vec<usize> = (0..values.len()).collect();
-        crate::order::sort_by_number(&mut order, |&i| -values[i].norm());
-        let mode = |i: usize| {
-            let column = |vectors: &Mat<c64>| (0..m).map(|row| vectors[(row, i)]).collect();
-            Some(ReducedMode {
-                eigenvalue: self.linearization.eigenvalue(values[i])?,
-                derivative: c64::new(0.0, 0.0),
-                right: column(&right),
-                left: column(&upper),
-            })
-        };
-        let oscillating = order.into_iter().filter_map(mode);
+        let part = |vectors: &Mat<c64>, i: usize| column(vectors.as_ref(), i)[..m].to_vec();
+        let oscillating = self.oscillating(&values, |i| [part(&right, i), part(&upper, i)]);
         let oscillating =
             oscillating.filter(|mode| !(mode.damping_factor().abs() > HARDLY_OSCILLATING));
         Ok(self.leading(oscillating, m, count, |mode| !mode.is_nearly_critical()))
@@ -269,28 +272,6 @@ fn lossy_operator(
         (false, _) => c64::new(f64::from(u8::from(i - m == j)), 0.0),
     });
     (lu, operator)
-}
-
-/// The first `rows` entries of column `i` of packed vectors, as a complex vector, conjugated if asked.
-fn unpack(
-    values: &[c64],
-    vectors: MatRef<'_, f64>,
-    rows: usize,
-    i: usize,
-    conjugated: bool,
-) -> Vec<c64> {
-    let (re, im, sign) = match values[i].im {
-        im if im > 0.0 => (i, Some(i + 1), 1.0),
-        im if im < 0.0 => (i - 1, Some(i), -1.0),
-        _ => (i, None, 0.0),
-    };
-    let sign = if conjugated { -sign } else { sign }; // w = conj y, as w^T T stands for y^H T.
-    (0..rows)
-        .map(|row| {
-            let imaginary = im.map_or(0.0, |k| sign * vectors[(row, k)]);
-            c64::new(vectors[(row, re)], imaginary)
-        })
-        .collect()
 }
 
 #[cfg(test)]
