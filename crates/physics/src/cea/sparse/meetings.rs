@@ -1,8 +1,8 @@
 //! Modes that grow only where two branches meet, between the friction coefficients of a sweep.
 
 use crate::cea::branch::Cubic;
+use crate::cea::sparse::branches::followed;
 use crate::cea::sparse::*;
-use std::slice::from_ref;
 
 /// Two branches, each with its index at the lower end of a step and its modes at both ends.
 type Pair<'a> = [(usize, [&'a ReducedMode; 2]); 2];
@@ -57,11 +57,8 @@ fn alone(
     mut places: impl Iterator<Item = f64>,
 ) -> Option<ModeAt> {
     places.find_map(|mu| {
-        let eigenvalue = end.eigenvalue + end.derivative * (mu - start);
-        let mode = model.mode_near(mu, &ReducedMode { eigenvalue, ..end.clone() })?;
-        let [a, b] = model.overlaps_at(0.5 * (mu + start), from_ref(&mode), from_ref(end));
-        let is_same = (a[(0, 0)] * b[(0, 0)] - 1.0).norm() < SAME;
-        (is_same && !mode.is_growing()).then_some(ModeAt { mu, mode })
+        let mode = followed(model, (start, end), mu)?;
+        (!mode.is_growing()).then_some(ModeAt { mu, mode })
     })
 }
 

@@ -186,20 +186,6 @@ impl SparseSweep<'_> {
             is_led_back: false,
         }
     }
-
-    /// The branch at `guess` by an iteration from the nearer end, where what it finds overlaps with both.
-    fn continued(&self, from: &ModeAt, to: &ModeAt, guess: BranchPoint) -> Option<ReducedMode> {
-        let mu = guess.friction_coefficient;
-        let ends = [from, to];
-        let nearer = usize::from((to.mu - mu).abs() < (mu - from.mu).abs());
-        let start = ReducedMode { eigenvalue: guess.eigenvalue, ..ends[nearer].mode.clone() };
-        let mode = self.builder.model.mode_near(mu, &start)?;
-        let others = ends.map(|end| end.mode.clone());
-        let own = std::slice::from_ref(&mode);
-        let [forward, backward] = self.builder.model.overlaps_at(mu, own, &others);
-        let is_same = |j| (forward[(0, j)] * backward[(j, 0)] - 1.0).norm() < 2.0 * SAME;
-        [0, 1].into_iter().all(is_same).then_some(mode)
-    }
 }
 
 impl BranchSolver for &SparseSweep<'_> {
@@ -221,7 +207,7 @@ impl BranchSolver for &SparseSweep<'_> {
         state.mode.round_off()
     }
 
-    /// The mode that overlaps most with both ends.
+    /// The branch step by step, as it grows or ceases to: of two that meet one grows. Else the mode that overlaps most with both ends.
     fn between(
         &mut self,
         from: &ModeAt,
@@ -229,10 +215,6 @@ impl BranchSolver for &SparseSweep<'_> {
         guess: BranchPoint,
     ) -> Result<Option<ModeAt>, LinalgError> {
         let mu = guess.friction_coefficient;
-        if let Some(mode) = self.continued(from, to, guess) {
-            return Ok(Some(ModeAt { mu, mode }));
-        }
-        // As it grows or ceases to, step by step: of two that meet one grows.
         let growing = if from.mode.is_growing() { from } else { to };
         if let Some(mode) = followed(&self.builder.model, (growing.mu, &growing.mode), mu) {
             return Ok(Some(ModeAt { mu, mode }));
