@@ -1,6 +1,6 @@
 //! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
-use super::{Contact, OnsetChoice, Spacing, StabilityChoice, keys, range_values};
+use super::{Contact, OnsetChoice, Spacing, StabilityChoice, keys, range_values, reader::declared};
 use crate::*;
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 
@@ -8,43 +8,34 @@ use frictionsim_physics::cycle::{BasinRequest, Parameter};
 /// and a wave that is no motion of the disc is gone by then.
 const CONFIRMATION_PERIODS: usize = 20;
 
-/// `[cycle]`: limit cycles.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cycle {
-    /// Circumferential harmonics; `None` takes those that are unstable.
-    pub harmonics: Option<Vec<usize>>,
-    /// Onsets of each harmonic.
-    pub onsets: OnsetChoice,
-    /// Phases along the wave; `None` takes as many as the mesh asks for.
-    pub phases: Option<usize>,
-    /// Harmonics in which the motion of a body without symmetry is told; `None` takes as many as leave a thousandth of
-    /// it.
-    pub harmonic_count: Option<usize>,
-    /// Times over one period at which the whole field is written.
-    pub frames: usize,
-    /// Periods of the transient that puts a cycle to the test; 0 for none.
-    pub confirmation_periods: usize,
-    /// What stability is worked out for.
-    pub stability: StabilityChoice,
-    /// Whether the motion of two frequencies is sought where a rotating wave loses its stability to another.
-    pub two_frequencies: bool,
-    /// Continuation over a parameter.
-    pub continuation: Option<Continuation>,
+declared! {
+    /// `[cycle]`: limit cycles.
+    Cycle {
+        onsets: OnsetChoice = choice, "Onsets of each harmonic.";
+        phases: Option<usize> = optional_count, "Phases along the wave; `None` takes as many as the mesh asks for.";
+        harmonic_count: Option<usize> = optional_count, "Harmonics in which the motion of a body without symmetry is \
+            told; `None` takes as many as leave a thousandth of it.";
+        frames: usize = count, "Times over one period at which the whole field is written.";
+        confirmation_periods: usize = count, "Periods of the transient that puts a cycle to the test; 0 for none.";
+        stability: StabilityChoice = choice, "What stability is worked out for.";
+        two_frequencies: bool = flag, "Whether the motion of two frequencies is sought where a rotating wave loses its \
+            stability to another.";
+    } with {
+        harmonics: Option<Vec<usize>>, "Circumferential harmonics; `None` takes those that are unstable.";
+        continuation: Option<Continuation>, "Continuation over a parameter.";
+    }
 }
 
-/// `[cycle.continuation]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Continuation {
-    /// What the cycles are followed over.
-    pub parameter: Parameter,
-    /// Its first value, in units of its key.
-    pub from: f64,
-    /// Its last value.
-    pub to: f64,
-    /// Values between them, ends included, at which cycles are reported.
-    pub count: usize,
-    /// How those values are spaced.
-    pub spacing: Spacing,
+declared! {
+    /// `[cycle.continuation]`.
+    Continuation {
+        from: f64 = number, "First value of the parameter, in units of its key.";
+        to: f64 = number, "Its last value.";
+        count: usize = count, "Values between them, ends included, at which cycles are reported.";
+        spacing: Spacing = choice, "How those values are spaced.";
+    } with {
+        parameter: Parameter, "What the cycles are followed over.";
+    }
 }
 
 impl Continuation {
@@ -128,17 +119,9 @@ impl Body {
 }
 
 pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
-    let own = Cycle {
-        harmonics: section.harmonics(body.and_then(Body::sector_count)),
-        onsets: section.choice("onsets"),
-        phases: section.optional_count("phases"),
-        harmonic_count: section.optional_count("harmonic_count"),
-        frames: section.count("frames"),
-        confirmation_periods: section.count("confirmation_periods"),
-        stability: section.choice("stability"),
-        two_frequencies: section.flag("two_frequencies"),
-        continuation: section.read_section("continuation", |own| continuation(own, body)),
-    };
+    let harmonics = section.harmonics(body.and_then(Body::sector_count));
+    let mut own = Cycle::declared(section, harmonics, None);
+    own.continuation = section.read_section("continuation", |own| continuation(own, body));
     if let periods @ 1..CONFIRMATION_PERIODS = own.confirmation_periods {
         refuse!(section, "confirmation_periods",
             "cycle.confirmation_periods = {periods} is too short to read a frequency from its last \
@@ -156,8 +139,9 @@ pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
 }
 
 fn continuation(section: &Section<'_>, body: Option<&Body>) -> Continuation {
-    let (key, from, to) = (section.text("key"), section.number("from"), section.number("to"));
-    let (count, spacing) = (section.count("count"), section.choice("spacing"));
+    let key = section.text("key");
+    let own = Continuation::declared(section, Parameter::FrictionCoefficient);
+    let Continuation { from, to, spacing, .. } = own;
     // Of a round or a plane counterface, or of solid bodies.
     let suits = |own: &Parameter| match body.map(|body| (&body.kind, body.imported())) {
         Some((BodyKind::Assembly(_), _)) => own.is_of_solid_bodies(),
@@ -186,8 +170,7 @@ fn continuation(section: &Section<'_>, body: Option<&Body>) -> Continuation {
     }
     refuse_if!(from == to; section, "to", "cycle.continuation.to = {to} equals from";
         "must differ from `from`");
-    let parameter = parameter.copied().unwrap_or(Parameter::FrictionCoefficient);
-    Continuation { parameter, from, to, count, spacing }
+    Continuation { parameter: parameter.copied().unwrap_or(own.parameter), ..own }
 }
 
 pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest {

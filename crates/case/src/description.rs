@@ -3,17 +3,18 @@
 use super::boundaries::NamedCondition;
 use super::modifications::Modification;
 use super::{UnitsWord, boundaries, elastic, modifications};
-use super::{tables::TableFiles, words::FilePart};
+use super::{reader::declared, tables::TableFiles, words::FilePart};
 use crate::*;
 
-/// `[damping]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Damping {
-    /// Rayleigh's coefficients.
-    pub rayleigh: RayleighDamping,
-    /// Whether `beta_R` multiplies the whole tangent, contact and friction terms included, or the
-    /// body's stiffness alone.
-    pub include_contact: bool,
+declared! {
+    /// `[damping]`.
+    #[derive(Copy)]
+    Damping {
+        include_contact: bool = flag, "Whether `beta_R` multiplies the whole tangent, contact and friction terms \
+            included, or the body's stiffness alone.";
+    } with {
+        rayleigh: RayleighDamping, "Rayleigh's coefficients.";
+    }
 }
 
 /// What describes the body of a case.
@@ -119,11 +120,7 @@ fn material(root: &Section<'_>, tables: &TableFiles<'_>) -> RegionMaterial {
 }
 
 pub(super) fn damping(section: &Section<'_>) -> Damping {
-    Damping {
-        rayleigh: RayleighDamping {
-            mass_coefficient: section.number("mass_coefficient"),
-            stiffness_coefficient: section.number("stiffness_coefficient"),
-        },
-        include_contact: section.flag("include_contact"),
-    }
+    let [mass_coefficient, stiffness_coefficient] =
+        ["mass_coefficient", "stiffness_coefficient"].map(|key| section.number(key));
+    Damping::declared(section, RayleighDamping { mass_coefficient, stiffness_coefficient })
 }

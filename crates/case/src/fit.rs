@@ -1,7 +1,7 @@
 //! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
 
 use super::parameters::{number, only, read_all};
-use super::{Spacing, VariedKey};
+use super::{Spacing, VariedKey, reader::declared};
 use crate::*;
 
 /// A parameter with the bounds between which it is sought.
@@ -45,23 +45,20 @@ impl FitParameter {
     }
 }
 
-/// `[fit]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Fit {
-    /// What is fitted, in alphabetical order.
-    pub parameters: Vec<FitParameter>,
-    /// Points within the bounds at which the search looks first.
-    pub starts: usize,
-    /// What a measured shape counts that has nothing of its line's mode: the share of the frequency that counts as
-    /// much.
-    pub shape_weight: f64,
+declared! {
+    /// `[fit]`.
+    Fit {
+        starts: usize = count, "Points within the bounds at which the search looks first.";
+        shape_weight: f64 = number, "What a measured shape counts that has nothing of its line's mode: the share of \
+            the frequency that counts as much.";
+    } with {
+        parameters: Vec<FitParameter>, "What is fitted, in alphabetical order.";
+    }
 }
 
 pub(super) fn fit(section: &Section<'_>) -> Fit {
-    let starts = section.count("starts");
-    let shape_weight = section.number("shape_weight");
-    let parameters = read_all(section, "parameters", bounds, |own| &own.parameter);
-    Fit { parameters, starts, shape_weight }
+    let own = Fit::declared(section, Vec::new());
+    Fit { parameters: read_all(section, "parameters", bounds, |own| &own.parameter), ..own }
 }
 
 /// `[from, to]` or `{ from, to, scale, also }`.

@@ -1,30 +1,23 @@
 //! `[frf]`: a frequency response of the model.
 
-use super::FrfMethod;
+use super::{FrfMethod, reader::declared};
 use crate::*;
 use frictionsim_physics::frf::{Direction, Terminal};
 
-/// `[frf]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Frf {
-    /// How the body is held.
-    pub boundary: FrfBoundary,
-    /// Where and in which direction the force acts.
-    pub force: Terminal,
-    /// Where and in which direction the motion is observed.
-    pub response: Terminal,
-    /// Frequencies, Hz, in the order given.
-    pub frequencies_hz: Vec<f64>,
-    /// What is observed.
-    pub quantity: ResponseQuantity,
-    /// How it is computed.
-    pub method: FrfMethod,
-    /// Which mass matrix.
-    pub mass: MassKind,
-    /// Standard deviation of the noise on each part, relative to the magnitude.
-    pub noise: f64,
-    /// Seed of the noise.
-    pub noise_seed: usize,
+declared! {
+    /// `[frf]`.
+    Frf {
+        boundary: FrfBoundary = choice, "How the body is held.";
+        quantity: ResponseQuantity = choice, "What is observed.";
+        method: FrfMethod = choice, "How it is computed.";
+        mass: MassKind = choice, "Which mass matrix.";
+        noise: f64 = number, "Standard deviation of the noise on each part, relative to the magnitude.";
+        noise_seed: usize = count, "Seed of the noise.";
+    } with {
+        force: Terminal, "Where and in which direction the force acts.";
+        response: Terminal, "Where and in which direction the motion is observed.";
+        frequencies_hz: Vec<f64>, "Frequencies, Hz, rising.";
+    }
 }
 
 pub(super) fn read(section: &Section<'_>, body: Option<&Body>) -> Frf {
@@ -56,17 +49,8 @@ pub(super) fn read(section: &Section<'_>, body: Option<&Body>) -> Frf {
     let force = Terminal { node: force_node, direction: direction("force_direction") };
     let key = "response_direction";
     let along = if section.has(key) { direction(key) } else { force.direction };
-    let frf = Frf {
-        boundary: section.choice("boundary"),
-        force,
-        response: Terminal { node: response_node, direction: along },
-        frequencies_hz,
-        quantity: section.choice("quantity"),
-        method: section.choice("method"),
-        mass: section.choice("mass"),
-        noise: section.number("noise"),
-        noise_seed: section.count("noise_seed"),
-    };
+    let response = Terminal { node: response_node, direction: along };
+    let frf = Frf::declared(section, force, response, frequencies_hz);
     caution_if!(section.has("noise_seed") && frf.noise == 0.0; section, "noise_seed",
         "frf.noise_seed is not used: frf.noise is 0"; "no noise");
     frf

@@ -90,6 +90,29 @@ pub(super) struct Section<'a> {
     asked: RefCell<BTreeSet<String>>,
 }
 
+/// Declares a section, a struct: `key: type = getter, "meaning";` is a key that this getter of [`Section`] reads as it
+/// stands; behind `with` are fields that take more, which are given: `field: type, "meaning";`.
+macro_rules! declared {
+    ($(#[$($meta:tt)+])* $name:ident {
+        $($key:ident: $type:ty = $read:ident, $meaning:literal;)+
+    } $(with { $($field:ident: $of:ty, $what:literal;)+ })?) => {
+        $(#[$($meta)+])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $name {
+            $(#[doc = $meaning] pub $key: $type,)+
+            $($(#[doc = $what] pub $field: $of,)+)?
+        }
+
+        impl $name {
+            fn declared(section: &Section<'_> $($(, $field: $of)+)?) -> Self {
+                $(let $key = section.$read(stringify!($key));)+
+                Self { $($key,)+ $($($field,)+)? }
+            }
+        }
+    };
+}
+pub(crate) use declared;
+
 impl<'a> Section<'a> {
     /// The whole document; `at` is where missing sections are reported.
     pub fn root(findings: &'a Findings<'a>, table: &'a RawTable, at: Location) -> Self {

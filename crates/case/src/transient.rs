@@ -1,6 +1,6 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::PlacedNode;
+use super::{PlacedNode, reader::declared};
 use crate::*;
 use frictionsim_physics::transient::{
     InitialState, Perturbation, RecorderSettings, StandingWave, TimeStep, TransientSettings,
@@ -21,19 +21,16 @@ pub struct Transient {
     stop_when_settled: bool,
 }
 
-/// `[output]`: what a transient writes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Output {
-    /// What a run keeps; its snapshots rise.
-    pub recorder: RecorderSettings,
-    /// Those of its probes that were asked for by their place.
-    pub placed_probes: Vec<PlacedNode>,
-    /// Time between samples, s.
-    pub sample_interval: f64,
-    /// Wall time between checkpoints, s.
-    pub checkpoint_interval: f64,
-    /// Whether meshes, shapes and responses are written as universal files, too.
-    pub universal: bool,
+declared! {
+    /// `[output]`: what a transient writes.
+    Output {
+        checkpoint_interval: f64 = number, "Wall time between checkpoints, s.";
+        universal: bool = flag, "Whether meshes, shapes and responses are written as universal files, too.";
+    } with {
+        recorder: RecorderSettings, "What a run keeps; its snapshots rise.";
+        placed_probes: Vec<PlacedNode>, "Those of its probes that were asked for by their place.";
+        sample_interval: f64, "Time between samples, s.";
+    }
 }
 
 impl Case {
@@ -218,19 +215,14 @@ pub(super) fn output(
     refuse_if!(interval < sample_interval; section, "contact_interval" =>
         "= {interval:?} s is below output.sample_interval = {sample_interval:?} s";
         "at least the sample interval");
-    Output {
-        recorder: RecorderSettings {
-            probes,
-            snapshots,
-            contact_interval,
-            raw_acceleration: section.flag("raw_acceleration"),
-            stop_when_settled: transient.is_some_and(|own| own.stop_when_settled),
-        },
-        placed_probes,
-        sample_interval,
-        checkpoint_interval: section.number("checkpoint_interval"),
-        universal: section.flag("universal"),
-    }
+    let recorder = RecorderSettings {
+        probes,
+        snapshots,
+        contact_interval,
+        raw_acceleration: section.flag("raw_acceleration"),
+        stop_when_settled: transient.is_some_and(|own| own.stop_when_settled),
+    };
+    Output::declared(section, recorder, placed_probes, sample_interval)
 }
 
 /// The probes, counted from 1, and those of them that were asked for by their place.
