@@ -1,20 +1,16 @@
-//! The command line: one file for each subcommand.
+//! The command line: a file for each subcommand that has options of its own.
 
-mod basin;
 pub mod cea;
 pub mod check;
 mod collect;
 mod columns;
 mod compare;
 mod completions;
-mod convergence;
 pub mod cycle;
 pub mod embedded;
 mod failure;
 mod fit;
-mod frf;
 mod identify;
-mod improve;
 mod init;
 mod keys;
 mod limits;
@@ -31,6 +27,7 @@ mod session;
 mod share;
 pub mod shipped;
 mod signal;
+mod studies;
 pub mod sweep;
 pub mod terminal;
 pub mod transient;
@@ -60,10 +57,10 @@ pub struct CommandLine {
     command: Command,
 }
 
-/// The table of commands: the arguments of each, and the file whose `run` takes them. It fails on what is asked for in
-/// vain: arguments, a case or a folder (exit code 2); or the run fails (1).
+/// The table of commands: the arguments of each, and what takes them. It fails on what is asked for in vain:
+/// arguments, a case or a folder (exit code 2); or the run fails (1).
 macro_rules! commands {
-    ($($(#[$help:meta])* $name:ident($arguments:ty): $module:ident,)*) => {
+    ($($(#[$help:meta])* $name:ident($arguments:ty): $run:path,)*) => {
         #[derive(Subcommand)]
         enum Command {
             $($(#[$help])* $name($arguments),)*
@@ -72,7 +69,7 @@ macro_rules! commands {
         impl Command {
             fn run(&self) -> Result<(), Failure> {
                 match self {
-                    $(Self::$name(arguments) => $module::run(arguments),)*
+                    $(Self::$name(arguments) => $run(arguments),)*
                 }
             }
         }
@@ -84,12 +81,12 @@ commands! {
     ///
     /// Solves complex eigenvalues over the friction coefficient. For a body that is solved on its whole mesh, Ctrl-C
     /// keeps finished friction values; --resume continues. Needs a section `[cea]`.
-    Cea(ResumedRun): cea,
-    Transient(transient::Arguments): transient,
-    Sweep(sweep::Arguments): sweep,
-    Collect(collect::Arguments): collect,
-    Compare(compare::Arguments): compare,
-    Plot(plot::Arguments): plot,
+    Cea(ResumedRun): cea::run,
+    Transient(transient::Arguments): transient::run,
+    Sweep(sweep::Arguments): sweep::run,
+    Collect(collect::Arguments): collect::run,
+    Compare(compare::Arguments): compare::run,
+    Plot(plot::Arguments): plot::run,
     /// The vibration that each unstable mode saturates to
     ///
     /// Finds limit cycles without time stepping. On the built-in disc a limit cycle is a rotating wave, solved along
@@ -97,44 +94,44 @@ commands! {
     /// of the transient. cycle.continuation follows it over a parameter. Its stability is computed, and a short
     /// transient confirms it. Ctrl-C keeps finished cycles and branch points; --resume continues. Needs a section
     /// `[cycle]`.
-    Cycle(ResumedRun): cycle,
+    Cycle(ResumedRun): cycle::run,
     /// Which of two limit cycles wins
     ///
     /// Runs transients with two seeds: two waves on the built-in disc, two modes on any other body. Bisects the ratio
     /// of the seeds above which the second one wins. With one mode it finds the kick that tips stable sliding into its
     /// limit cycle. Needs a [basin] section. A map over speed and friction is a sweep with analyses = ["basin"].
-    Basin(RunOptions): basin,
+    Basin(RunOptions): studies::basin,
     /// Show that results have converged over mesh and time step
     ///
     /// Runs the analyses of a case on refined meshes, and its transient with shorter time steps. Reads the observed
     /// order off the three finest runs, extrapolates after Richardson, and marks what does not converge. Needs a
     /// section `[convergence]`.
-    Convergence(RunOptions): convergence,
+    Convergence(RunOptions): studies::convergence,
     /// Find changes that silence the unstable modes
     ///
     /// Computes the derivatives of growth rates by a mass, spring, dashpot, damping layer or removed patch at every
     /// place. Predicts the best places with all modes together. Runs the best candidates again as cases of their own.
     /// The [improve] section limits what may be changed and by how much.
-    Improve(RunOptions): improve,
-    Mac(mac::Arguments): mac,
+    Improve(RunOptions): studies::improve,
+    Mac(mac::Arguments): mac::run,
     /// Draw and measure the mesh alone
-    Mesh(RunOptions): mesh,
-    Matrices(matrices::Arguments): matrices,
-    Check(check::Arguments): check,
-    Init(init::Arguments): init,
-    Keys(keys::Arguments): keys,
-    Columns(columns::Arguments): columns,
-    Fit(fit::Arguments): fit,
+    Mesh(RunOptions): mesh::run,
+    Matrices(matrices::Arguments): matrices::run,
+    Check(check::Arguments): check::run,
+    Init(init::Arguments): init::run,
+    Keys(keys::Arguments): keys::run,
+    Columns(columns::Arguments): columns::run,
+    Fit(fit::Arguments): fit::run,
     /// Frequency response between two nodes
     ///
     /// Writes frf.csv, which `frictionsim identify` reads. Compare it with a hammer test, or check identification
     /// against a known damping. Needs a section `[frf]`.
-    Frf(RunOptions): frf,
-    Identify(identify::Arguments): identify,
-    Signal(signal::Arguments): signal,
-    Uncertainty(uncertainty::Arguments): uncertainty,
-    Completions(completions::Arguments): completions,
-    Man(man::Arguments): man,
+    Frf(RunOptions): studies::frf,
+    Identify(identify::Arguments): identify::run,
+    Signal(signal::Arguments): signal::run,
+    Uncertainty(uncertainty::Arguments): uncertainty::run,
+    Completions(completions::Arguments): completions::run,
+    Man(man::Arguments): man::run,
 }
 
 /// Commands by what they are for, in the order of the help; all others are under "Help".

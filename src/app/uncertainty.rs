@@ -5,7 +5,7 @@ use super::share::ShareOptions;
 use super::sweep::{keep_piece, kept_pieces};
 use crate::case::find_key;
 use crate::results::uncertainty::{Sample, samples_table};
-use crate::results::{Finding, declared, summary_of, write_page, write_summary, write_table};
+use crate::results::{Finding, declared, summary_of, write_table};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use serde_json::Map;
 
@@ -84,25 +84,21 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     for note in &summary.notes {
         tracing::warn!("{note}");
     }
-    let manifest = &session.manifest;
-    let head = session.head();
-    let object = summary_of(manifest, head, &summary).map_err(Failure::run)?;
-    let document = summary.document().titled(&case.title);
-    let text = document.to_text();
-    if missing == 0 {
-        let largest = summary.largest_friction;
-        write_table(folder.output(), &samples_table(&uncertainty.keys(), &samples, largest))?;
-        let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
-        if failed.clone().count() == samples.len() {
-            let first = failed.next().unwrap_or_default();
-            return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
-        }
-        write_summary(folder.output(), head, &summary)?;
-        if let Some(drawing) = output.drawing() {
-            write_page(folder.output(), document, declared(summary.figures()), &drawing)?;
-        }
+    let folder = folder.output();
+    let told = Told::of(session.head(), summary.document());
+    if missing > 0 {
+        let object = summary_of(&session.manifest, told.head, &summary).map_err(Failure::run)?;
+        return output.print(&told.text, &object, folder.path());
     }
-    output.print(&text, &object, folder.output().path())
+    write_table(folder, &samples_table(&uncertainty.keys(), &samples, summary.largest_friction))?;
+    let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
+    if failed.clone().count() == samples.len() {
+        let first = failed.next().unwrap_or_default();
+        return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
+    }
+    let figures = || declared(summary.figures());
+    let (text, object) = output.write_result(folder, told, &summary, figures)?;
+    output.print(&text, &object, folder.path())
 }
 
 /// Refuses what cannot be designed.
