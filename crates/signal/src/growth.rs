@@ -279,7 +279,7 @@ fn longest_line(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixtures::gaussian_sequence;
+    use crate::fixtures::{gaussian_sequence, sampled};
     use std::f64::consts::TAU;
 
     /// Rate and frequency over the whole record, without search or cut.
@@ -319,12 +319,7 @@ mod tests {
     #[test]
     fn rate_of_a_pure_exponential_is_exact_in_a_given_interval() {
         let rate = 1e5;
-        let x: Vec<f64> = (0..5000)
-            .map(|j| {
-                let t = j as f64 / rate;
-                (150.0 * t).exp() * (TAU * 1000.0 * t + 0.3).cos()
-            })
-            .collect();
+        let x = sampled(5000, rate, |t| (150.0 * t).exp() * (TAU * 1000.0 * t + 0.3).cos());
         let stage = over_all(&x, rate, 1010.0);
         // Leakage of the negative frequency and of the removed mean through the window: -92 dB.
         assert!((stage.rate_per_s.value - 150.0).abs() < 0.05, "{stage:?}");
@@ -336,14 +331,8 @@ mod tests {
     #[test]
     fn a_ring_down_gives_a_negative_rate_and_a_steady_tone_none() {
         let rate = 1e5;
-        let tone = |sigma: f64| -> Vec<f64> {
-            (0..8000)
-                .map(|j| {
-                    let t = j as f64 / rate;
-                    (sigma * t).exp() * (TAU * 2000.0 * t).sin()
-                })
-                .collect()
-        };
+        let tone =
+            |sigma: f64| sampled(8000, rate, |t| (sigma * t).exp() * (TAU * 2000.0 * t).sin());
         let stage = exponential_stage(&tone(-80.0), rate).unwrap();
         assert!((stage.rate_per_s.value + 80.0).abs() < 0.5, "{stage:?}");
         assert!(matches!(exponential_stage(&tone(0.0), rate), Err(NoGrowth::NotExponential(_))));
@@ -351,14 +340,9 @@ mod tests {
 
     /// A vibration at 3456.7 Hz with an envelope over so many seconds, in noise, sampled at 51.2 kHz.
     fn heard(duration: f64, noise: f64, envelope: impl Fn(f64) -> f64) -> Vec<f64> {
-        let rate = 51_200.0;
-        let mut gaussian = gaussian_sequence(11);
-        (0..(duration * rate) as usize)
-            .map(|j| {
-                let t = j as f64 / rate;
-                envelope(t) * (TAU * 3456.7 * t).cos() + noise * gaussian()
-            })
-            .collect()
+        let (rate, mut gaussian) = (51_200.0, gaussian_sequence(11));
+        let heard = |t| envelope(t) * (TAU * 3456.7 * t).cos() + noise * gaussian();
+        sampled((duration * rate) as usize, rate, heard)
     }
 
     #[test]
@@ -388,7 +372,7 @@ mod tests {
             let tones = |t: f64| {
                 (TAU * 1000.0 * t).sin() + envelope(t) * (TAU * (1000.0 + apart_hz) * t + 1.0).sin()
             };
-            (0..20_000).map(|j| tones(f64::from(j) / 2e4) + 1e-3 * gaussian()).collect()
+            sampled(20_000, 2e4, |t| tones(t) + 1e-3 * gaussian())
         };
         for (apart_hz, r) in
             [(0.5, 1.0), (2.0, 0.5), (2.0, 0.9), (3.0, 0.5), (5.0, 1.0), (8.0, 0.7)]
@@ -405,13 +389,10 @@ mod tests {
     fn what_grows_beside_a_steady_hum_is_found() {
         let mut gaussian = gaussian_sequence(3);
         for (rate, first) in [(8.0, 1e-3), (12.0, 1e-5), (40.0, 1e-9)] {
-            let samples: Vec<f64> = (0..20_000)
-                .map(|j| {
-                    let t = f64::from(j) / 2e4;
-                    let squeal = (first * (rate * t).exp()).min(3.0) * (TAU * 3010.0 * t).sin();
-                    0.1 * (TAU * 500.0 * t).sin() + squeal + 1e-4 * gaussian()
-                })
-                .collect();
+            let samples = sampled(20_000, 2e4, |t| {
+                let squeal = (first * (rate * t).exp()).min(3.0) * (TAU * 3010.0 * t).sin();
+                0.1 * (TAU * 500.0 * t).sin() + squeal + 1e-4 * gaussian()
+            });
             let stage = exponential_stage(&samples, 2e4).unwrap();
             assert!((stage.rate_per_s.value / rate - 1.0).abs() < 0.02, "{rate}: {stage:?}");
             assert!((stage.frequency_hz.value / 3010.0 - 1.0).abs() < 1e-3, "{stage:?}");
@@ -438,8 +419,7 @@ mod tests {
         for noise in [0.0, 1e-3] {
             let mut gaussian = gaussian_sequence(3);
             let mut stage = |of: &dyn Fn(f64) -> f64| {
-                let own = |j: u32| of(f64::from(j) / 2e4) + noise * gaussian();
-                exponential_stage(&(0..20_000).map(own).collect::<Vec<f64>>(), 2e4)
+                exponential_stage(&sampled(20_000, 2e4, |t| of(t) + noise * gaussian()), 2e4)
             };
             let line = stage(&|t| (0.01 + t) * (TAU * 800.0 * t).sin());
             assert!(matches!(line, Err(NoGrowth::NotExponential(_))), "{line:?}");
@@ -454,12 +434,8 @@ mod tests {
         let mut noise = gaussian_sequence(7);
         let mut covered = 0;
         for _ in 0..100 {
-            let x: Vec<f64> = (0..6000)
-                .map(|j| {
-                    let t = j as f64 / rate;
-                    (40.0 * t).exp() * (TAU * 2000.0 * t).sin() + 0.05 * noise()
-                })
-                .collect();
+            let noisy = |t: f64| (40.0 * t).exp() * (TAU * 2000.0 * t).sin() + 0.05 * noise();
+            let x = sampled(6000, rate, noisy);
             let stage = over_all(&x, rate, 2000.0);
             covered += i32::from(stage.rate_per_s.low <= 40.0 && 40.0 <= stage.rate_per_s.high);
         }

@@ -245,7 +245,7 @@ fn name_superharmonics(lines: &mut [SpectralLine], bin: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixtures::gaussian_sequence;
+    use crate::fixtures::{gaussian_sequence, sampled};
     use std::f64::consts::TAU;
 
     fn lines(samples: &[f64], rate: f64, asked_hz: Option<f64>) -> Vec<SpectralLine> {
@@ -258,12 +258,9 @@ mod tests {
         // 10 ms of a limit cycle at 2 us: the bin is 100 Hz, the target 0.1 % of 9.4 kHz.
         let rate = 5e5;
         for frequency in [9403.0, 9437.7, 9470.1, 10_651.3] {
-            let x: Vec<f64> = (0..5000)
-                .map(|j| {
-                    let p = TAU * frequency * j as f64 / rate;
-                    3.0 * p.sin() + 0.8 * (2.0 * p + 1.0).sin() + 0.4 * (3.0 * p).cos() + 11.0
-                })
-                .collect();
+            let x = sampled(5000, rate / frequency / TAU, |p| {
+                3.0 * p.sin() + 0.8 * (2.0 * p + 1.0).sin() + 0.4 * (3.0 * p).cos() + 11.0
+            });
             let line = main_frequency(&x, rate).unwrap();
             assert!((line.frequency_hz / frequency - 1.0).abs() < 1e-4, "{line:?}");
             assert!((line.amplitude - 3.0).abs() < 0.01);
@@ -273,15 +270,12 @@ mod tests {
     #[test]
     fn superharmonics_are_named_and_a_strange_line_is_not() {
         let rate = 2e5;
-        let x: Vec<f64> = (0..20_000)
-            .map(|j| {
-                let t = TAU * j as f64 / rate;
-                (9437.0 * t).sin()
-                    + 1.4 * (2.0 * 9437.0 * t).cos()
-                    + 0.2 * (3.0 * 9437.0 * t).sin()
-                    + 0.5 * (5856.0 * t).sin()
-            })
-            .collect();
+        let x = sampled(20_000, rate / TAU, |t| {
+            (9437.0 * t).sin()
+                + 1.4 * (2.0 * 9437.0 * t).cos()
+                + 0.2 * (3.0 * 9437.0 * t).sin()
+                + 0.5 * (5856.0 * t).sin()
+        });
         let lines = lines(&x, rate, None);
         assert_eq!(lines.len(), 4);
         // Strongest is the first superharmonic; its fundamental stands second.

@@ -59,18 +59,16 @@ pub fn rotating_lines(series: &[c64], sampling_rate: f64, weakest: f64) -> Vec<R
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixtures::sampled;
     use std::f64::consts::TAU;
 
     #[test]
     fn lines_of_a_complex_series_have_frequency_sense_and_amplitude() {
         let rate = 5e5;
         let turning = |f: f64, a: f64, t: f64| c64::from_polar(a, TAU * f * t + 0.4);
-        let series: Vec<c64> = (0..5000)
-            .map(|k| {
-                let t = k as f64 / rate;
-                c64::new(3.0, 1.0) + turning(-10_343.9, 1.0, t) + turning(9533.2, 0.4, t)
-            })
-            .collect();
+        let series = sampled(5000, rate, |t| {
+            c64::new(3.0, 1.0) + turning(-10_343.9, 1.0, t) + turning(9533.2, 0.4, t)
+        });
         let lines = rotating_lines(&series, rate, 1e-3);
         assert_eq!(lines.len(), 2, "{lines:?}");
         // A bin is 100 Hz; the parabola leaves a fiftieth of it, and 1 % of the amplitude.

@@ -77,16 +77,14 @@ pub fn spectrogram(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixtures::sampled;
     use std::f64::consts::TAU;
 
     /// A faint tone that switches to a loud one.
     fn switching(rate: f64, switch: f64, count: usize) -> Vec<f64> {
-        (0..count)
-            .map(|j| {
-                let t = j as f64 / rate;
-                if t < switch { (TAU * 5800.0 * t).sin() } else { 1e3 * (TAU * 9900.0 * t).sin() }
-            })
-            .collect()
+        sampled(count, rate, |t| {
+            if t < switch { (TAU * 5800.0 * t).sin() } else { 1e3 * (TAU * 9900.0 * t).sin() }
+        })
     }
 
     #[test]

@@ -49,7 +49,7 @@ columns! {
 
 keys! {
     /// The limit cycles of one harmonic or mode.
-    #[derive(Deserialize)]
+    #[derive(Default, Deserialize)]
     FamilyRecord {
         harmonic: usize = "circumferential harmonic; 0 of a body without rotating waves, whose cycles have a mode";
         onset: usize = "onset of that harmonic at which the cycles are born, from 1";

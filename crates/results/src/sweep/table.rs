@@ -324,21 +324,32 @@ mod tests {
     use super::*;
     use serde_json::{Map, json};
 
-    fn record(point: usize, summary: Value) -> PointRecord {
-        let object = |value: Value| value.as_object().cloned().unwrap_or_default();
+    /// A point of a sweep over the inner radius.
+    fn of(point: usize, analysis: &str, summary: Value) -> PointRecord {
         PointRecord {
             point,
-            swept: object(json!({ "contact.friction_coefficient": 0.3 })),
-            summaries: object(json!({ "transient": summary })),
+            swept: Map::from_iter([("geometry.inner_radius".to_owned(), json!(0.3))]),
+            summaries: Map::from_iter([(analysis.to_owned(), summary)]),
             ..PointRecord::default()
         }
     }
 
-    fn table(records: &[PointRecord]) -> String {
+    fn record(point: usize, summary: Value) -> PointRecord {
+        of(point, "transient", summary)
+    }
+
+    /// One of the tables of a sweep.
+    fn written(file: &str, records: &[PointRecord]) -> String {
+        let keys = ["geometry.inner_radius".to_owned()];
+        let mut tables = tables(&keys, &["cea", "cycle"], records);
+        tables.push(points(&keys, records));
         let mut out = Vec::new();
-        let keys = ["contact.friction_coefficient".to_owned()];
-        points(&keys, records).write_csv(&mut out).unwrap();
+        tables.iter().find(|table| table.file == file).unwrap().write_csv(&mut out).unwrap();
         String::from_utf8(out).unwrap()
+    }
+
+    fn table(records: &[PointRecord]) -> String {
+        written("points.csv", records)
     }
 
     #[test]
@@ -349,7 +360,7 @@ mod tests {
         });
         assert_eq!(
             table(&[record(1, summary)]),
-            "contact.friction_coefficient,steps,status.stick,growth.n2.rate_per_s,growth.n2.harmonic,\
+            "geometry.inner_radius,steps,status.stick,growth.n2.rate_per_s,growth.n2.harmonic,\
              point,error\n0.3,10,0.25,1e-7,2,1,\n"
         );
     }
@@ -389,7 +400,7 @@ mod tests {
         let long = record(2, json!({ "a": 1, "list": [1, 2], "z": null }));
         assert_eq!(
             table(&[short, long]),
-            "contact.friction_coefficient,a,list.0,list.1,z,point,error\n\
+            "geometry.inner_radius,a,list.0,list.1,z,point,error\n\
              0.3,1,1,,2,1,\n0.3,1,1,2,,2,\n"
         );
     }
@@ -400,25 +411,8 @@ mod tests {
         let long = record(2, json!({ "list": vec![0; 17], "z": 2 }));
         assert_eq!(
             table(&[short, long]),
-            "contact.friction_coefficient,z,point,error\n0.3,2,1,\n0.3,2,2,\n"
+            "geometry.inner_radius,z,point,error\n0.3,2,1,\n0.3,2,2,\n"
         );
-    }
-
-    fn long_record(point: usize, radius: f64, analysis: &str, summary: Value) -> PointRecord {
-        PointRecord {
-            point,
-            swept: Map::from_iter([("geometry.inner_radius".to_owned(), json!(radius))]),
-            summaries: Map::from_iter([(analysis.to_owned(), summary)]),
-            ..PointRecord::default()
-        }
-    }
-
-    fn written(file: &str, records: &[PointRecord]) -> String {
-        let keys = ["geometry.inner_radius".to_owned()];
-        let tables = tables(&keys, &["cea", "cycle"], records);
-        let mut out = Vec::new();
-        tables.iter().find(|table| table.file == file).unwrap().write_csv(&mut out).unwrap();
-        String::from_utf8(out).unwrap()
     }
 
     #[test]
@@ -429,13 +423,13 @@ mod tests {
         };
         let first = json!({ "critical_frictions": [onset(1, 1, 0.12), onset(2, 0, 0.14)] });
         let second = json!({ "critical_frictions": [onset(2, 0, 0.11)] });
-        let records = [long_record(1, 0.02, "cea", first), long_record(2, 0.03, "cea", second)];
+        let records = [of(1, "cea", first), of(2, "cea", second)];
         assert_eq!(
             written("stability.csv", &records),
             "geometry.inner_radius,harmonic,branch,direction,critical_friction,frequency_hz,\
              restabilized_friction,restabilized_frequency_hz,unstable_from_start,lost_after,point\n\
-             0.02,1,1,-1,0.12,10000.0,,,false,,1\n0.02,2,0,-1,0.14,10000.0,,,false,,1\n\
-             0.03,2,0,-1,0.11,10000.0,,,false,,2\n"
+             0.3,1,1,-1,0.12,10000.0,,,false,,1\n0.3,2,0,-1,0.14,10000.0,,,false,,1\n\
+             0.3,2,0,-1,0.11,10000.0,,,false,,2\n"
         );
     }
 
@@ -451,25 +445,21 @@ mod tests {
             growth_rate: vec![Some(-3.5), None],
             ..BranchRecord::default()
         };
-        let family = |harmonic, onset, mode| FamilyRecord {
-            harmonic,
-            onset,
-            mode,
-            onsets: Vec::new(),
-            cycle: None,
-            branch: Some(branch.clone()),
+        let family = |harmonic, onset, mode| {
+            let branch = Some(branch.clone());
+            FamilyRecord { harmonic, onset, mode, branch, ..FamilyRecord::default() }
         };
         let summary = json!({ "curves": [family(2, 1, None), family(0, 0, Some(4))] });
-        let text = written("branches.csv", &[long_record(1, 0.02, "cycle", summary)]);
+        let text = written("branches.csv", &[of(1, "cycle", summary)]);
         let rows: Vec<&str> = text.lines().skip(1).collect();
         let key = "contact.rotation_speed_rpm";
         assert_eq!(
             rows,
             [
-                format!("0.02,,2,1,{key},10.0,9000.0,1e-6,0.5,0.5,0.0,true,-3.5,1"),
-                format!("0.02,,2,1,{key},20.0,8000.0,2e-6,0.4,0.4,0.2,,,1"),
-                format!("0.02,4,,,{key},10.0,9000.0,1e-6,0.5,0.5,0.0,true,-3.5,1"),
-                format!("0.02,4,,,{key},20.0,8000.0,2e-6,0.4,0.4,0.2,,,1"),
+                format!("0.3,,2,1,{key},10.0,9000.0,1e-6,0.5,0.5,0.0,true,-3.5,1"),
+                format!("0.3,,2,1,{key},20.0,8000.0,2e-6,0.4,0.4,0.2,,,1"),
+                format!("0.3,4,,,{key},10.0,9000.0,1e-6,0.5,0.5,0.0,true,-3.5,1"),
+                format!("0.3,4,,,{key},20.0,8000.0,2e-6,0.4,0.4,0.2,,,1"),
             ]
         );
     }

@@ -56,10 +56,9 @@ fn shown_friction(summary: &UncertaintySummary) -> f64 {
 pub fn indices(summary: &UncertaintySummary) -> Figure {
     // The largest above.
     let rows = sorted(&summary.sobol, |a| a.1.total);
-    let place = |k: usize| k as f64;
     let bars = |of: fn(&Index) -> f64, shift: f64, colour: &str| {
         let bar = |(k, row): (usize, &(&String, &Index))| {
-            (0.0, of(row.1).max(0.0), place(k) + shift, String::new())
+            (0.0, of(row.1).max(0.0), k as f64 + shift, String::new())
         };
         Bars::new(rows.iter().enumerate().map(bar).collect(), colour)
     };
@@ -71,7 +70,7 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
             Some(Line::through([(low, at), (high, at)]).solid(INK, 0.7))
         })
     });
-    let names = rows.iter().enumerate().map(|(k, (key, _))| (place(k), parameter_name(key)));
+    let names = rows.iter().enumerate().map(|(k, (key, _))| (k as f64, parameter_name(key)));
     let largest = rows.iter().flat_map(|(_, own)| {
         let ends = [own.first_interval, own.total_interval].into_iter().flatten();
         ends.map(|[_, high]| high).chain([own.total, own.first])

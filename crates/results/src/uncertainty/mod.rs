@@ -8,7 +8,7 @@ use figures::{indices, robust, uncertainty};
 
 keys! {
     /// A branch that turns unstable in a sample.
-    #[derive(Deserialize)]
+    #[derive(Default, Deserialize)]
     Onset, ONSETS {
         critical_friction: f64 = "lowest critical friction of the sample";
         harmonic: Option<usize> = "nodal diameters of its mode; none without symmetry";
@@ -33,7 +33,7 @@ impl Onset {
 }
 
 /// What came out of one sample.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// Number from 1.
     pub number: usize,
@@ -74,6 +74,7 @@ impl Sample {
 
 keys! {
     /// `summary.json` of an uncertainty analysis.
+    #[derive(Default)]
     UncertaintySummary {
         samples: usize = "samples";
         failed: usize = "samples that could not be solved; nothing below counts them: the probability is of the others";
@@ -94,7 +95,7 @@ keys! {
     }
 
     /// Distribution of the lowest critical friction; absent where that lies beyond the range.
-    #[derive(Copy, Deserialize)]
+    #[derive(Copy, Default, Deserialize)]
     CriticalFriction {
         mean: Option<f64> = "mean of the samples that have an onset";
         mean_low: Option<f64> = "95 % interval of that mean, from its scatter between 16 parts of the sequence";
@@ -299,30 +300,10 @@ mod tests {
 
     #[test]
     fn a_probability_is_said_to_be_of_the_samples_that_did_not_fail() {
-        let critical_friction = CriticalFriction {
-            mean: None,
-            mean_low: None,
-            mean_high: None,
-            median: None,
-            p05: None,
-            p95: None,
-            without_onset: 1.0,
-        };
-        let mut summary = UncertaintySummary {
-            samples: 32,
-            failed: 25,
-            index_samples: 0,
-            friction_coefficient: Some(0.3),
-            largest_friction: 0.6,
-            probability_unstable: Estimate { value: 0.43, low: 0.16, high: 0.75 },
-            critical_friction,
-            families: Vec::new(),
-            sobol: BTreeMap::new(),
-            decisive: None,
-            probability_over_friction: Vec::new(),
-            robust: None,
-            notes: Vec::new(),
-        };
+        let friction_coefficient = Some(0.3);
+        let default = UncertaintySummary::default();
+        let mut summary =
+            UncertaintySummary { samples: 32, failed: 25, friction_coefficient, ..default };
         let said = |own: &UncertaintySummary| facts(own)[0].0.clone();
         let of_all = "probability of squeal at friction 0.3";
         assert_eq!(said(&summary), format!("{of_all}, of the 7 samples that did not fail"));

@@ -111,18 +111,16 @@ fn strongest_line(series: &[c64]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixtures::sampled;
 
     const RATE: f64 = 5e5;
 
     /// A wave that travels backwards and grows, with the twist of the prestress and a mode that dies out.
     fn wave(count: usize, rate_per_s: f64, amplitude: f64) -> Vec<c64> {
-        (0..count)
-            .map(|k| {
-                let t = k as f64 / RATE;
-                c64::from_polar(amplitude * (rate_per_s * t).exp(), -TAU * 9930.0 * t)
-                    + c64::from_polar(3.0 * amplitude * (-6000.0 * t).exp(), TAU * 15_000.0 * t)
-            })
-            .collect()
+        sampled(count, RATE, |t| {
+            c64::from_polar(amplitude * (rate_per_s * t).exp(), -TAU * 9930.0 * t)
+                + c64::from_polar(3.0 * amplitude * (-6000.0 * t).exp(), TAU * 15_000.0 * t)
+        })
     }
 
     #[test]
@@ -141,11 +139,9 @@ mod tests {
     /// A real vibration that grows by `e^16` over its stage, about a compression ten thousand times its end.
     #[test]
     fn growth_by_a_factor_of_ten_millions_over_twenty_periods_is_read() {
-        let wave = |k: i32| {
-            let t = f64::from(k) / RATE;
+        let series = sampled(960, RATE, |t| {
             c64::new(1e-6 + 1e-21 * (12_865.0 * t).exp() * (TAU * 17_331.0 * t).cos(), 0.0)
-        };
-        let series: Vec<c64> = (0..960).map(wave).collect();
+        });
         let stage = harmonic_growth(&series, RATE, 1e-10).unwrap();
         assert!((stage.rate_per_s.value / 12_865.0 - 1.0).abs() < 0.01, "{stage:?}");
         assert!((stage.frequency_hz.value.abs() / 17_331.0 - 1.0).abs() < 0.01, "{stage:?}");
@@ -159,13 +155,8 @@ mod tests {
         // 1 ms holds ten periods, of which the last two thirds count.
         let short = harmonic_growth(&wave(500, 952.0, 1e-9), RATE, 9e-6);
         assert!(matches!(short, Err(NoGrowth::TooShort(..))), "{short:?}");
-        let beat: Vec<c64> = (0..20_000)
-            .map(|k| {
-                let t = k as f64 / RATE;
-                c64::from_polar(1e-9, TAU * 9930.0 * t) * (TAU * 40.0 * t).cos()
-            })
-            .collect();
-        let beat = harmonic_growth(&beat, RATE, 9e-6);
+        let beat = |t: f64| c64::from_polar(1e-9, TAU * 9930.0 * t) * (TAU * 40.0 * t).cos();
+        let beat = harmonic_growth(&sampled(20_000, RATE, beat), RATE, 9e-6);
         assert!(matches!(beat, Err(NoGrowth::NotExponential(_))), "{beat:?}");
         assert!(harmonic_growth(&[], RATE, 0.0).is_err());
         let still = vec![c64::new(0.0, 0.0); 1000];

@@ -295,23 +295,12 @@ mod tests {
     /// An onset that no parameter moves, but for round-off, and samples without any.
     #[test]
     fn what_is_the_same_in_all_samples_has_no_indices() {
-        let onset_at = |critical_friction: f64| Onset {
-            critical_friction,
-            harmonic: None,
-            branch: 1,
-            direction: 0,
-            frequency_hz: 1e3,
-            restabilized: None,
-            unstable_from_start: false,
-        };
+        let onset_at = |critical_friction: f64| Onset { critical_friction, ..Onset::default() };
         let sample = |number: usize, onset: Option<f64>| Sample {
             number,
-            values: vec![0.0],
-            friction_coefficient: 0.3,
             onsets: onset.map(onset_at).into_iter().collect(),
-            within: Vec::new(),
-            error: None,
             mixed: vec![onset; 2],
+            ..Sample::default()
         };
         let keys = ["key".to_owned()];
         for onset in [None, Some(0.2)] {
