@@ -423,13 +423,14 @@ mod tests {
         };
         let first = json!({ "critical_frictions": [onset(1, 1, 0.12), onset(2, 0, 0.14)] });
         let second = json!({ "critical_frictions": [onset(2, 0, 0.11)] });
-        let records = [of(1, "cea", first), of(2, "cea", second)];
+        let swept = Map::from_iter([("geometry.inner_radius".to_owned(), json!(0.4))]);
+        let records = [of(1, "cea", first), PointRecord { swept, ..of(2, "cea", second) }];
         assert_eq!(
             written("stability.csv", &records),
             "geometry.inner_radius,harmonic,branch,direction,critical_friction,frequency_hz,\
              restabilized_friction,restabilized_frequency_hz,unstable_from_start,lost_after,point\n\
              0.3,1,1,-1,0.12,10000.0,,,false,,1\n0.3,2,0,-1,0.14,10000.0,,,false,,1\n\
-             0.3,2,0,-1,0.11,10000.0,,,false,,2\n"
+             0.4,2,0,-1,0.11,10000.0,,,false,,2\n"
         );
     }
 
