@@ -1,7 +1,7 @@
 //! Modes that grow only where two branches meet, between the friction coefficients of a sweep.
 
 use crate::cea::branch::Cubic;
-use crate::cea::sparse::branches::followed;
+use crate::cea::sparse::links::followed;
 use crate::cea::sparse::*;
 
 /// Two branches, each with its index at the lower end of a step and its modes at both ends.

@@ -24,6 +24,7 @@ mod fixtures;
 mod frictionless;
 mod full_problem;
 mod linearization;
+mod links;
 mod meetings;
 mod mode;
 mod nodal_diameters;

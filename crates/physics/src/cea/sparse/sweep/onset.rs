@@ -2,7 +2,7 @@
 
 use super::points::uncertainty;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
-use crate::cea::sparse::branches::followed;
+use crate::cea::sparse::links::followed;
 use crate::cea::sparse::*;
 
 /// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
