@@ -95,6 +95,9 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeLimit
             "cea.modes = {modes} is more than the {unknowns} unknowns of the mesh";
             "at most {unknowns}"; "ask for fewer, or refine the mesh");
     }
+    // From there on atoms vibrate, no continuum.
+    refuse_if!(limit.is_some_and(|hz| hz > 1e12); section, "max_frequency_hz" =>
+        "is above all vibrations of a solid"; "at most 1e12 Hz");
     match (limit, modes) {
         (Some(limit), None) => ModeLimit::MaxFrequency(limit),
         (None, Some(modes)) => ModeLimit::Lowest(modes),

@@ -215,10 +215,9 @@ const LAW_KEYS: [(&str, &[NormalLawWord]); 4] = [
 fn law(section: &Section<'_>, stiffness: Option<f64>) -> Option<NormalLaw> {
     let word: NormalLawWord = section.choice("normal_law");
     for (key, laws) in LAW_KEYS {
-        if !laws.contains(&word) && section.has(key) {
-            refuse!(section, key => "has no effect with normal_law = \"{}\"", word.word();
-                "not a number of this law"; "leave it out, or give the law that it belongs to");
-        }
+        refuse_if!(!laws.contains(&word) && section.has(key); section, key =>
+            "has no effect with normal_law = \"{}\"", word.word(); "not a number of this law";
+            "leave it out, or give the law that it belongs to");
         if laws.contains(&word) && word != NormalLawWord::Linear {
             section.needs(key);
         }

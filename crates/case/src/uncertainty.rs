@@ -55,13 +55,10 @@ impl Uncertainty {
 pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
     let samples = section.count("samples");
     let index_samples = section.optional_count("index_samples");
-    let seed = section.count("seed") as u64;
     let found = read_all(section, "distributions", uncertain, |own| &own.parameter);
     const MOST: usize = 16;
-    if found.len() > MOST {
-        refuse!(section, "distributions", "{} parameters are uncertain", found.len();
-            "at most {MOST}"; "leave out those with little influence");
-    }
+    refuse_if!(found.len() > MOST; section, "distributions", "{} parameters are uncertain",
+        found.len(); "at most {MOST}"; "leave out those with little influence");
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
         refuse_if!(count.is_some_and(|count| count > 1_000_000); section, key,
             "uncertainty.{key} is above a million"; "at most 1000000");
@@ -71,7 +68,7 @@ pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
     Uncertainty {
         samples,
         index_samples: index_samples.unwrap_or_else(|| samples.div_ceil(4)),
-        seed,
+        seed: section.count("seed") as u64,
         parameters: found,
     }
 }
