@@ -120,8 +120,8 @@ impl Body {
 
 pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
     let harmonics = section.harmonics(body.and_then(Body::sector_count));
-    let mut own = Cycle::declared(section, harmonics, None);
-    own.continuation = section.read_section("continuation", |own| continuation(own, body));
+    let followed = section.read_section("continuation", |own| continuation(own, body));
+    let own = Cycle::declared(section, harmonics, followed);
     if let periods @ 1..CONFIRMATION_PERIODS = own.confirmation_periods {
         refuse!(section, "confirmation_periods",
             "cycle.confirmation_periods = {periods} is too short to read a frequency from its last \
@@ -140,8 +140,6 @@ pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
 
 fn continuation(section: &Section<'_>, body: Option<&Body>) -> Continuation {
     let key = section.text("key");
-    let own = Continuation::declared(section, Parameter::FrictionCoefficient);
-    let Continuation { from, to, spacing, .. } = own;
     // Of a round or a plane counterface, or of solid bodies.
     let suits = |own: &Parameter| match body.map(|body| (&body.kind, body.imported())) {
         Some((BodyKind::Assembly(_), _)) => own.is_of_solid_bodies(),
@@ -160,6 +158,9 @@ fn continuation(section: &Section<'_>, body: Option<&Body>) -> Continuation {
     refuse_if!(is_numeric && parameter.is_none(); section, "key",
         "limit cycles cannot be followed over {key}"; "not one of the parameters of a cycle";
         "one of {}", names());
+    let parameter = parameter.copied().unwrap_or(Parameter::FrictionCoefficient); // Any, where its key is refused.
+    let own = Continuation::declared(section, parameter);
+    let Continuation { from, to, spacing, .. } = own;
     if from.min(to) < 0.0 {
         refuse!(section, if from < 0.0 { "from" } else { "to" },
             "{key} cannot be negative along a branch"; "must not be negative");
@@ -170,7 +171,7 @@ fn continuation(section: &Section<'_>, body: Option<&Body>) -> Continuation {
     }
     refuse_if!(from == to; section, "to", "cycle.continuation.to = {to} equals from";
         "must differ from `from`");
-    Continuation { parameter: parameter.copied().unwrap_or(own.parameter), ..own }
+    own
 }
 
 pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest {

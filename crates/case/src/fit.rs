@@ -57,8 +57,7 @@ declared! {
 }
 
 pub(super) fn fit(section: &Section<'_>) -> Fit {
-    let own = Fit::declared(section, Vec::new());
-    Fit { parameters: read_all(section, "parameters", bounds, |own| &own.parameter), ..own }
+    Fit::declared(section, read_all(section, "parameters", bounds, |own| &own.parameter))
 }
 
 /// `[from, to]` or `{ from, to, scale, also }`.
